@@ -65,18 +65,18 @@ struct Box {
 /// The type of a stored label.  Labels that are floats must be whole numbers.
 enum class VoxelType { kU8, kU16, kU32, kU64, kI8, kI16, kI32, kI64, kF32, kF64 };
 
-/// world = origin + sum over i of axes[i] * spacing[i] * corner[i], corners of voxels counted from
-/// the first corner of the first voxel.  Axes have unit length and are at right angles.
+/// Places corners of voxels, counted from the first one: world = origin + sum over i of axes[i] *
+/// spacing[i] * corner[i].  Axes have unit length and are at right angles.
 struct Space {
   Vector spacing{1, 1, 1};  ///< edges of a voxel, positive
   Vector origin{0, 0, 0};   ///< first corner of the first voxel
   std::array<Vector, 3> axes{{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}};
-  std::string unit;           ///< "mm", "um", "nm" and so on; empty: unknown
+  std::string unit;           ///< "mm", "um", "nm" and so on; empty if unknown
   std::string frame = "own";  ///< "own", "ras" or "lps"
 };
 
-/// The space of an array that `affine` (three rows of a 4 x 4 matrix) takes from indices of voxels,
-/// at their centres, to the world, as NIfTI has it.  frame: "own", "ras" or "lps".
+/// Returns the space of an array whose indices of voxels `affine` (three rows of a 4 x 4 matrix)
+/// takes to the world; as in NIfTI, they stand for centres.  frame is "own", "ras" or "lps".
 /// ERRORS: kInput for axes that are not at right angles.
 [[nodiscard]] Space space_of_affine(const std::array<std::array<double, 4>, 3>& affine,
                                     const std::string& frame = "own");
@@ -84,7 +84,7 @@ struct Space {
 struct LabelName {
   std::uint64_t label = 0;
   std::string name;  ///< may be empty
-  /// Red, green, blue and opacity; empty: unknown.
+  /// Red, green, blue and opacity; empty if unknown.
   std::optional<std::array<std::uint8_t, 4>> colour{};
 };
 
@@ -96,7 +96,7 @@ struct ArrayVolume {
   const void* data = nullptr;  ///< address of voxel (0, 0, 0); in the byte order of the machine
   VoxelType type = VoxelType::kU8;
   Index shape{};
-  Index strides{};  ///< in bytes, of any sign; all 0: x fastest, without gaps
+  Index strides{};  ///< in bytes, of any sign; all 0 means x fastest, without gaps
   Space space{};
   std::vector<LabelName> names{};
 };
@@ -105,41 +105,41 @@ struct ArrayVolume {
 struct RegionVolume {
   VoxelType type = VoxelType::kU8;
   Index shape{};
-  Index chunk{};  ///< boxes that begin and end at multiples of it are the cheapest; 0: any
+  Index chunk{};  ///< boxes that begin and end at its multiples are cheapest; 0 if all are alike
   Space space{};
   std::vector<LabelName> names{};
-  /// Writes the labels of the box, x fastest; called by many threads at once, and about three times
-  /// for each voxel.  What it throws ends the run.
+  /// Writes the labels of the box, x fastest.  Many threads call it at once, and it is asked for
+  /// each voxel about three times.  What it throws ends the run.
   std::function<void(const Box& box, std::span<std::uint64_t> out)> read;
 };
 
 /// A file or folder of any format that `mwmesh info` reads, or the address of a remote volume.
 struct VolumeFile {
   std::filesystem::path path;
-  std::string dataset{};       ///< within a file that holds several; empty: found by convention
-  std::optional<int> scale{};  ///< level of a pyramid, 0 the finest
+  std::string dataset{};            ///< an array of the file; if empty, convention chooses one
+  std::optional<int> scale{};       ///< level of a pyramid; 0 is the finest
   std::optional<Vector> spacing{};  ///< instead of the file's
   std::optional<Vector> origin{};   ///< instead of the file's
   std::string frame = "file";       ///< world frame: "file", "ras", "lps" or "voxel"
-  /// Which label a voxel gets that is in several masks: "first" or "last", that of one of them, or
-  /// "all", one for each set of masks; empty: it is an error.
+  /// The label of a voxel that is in several masks: "first" or "last" takes that of one of them,
+  /// "all" makes a label for each set of masks; if empty, such a voxel is an error.
   std::string overlap{};
   std::optional<Box> crop{};  ///< voxels to keep; they stay in place unless origin is given
-  bool trust_paths = false;   ///< files that headers name may be outside of their folder
-  /// What the numbers are: "labels"; "probabilities", one for each class; or "distances", signed,
-  /// one for each label, negative inside.
+  bool trust_paths = false;   ///< lets headers name files outside of their own folder
+  /// What the numbers are: "labels", "probabilities" (one for each class), or "distances" (one for
+  /// each label, signed, negative inside).
   std::string values = "labels";
-  /// Labels that alone matter; empty: all do.  All others become 0, and the volume ends around
+  /// The labels that matter, or empty if all do.  All others become 0, and the volume ends around
   /// these labels, which are found by coarser scales where there are some (io/README.md).
   std::vector<std::uint64_t> object{};
-  /// "DIR" or "DIR,SIZE": a folder for what servers send, for later runs, and the most bytes that
-  /// it may have (io/README.md); empty: nothing is kept.
+  /// "DIR" or "DIR,SIZE": a folder that keeps what servers send for later runs, and the most bytes
+  /// that it may hold (io/README.md); if empty, nothing is kept.
   std::string cache{};
 };
 
 class VolumeAccess;
 
-/// A labelled volume.  Cheap to copy.
+/// A labelled volume, which is cheap to copy.
 class Volume {
  public:
   /// ERRORS: kUsage for an empty or too large shape, or a space that makes no sense.
@@ -167,16 +167,15 @@ class Volume {
   std::shared_ptr<const Content> content_;
 };
 
-/// Returns the label with this number or name: "7", "-1", "Liver".  A number is that label,
-/// whatever labels are called; a name is the one that is written the same, or else the one that
-/// differs in capitals alone; text in double quotes is a name in any case. ERRORS: kUsage for a
-/// number that no label of the volume can be, and for a name that none of them has, or several
-/// have.
+/// Returns the label with this number or name: "7", "-1", "Liver".  A number is that label, even if
+/// another label is called so.  A name stands for the label whose name is written the same, or else
+/// for the one whose name differs in capitals alone; text in double quotes is always a name.
+/// ERRORS: kUsage for a number that no label of the volume can be, and for a name that no label or
+/// that several labels have.
 [[nodiscard]] std::uint64_t find_label(const Volume& volume, std::string_view text);
 
 /// Returns the text of a setting with numbers in the place of names, "Liver|3=2,*=5".  Names that
-/// have one of ",;=" in them stand in double quotes there.  ERRORS: those of find_label() for
-/// names.
+/// have one of ",;=" in them must be in double quotes.  ERRORS: those of find_label() for names.
 [[nodiscard]] std::string with_label_numbers(const Volume& volume, std::string_view text);
 
 /// Returns a random volume, x fastest: "voronoi", "tubes", "spheres", "noise" or "checkerboard".
@@ -188,13 +187,13 @@ struct SettingInfo {
   std::string name;  ///< "max_distance"
   std::string help;
   std::string fallback;              ///< the default
-  std::vector<std::string> choices;  ///< all that it may be; empty: a number or a list
+  std::vector<std::string> choices;  ///< all that it may be; empty for a number or a list
 };
 
 /// What the mesh depends on beside the volume.
 class Settings {
  public:
-  /// Sets a value.  text: as on the command line, "1.5", "none", "true", "voxel".
+  /// Sets a value to a text as on the command line, "1.5", "none", "true", "voxel".
   /// ERRORS: kUsage naming the setting, what it may be, or the names that there are.
   Settings& set(std::string_view name, std::string_view text);
   /// Returns the effective value.  ERRORS: kUsage for a name that does not exist.
@@ -212,56 +211,56 @@ class Settings {
 [[nodiscard]] std::uint64_t bytes_of_text(std::string_view text);
 
 enum class Certify {
-  kAuto,  ///< certifies where a quarter of the memory is enough
+  kAuto,  ///< certifies where a quarter of the memory is enough, unless from_kept
   kOn,
   kOff,
 };
 
 struct Options {
-  /// Steps before anything else reads the labels: each key of merge becomes its value, then
-  /// components of fewer voxels than drop_specks take the label around them.
+  /// These steps come before anything else reads the labels: each key of merge becomes its value,
+  /// then components of fewer voxels than drop_specks take the label around them.
   std::map<std::uint64_t, std::uint64_t> merge;
-  std::uint64_t drop_specks = 0;  ///< in voxels; 0: none is dropped
+  std::uint64_t drop_specks = 0;  ///< in voxels; 0 drops none
   bool specks_joined_by_corners = false;
-  /// The labels of the mesh; the others are meshed but left out.  Empty: all.
+  /// The labels of the mesh, or empty for all; the others are meshed but left out.
   std::vector<std::uint64_t> labels;
   std::optional<std::uint64_t> background;  ///< the only label that is left out
-  /// Which parts the mesh keeps, tets that faces join being one: "all", "largest", or the least
-  /// number of tets of a part.
+  /// The parts (tets that faces join) that the mesh keeps: "all", "largest", or the least number of
+  /// tets of a part.
   std::string parts = "all";
-  /// Interfaces whose vertices are doubled so that they open, "1|2,1|3"; "*": all; empty: none.
+  /// Interfaces whose vertices are doubled so that they open, "1|2,1|3"; "*" means all.
   std::string split;
-  /// Interfaces that are split, too, with wedges of no thickness between their two sides, from the
-  /// first label of a pair to the second (wedges()); as split.
+  /// Interfaces, written as in split, that are split and get wedges of no thickness between their
+  /// two sides, from the first label of a pair to the second (wedges()).
   std::string cohesive;
   bool open_hinges = false;  ///< vertices at which parts hang are doubled, so that they come apart
-  int threads = 0;           ///< 1 to 1,024; 0: all cores
-  /// Bytes that the run may take; the mesh in memory, and the volume's arrays, come on top.
-  /// 0: half of what the machine has to spare.
+  int threads = 0;           ///< 1 to 1,024, or 0 for all cores
+  /// Bytes that the run may take; the mesh in memory, and the volume's arrays, come on top.  0
+  /// stands for half of what the machine has to spare.
   std::uint64_t memory = 0;
-  /// The folder for spilled blocks and for the checkpoint that resume goes on from; empty: there is
-  /// neither.  The folder is made, and removed after success.
+  /// The folder for spilled blocks and for the checkpoint that resume goes on from; if empty, there
+  /// is neither.  The run makes the folder and removes it after success.
   std::filesystem::path workdir;
   bool resume = false;
-  /// A folder in which the run keeps what later runs of the volume, edited, need not do again, in
-  /// the place of a workdir; empty: nothing is kept.  Needs the setting order=colour.
+  /// A folder, used instead of workdir, in which the run keeps what later runs of the edited volume
+  /// need not do again; if empty, nothing is kept.  It needs the setting order=colour.
   std::filesystem::path keep;
   /// The most bytes that this folder takes when a run ends, until another run says otherwise; what
-  /// is gone is made again where an edit needs it.  0: as an earlier run said, or any number.
+  /// was dropped is made again when needed.  0 keeps the limit of an earlier run, if any.
   std::uint64_t keep_bytes = 0;
-  /// An earlier run of the same settings has kept something there: only windows that the edit
-  /// reaches are meshed again.  The mesh is that of a run that begins afresh; the report tells what
-  /// the edit did ("delta").
+  /// Whether an earlier run of the same settings has kept something there; only windows that the
+  /// edit reaches are then meshed again.  The mesh is that of a run that begins afresh; the report
+  /// tells what the edit did ("delta").
   bool from_kept = false;
-  /// With from_kept: boxes of voxels that have all changes since the run before, which alone are
-  /// read; empty: everything may have changed.
+  /// With from_kept, boxes of voxels that hold all changes since the run before, and that alone are
+  /// read; if empty, everything may have changed.
   std::vector<Box> changed;
   /// Images whose values tets get, as `mwmesh mesh --sample` has them: "NAME=FILE" or
   /// "NAME=FILE:mode", several joined by ';'.  The voxels of a .npy file are those of the volume.
   std::string sample{};
   Certify certify = Certify::kAuto;
-  bool report = true;  ///< false: quality and shape are not measured, and reports are empty
-  /// After drop_specks: voxels of these labels are filled where others hang together by an edge or
+  bool report = true;  ///< if false, quality and shape are not measured, and reports are empty
+  /// After drop_specks, voxels of these labels are filled where others hang together by an edge or
   /// a corner alone.
   std::vector<std::uint64_t> weld{};
 };
@@ -287,11 +286,11 @@ struct Mesh {
   std::vector<std::uint64_t> labels;               ///< by tet
   bool labels_are_signed = false;
   std::vector<LabelName> names;  ///< of labels that are in the mesh
-  /// By name, numbers by tet (Options::sample, or what a file has); NaN: unknown.
+  /// For each name a number for each tet (Options::sample, or from a file); NaN if unknown.
   std::map<std::string, std::vector<double>> values{};
   std::string report;  ///< JSON, the keys of `mwmesh mesh --report`; empty when there is none
   std::string record;  ///< one line of JSON about the run that made it, which files keep
-  /// Each eight tets are the straight parts of a curved one, as read() has them.
+  /// Whether each eight tets in turn are the straight parts of a curved tet, as from read_mesh().
   bool in_parts = false;
 };
 
@@ -315,7 +314,7 @@ class MeshWriter {
 [[nodiscard]] Mesh mesh(const Volume& volume, const Settings& settings = {},
                         const Options& options = {}, const Hooks& hooks = {});
 
-/// Meshes the volume into a writer, as mesh() does; without wedges.  Returns the report.
+/// Meshes the volume into a writer, as mesh() does, but without wedges.  Returns the report.
 std::string mesh_to(MeshWriter& writer, const Volume& volume, const Settings& settings = {},
                     const Options& options = {}, const Hooks& hooks = {});
 
@@ -324,10 +323,10 @@ struct FileOptions {
   std::string element = "tet4";  ///< or "tet10", or "tet10-curved" (io/README.md, "Curved tets")
   bool values = true;            ///< whether the values of tets are written
   /// Materials by equal ranges of a value, as `mwmesh mesh --materials` has them: "NAME=N" or
-  /// "NAME=N:LO:HI"; empty: none.
+  /// "NAME=N:LO:HI"; empty for none.
   std::string materials{};
-  bool deck = false;  ///< a job for CalculiX (.inp) or FEBio (.feb), as --deck static
-  /// A file for the pairs of nodes of a mesh with the setting periodic, as --pairs; empty: none.
+  bool deck = false;  ///< adds a job for CalculiX (.inp) or FEBio (.feb), as --deck static
+  /// A file for the pairs of nodes of a mesh with the setting periodic, as --pairs, or empty.
   std::filesystem::path pairs{};
 };
 
@@ -337,24 +336,24 @@ struct FileOptions {
 std::string mesh_to_file(const std::filesystem::path& path, const Volume& volume,
                          const Settings& settings, const Options& options, const Hooks& hooks,
                          const FileOptions& file);
-/// element: FileOptions::element.
+/// Does the same; element is FileOptions::element.
 std::string mesh_to_file(const std::filesystem::path& path, const Volume& volume,
                          const Settings& settings = {}, const Options& options = {},
                          const Hooks& hooks = {}, std::string_view element = "tet4");
 
-/// ERRORS: kInput naming file and place; kUsage for an unknown extension.
+/// Reads a mesh.  ERRORS: kInput naming file and place; kUsage for an unknown extension.
 [[nodiscard]] Mesh read_mesh(const std::filesystem::path& path);
-/// ERRORS: also kUsage for what the format has no place for.
+/// Writes a mesh into a file.  ERRORS: also kUsage for what the format has no place for.
 void write_mesh(const Mesh& mesh, const std::filesystem::path& path, const FileOptions& file);
-/// element: FileOptions::element.
+/// Does the same; element is FileOptions::element.
 void write_mesh(const Mesh& mesh, const std::filesystem::path& path,
                 std::string_view element = "tet4");
 /// Returns the label of a mesh that has this number or name.  ERRORS: those of find_label(Volume).
 [[nodiscard]] std::uint64_t find_label(const Mesh& mesh, std::string_view text);
 /// Wedges of no thickness, by row.
 struct Wedges {
-  /// Rows of points: three of the facet under the wedge, whose normal points to the other side, and
-  /// those above them in the same order.  Where an interface ends they may be the same.
+  /// Rows of points: three of the facet under the wedge, whose normal points to the other side,
+  /// then the three above them in the same order, which may be equal where an interface ends.
   std::vector<std::array<std::uint64_t, 6>> rows;
   std::vector<std::array<std::uint64_t, 2>> labels;  ///< under the wedge, and on top of it
 };
@@ -380,8 +379,8 @@ struct Verdict {
 };
 
 /// Checks a mesh against its volume, with the bounds that the mesh's record tells (1.5 voxels and a
-/// radius ratio of 0.1 where it tells none).  Of the options only merge to background, threads and
-/// memory count.
+/// radius ratio of 0.1 where it tells none).  Of the options only merge to background, weld,
+/// threads and memory count.
 [[nodiscard]] Verdict verify(const Mesh& mesh, const Volume& volume, const Options& options = {},
                              const Hooks& hooks = {});
 

@@ -24,10 +24,10 @@ class ArrayReader : public io::LabelVolume {
   io::VolumeInfo info_;
 };
 
-/// Voxels that a caller fetches.
+/// A volume whose voxels a caller's function fetches.
 class RegionReader : public io::LabelVolume {
  public:
-  /// ERRORS: as ArrayReader.
+  /// ERRORS: mw::Error(kUsage) without read() or with a negative chunk; else those of ArrayReader.
   explicit RegionReader(const mwmesh::RegionVolume& region);
 
   [[nodiscard]] const io::VolumeInfo& info() const override { return info_; }

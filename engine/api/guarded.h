@@ -11,12 +11,12 @@
 
 namespace mw::api {
 
-/// The message for a caller of functions: "--max-distance" becomes "max_distance".
+/// Returns the message in words for a caller of functions: "--max-distance" becomes "max_distance".
 [[nodiscard]] std::string library_words(std::string message);
 
 [[nodiscard]] mwmesh::Error library_error(const Error& error);
 
-/// ERRORS: mw::Error(kUsage) for a path that the system would read to a zero byte only.
+/// Returns the path.  ERRORS: mw::Error(kUsage) for one with a zero byte, where the system ends it.
 [[nodiscard]] const std::filesystem::path& checked_path(const std::filesystem::path& path,
                                                         const char* name = "path");
 

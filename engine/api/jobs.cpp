@@ -30,7 +30,7 @@ io::Json value_json(const engine::Setting& setting, const std::string& text) {
   return io::parse_json(text, setting.name);
 }
 
-/// Not yet opened.
+/// Returns the images that tets get values from, which are not opened yet.
 std::vector<engine::SampleImage> samples_of(const mwmesh::Options& options) {
   if (options.sample.empty()) return {};
   try {

@@ -17,14 +17,14 @@ namespace mw::api {
 [[nodiscard]] engine::LabelChoice label_choice(const mwmesh::Options& options);
 /// ERRORS: mw::Error(kUsage).
 [[nodiscard]] int threads_of(const mwmesh::Options& options);
-/// Bytes, the default included.
+/// Returns the memory budget in bytes, which is the default unless the options give one.
 [[nodiscard]] std::uint64_t memory_of(const mwmesh::Options& options);
 /// hooks outlives the result.  ERRORS: mw::Error(kUsage).
 [[nodiscard]] engine::MeshJob mesh_job(const mwmesh::Settings& settings,
                                        const mwmesh::Options& options, const mwmesh::Hooks& hooks);
 /// Throws mwmesh::Error(kCancelled) when the caller cancels.  hooks outlives the result.
 [[nodiscard]] std::function<void()> stop_function(const mwmesh::Hooks& hooks);
-/// Settings and options as reports tell them.
+/// Returns settings and options as reports tell them.
 [[nodiscard]] io::Json settings_json(const engine::MeshJob& job);
 
 }  // namespace mw::api

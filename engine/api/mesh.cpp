@@ -39,7 +39,7 @@ class WriterSink : public io::MeshSink {
   MeshWriter& writer_;
 };
 
-/// A job with its images opened.
+/// Returns a job with its images opened.
 engine::MeshJob job_of(const Settings& settings, const Options& options, const Hooks& hooks) {
   engine::MeshJob job = mw::api::mesh_job(settings, options, hooks);
   for (engine::SampleImage& sample : job.samples) {
@@ -57,7 +57,7 @@ std::string report_text(const mw::report::FinishedRun& run, const std::filesyste
   return out;
 }
 
-/// Meshes into the sink; path: what the report calls the mesh.  Returns the report.
+/// Meshes into the sink.  Returns the report, in which the mesh is called `path`.
 std::string run_into(io::MeshSink& sink, const std::filesystem::path& path, const Volume& volume,
                      const engine::MeshJob& job) {
   const io::LabelVolume& labels = VolumeAccess::labels(volume);

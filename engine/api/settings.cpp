@@ -30,7 +30,7 @@ const engine::Setting& find(std::string_view name) {
               std::string(name) + ": no such setting" + (near.empty() ? listed : near));
 }
 
-/// Errors name the setting as the library does.
+/// Sets a value.  Errors name the setting as the library does.
 void set(std::string_view name, engine::MeshSettings& settings, const std::string& text) {
   const engine::Setting& setting = find(name);
   try {
@@ -50,7 +50,7 @@ const engine::Preset& find_preset(const std::string& name) {
               "preset: there is no '" + name + "'; there are draft, default and fine");
 }
 
-/// The values, each of which is allowed by itself.
+/// Returns the values, each of which is allowed by itself.
 engine::MeshSettings values_of(const mwmesh::Settings& settings) {
   engine::MeshSettings out;
   const auto& changed = settings.changed();

@@ -20,16 +20,15 @@ inline constexpr const char* kArray = "array";
 [[nodiscard]] io::LabelNames io_names(const std::vector<mwmesh::LabelName>& names);
 [[nodiscard]] std::vector<mwmesh::LabelName> library_names(const io::LabelNames& names);
 
-/// Without a report.
+/// Returns the mesh, without a report.
 [[nodiscard]] mwmesh::Mesh library_mesh(io::MeshData&& mesh);
-/// Opens a file.  has_values: whether it gets values of tets.  has_wedges: whether it is known to
-/// get wedges.
-/// ERRORS: mw::Error(kUsage) for what its format has no place for.
+/// Opens a file.  has_values tells whether it gets values of tets, has_wedges whether it is known
+/// to get wedges.  ERRORS: mw::Error(kUsage) for what its format has no place for.
 [[nodiscard]] std::unique_ptr<io::MeshSink> open_file(const std::filesystem::path& path,
                                                       const mwmesh::FileOptions& file,
                                                       bool has_values, bool has_wedges = false);
-/// Begin to finish.  values: whether those of tets go along.  ERRORS: mw::Error(kUsage) for lists
-/// that do not fit together.
+/// Writes the mesh into the sink, from begin to finish, with the values of tets if `values` is
+/// true.  ERRORS: mw::Error(kUsage) for lists that do not fit together.
 void deliver(const mwmesh::Mesh& mesh, io::MeshSink& sink, bool values = true);
 
 }  // namespace mw::api

@@ -23,7 +23,7 @@ struct Command {
 
 /// Returns the help of the program, with one line for each command.
 [[nodiscard]] std::string help_of_program(const std::vector<Command>& commands);
-/// Returns one line for each option of a command, by group; all: with those for experts, too.
+/// Returns a line for each option of a command, by group, with those for experts if `all` is true.
 [[nodiscard]] std::string help_of_command(const Command& command, bool all);
 
 [[nodiscard]] Command mesh_command();
@@ -39,7 +39,7 @@ enum class Asked { kRun, kHelp, kHelpAll, kVersion };
 
 struct CommandLine {
   Asked asked = Asked::kRun;
-  const Command* command = nullptr;          ///< null: none was named
+  const Command* command = nullptr;          ///< null if none was named
   std::map<std::string, std::string> flags;  ///< as OptionSet::resolve() takes them
 };
 

@@ -39,7 +39,7 @@ class SourceFacts : public io::NoSink {
   bool is_curved_ = false;
 };
 
-/// The mesh is read while the other is written; what is beside that is not to be the mesh.
+/// Checks that no file beside the output is the mesh, which is read meanwhile, or the output.
 void require_other_files(const ConvertJob& job) {
   std::vector<std::filesystem::path> files = io::mesh_files(job.to);
   if (job.extras.materials) files.push_back(io::material_table_path(job.to));

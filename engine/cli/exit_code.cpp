@@ -22,7 +22,7 @@ namespace {
 std::atomic<bool> memory_was_out = false;
 std::terminate_handler terminate_otherwise = nullptr;
 
-/// Some ways to std::terminate() have let go of the exception: the flag tells.
+/// Sets a flag and throws; some ways to std::terminate() have let go of the exception by then.
 [[noreturn]] void note_and_throw() {
   memory_was_out = true;
   throw std::bad_alloc();
@@ -70,7 +70,7 @@ int exit_code(ErrorKind kind) {
 }
 
 int guarded(const std::function<int()>& action, bool quiet) noexcept {
-  // stdio, since it needs no memory when there is none left.
+  // This uses stdio, since it needs no memory when there is none left.
   const auto fail = [quiet](int code, const char* what, const char* message) {
     if (!quiet) std::fprintf(stderr, "mwmesh: error: %s%s\n", what, message);
     return code;

@@ -24,11 +24,10 @@ inline constexpr int kExitInterrupted = 130;
 /// code.
 [[nodiscard]] int guarded(const std::function<int()>& action, bool quiet = false) noexcept;
 
-/// std::bad_alloc becomes an error in guarded().  It does not come that far from constructors of
-/// static objects and from functions of libraries that are noexcept though they allocate: the
-/// program then ends with the same message and exit code 4, instead of SIGABRT.  What it leaves is
-/// what a killed run leaves.
-/// Thread safety: once, before there are other threads.
+/// Makes the program end with a message and exit code 4, instead of SIGABRT, where std::bad_alloc
+/// does not come as far as guarded(): from constructors of static objects, and from functions of
+/// libraries that are noexcept though they allocate.  What it leaves is what a killed run leaves.
+/// Thread safety: called once, before there are other threads.
 void end_well_without_memory();
 
 }  // namespace mw::cli

@@ -17,7 +17,7 @@ bool is_argument(const Option& option) {
   return !option.flags.empty() && !option.flags.starts_with('-');
 }
 
-/// "-o, --output OUTPUT", "INPUT": an older name after these is left out.
+/// Returns "-o, --output OUTPUT" or "INPUT"; an older name after these is left out.
 std::string head_of(const Option& option) {
   if (is_argument(option)) return option.value;
   const std::string letter = option.flags.starts_with("--") || option.flags.empty()
@@ -47,7 +47,7 @@ std::size_t width_of(const std::vector<Line>& lines) {
   return width;
 }
 
-/// "mwmesh mesh INPUT -o OUTPUT [OPTIONS]"
+/// Returns "mwmesh mesh INPUT -o OUTPUT [OPTIONS]".
 std::string usage_of(const Command& command) {
   std::string out = "Usage: mwmesh " + command.name;
   for (const OptionSet::Entry& entry : command.options.entries()) {

@@ -9,17 +9,17 @@ namespace mw::cli {
 
 /// Thrown by stop_if_interrupted().
 struct Interrupted {
-  std::string work;  ///< where the work so far is and how to go on; empty: there is none
+  std::string work;  ///< where the work so far is and how to go on; empty if there is none
 };
 
-/// From now on the first SIGINT, SIGTERM or SIGHUP is only noted; a second one kills.  A signal
-/// that was ignored at the start (nohup) stays ignored.
+/// After this the first SIGINT, SIGTERM or SIGHUP is only noted; a second one of the same kind
+/// kills.  A signal that was ignored at the start (nohup) stays ignored.
 void watch_interrupts();
 
 /// ERRORS: Interrupted when a signal has been noted.  Thread-safe.
 void stop_if_interrupted();
 
-/// From now on SIGUSR1, which mpirun passes on, asks a run of several processes to save and end.
+/// After this SIGUSR1, which mpirun passes on, asks a run of several processes to save and end.
 void watch_save_requests();
 [[nodiscard]] bool is_save_requested();
 

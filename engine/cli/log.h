@@ -7,7 +7,7 @@
 
 namespace mw::cli {
 
-/// Leaves out the lines below a level from here on.  level: debug, info, warn, error, off.
+/// Drops the lines below a level (debug, info, warn, error or off) from here on.
 void start_log(const std::string& level);
 
 void log_info(const std::string& line);

@@ -6,8 +6,8 @@
 
 namespace {
 
-/// Before the constructors of static objects, which allocate as well (101 is the first priority
-/// that is not the compiler's own).
+/// Runs before the constructors of static objects, which allocate as well (101 is the first
+/// priority that is not the compiler's own).
 [[gnu::constructor(101)]] void begin() {
   mw::cli::end_well_without_memory();
 }

@@ -67,7 +67,7 @@ int parse_and_run(int argc, char** argv) {
 }  // namespace
 
 int run_program(int argc, char** argv) noexcept {
-  // A file size limit is then a failed write with a message instead of a silent death.
+  // Beyond a file size limit a write then fails, with a message, instead of killing the program.
   (void)std::signal(SIGXFSZ, SIG_IGN);
   return guarded([&] { return parse_and_run(argc, argv); });
 }

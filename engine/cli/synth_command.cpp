@@ -23,7 +23,7 @@ struct SynthJob {
   std::filesystem::path output;
 };
 
-/// The narrowest type that holds the label N.
+/// Returns the narrowest type that holds the largest label, which may be the number of labels.
 io::VoxelType type_for(std::uint64_t labels) {
   if (labels <= 0xff) return io::VoxelType::kU8;
   if (labels <= 0xffff) return io::VoxelType::kU16;
@@ -36,7 +36,7 @@ io::VoxelType parse_dtype(const std::string& text) {
   return *type;
 }
 
-/// Labels and seeds: all of 64 bits.
+/// Parses a number of labels or a seed, which may have all 64 bits.
 std::uint64_t parse_count(const std::string& text) {
   std::uint64_t value = 0;
   if (!engine::read_all(text, value)) engine::fail_expected("a number from 0 on", text);

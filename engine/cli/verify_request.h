@@ -23,7 +23,7 @@ struct VerifyRequest {
 
 using report::kOtherPromises;
 
-/// Every option of the subcommand.  REQUIRES: request outlives options.
+/// Adds every option of the subcommand.  REQUIRES: request outlives options.
 void add_verify_options(OptionSet& options, VerifyRequest& request);
 
 /// Fills in what follows from other values.

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The mwmesh authors
 // SPDX-License-Identifier: Apache-2.0
-// Places are tried one by one; engine/install/folders.cmake tells which folders a prefix has.
+// Tries places one by one; engine/install/folders.cmake says which folders a prefix has.
 #include "engine/codt/find_worker.h"
 
 #include <dlfcn.h>
@@ -24,14 +24,15 @@ bool can_be_run(const fs::path& program) {
   return fs::is_regular_file(program, ignored) && ::access(program.c_str(), X_OK) == 0;
 }
 
-/// What `folder` is in when it ends in `tail`, as "/opt/mw/lib" in "lib" is in "/opt/mw".
+/// Returns `folder` without `tail` at its end: "/opt/mw/lib" and "lib" give "/opt/mw/".
 std::optional<fs::path> prefix_of(const fs::path& folder, const std::string& tail) {
   const std::string text = folder.string();
   if (tail.empty() || !text.ends_with("/" + tail)) return std::nullopt;
   return fs::path(text.substr(0, text.size() - tail.size()));
 }
 
-/// Empty when the system tells no absolute path: a name that PATH resolved means nothing here.
+/// Returns an empty path when the system gives no absolute one: a name that was found by PATH does
+/// not say where the file is.
 fs::path object_of_this_code() {
   Dl_info info{};
   std::error_code ignored;

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The mwmesh authors
 // SPDX-License-Identifier: Apache-2.0
-// Boost.Interprocess, without its locks: a dead worker would hold them.
+// Uses Boost.Interprocess without its locks, which a dead worker would hold.
 #include "engine/codt/shared_memory.h"
 
 #include <fcntl.h>
@@ -18,7 +18,7 @@ namespace {
 
 namespace ipc = boost::interprocess;
 
-/// Differs from every other name of this process.
+/// Returns a name that differs from every other name of this process.
 std::string next_name() {
   static std::atomic<std::uint64_t> count = 0;
   return "mwmesh-" + std::to_string(::getpid()) + "-" + std::to_string(++count);
@@ -35,7 +35,7 @@ std::string next_name() {
 SharedMemory SharedMemory::create(std::size_t bytes) {
   SharedMemory out;
   out.name_ = next_name();
-  ipc::shared_memory_object::remove(out.name_.c_str());  // of a dead process with our number
+  ipc::shared_memory_object::remove(out.name_.c_str());  // left by a dead process with this id
   try {
     ipc::permissions own;
     own.set_permissions(0600);

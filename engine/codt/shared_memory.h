@@ -16,10 +16,10 @@ class SharedMemory {
  public:
   SharedMemory() = default;
 
-  /// New memory under a name of its own, with all pages reserved (a hole would be a SIGBUS later).
+  /// Makes memory under a new name, with all pages reserved (a hole would raise SIGBUS later).
   /// ERRORS: kResource.
   [[nodiscard]] static SharedMemory create(std::size_t bytes);
-  /// ERRORS: kInternal when it is not there.
+  /// Maps the memory of that name.  ERRORS: kInternal when it is not there.
   [[nodiscard]] static SharedMemory open(const std::string& name);
 
   [[nodiscard]] const std::string& name() const { return name_; }

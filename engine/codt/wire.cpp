@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The mwmesh authors
 // SPDX-License-Identifier: Apache-2.0
-// Arrays to bytes and back; counts are not trusted.
+// Turns arrays into bytes and back; counts that are read are not trusted.
 #include "engine/codt/wire.h"
 
 #include <cstring>
@@ -8,7 +8,7 @@
 namespace mw::engine::codt {
 namespace {
 
-constexpr std::size_t kCounts = 3;  // as many as a Plc has arrays, and a Triangulation
+constexpr std::size_t kCounts = 3;  // the number of arrays of a Plc, and of a Triangulation
 using Counts = std::array<std::uint64_t, kCounts>;
 
 template <typename Item>
@@ -39,7 +39,7 @@ class Reader {
  public:
   explicit Reader(std::span<const std::byte> from) : from_(from) {}
 
-  /// False when fewer are there.
+  /// Returns false when fewer items are there.
   template <typename Item>
   bool items(Item* first, std::size_t count) {
     if (count > from_.size() / sizeof(Item)) return false;

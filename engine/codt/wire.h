@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: The mwmesh authors
 // SPDX-License-Identifier: Apache-2.0
-// How the engine and a worker process speak: orders and replies over a socket, bulk data as bytes
-// in shared memory.
+// The protocol of the engine and a worker process: orders and replies go over a socket, bulk data
+// goes as bytes through shared memory.
 #pragma once
 
 #include <array>
@@ -12,18 +12,18 @@
 
 namespace mw::engine::codt {
 
-/// Descriptor of the worker's end of the socket (SOCK_SEQPACKET: a message is one struct).
+/// Descriptor of the worker's end of the socket.  It is a SOCK_SEQPACKET; a message is one struct.
 inline constexpr int kControlDescriptor = 3;
 
 enum class OrderKind : std::uint32_t {
   kMap = 1,    ///< map the named shared memory in place of what was mapped before
-  kRun = 2,    ///< triangulate the request in the memory; the reply tells the answer's size
+  kRun = 2,    ///< triangulate the request in the memory; the reply has the answer's size
   kFetch = 3,  ///< put the answer into the memory
 };
 
 struct Order {
   OrderKind kind = OrderKind::kMap;
-  std::array<char, 60> name{};  ///< of the memory to map, ending in 0
+  std::array<char, 60> name{};  ///< name of the memory to map, ending in 0
 };
 
 enum class ReplyKind : std::uint32_t {
@@ -37,14 +37,14 @@ struct Reply {
   std::uint64_t bytes = 0;
 };
 
-// Bulk data: counts (u64), then arrays in the order of the struct's members, native byte order.
+// Bulk data has counts (u64), then arrays in the order of the struct's members, all native bytes.
 
 [[nodiscard]] std::size_t bytes_of(const Plc& plc);
 [[nodiscard]] std::size_t bytes_of(const Triangulation& made);
 /// REQUIRES: room for bytes_of().
 void put(const Plc& plc, std::span<std::byte> to);
 void put(const Triangulation& made, std::span<std::byte> to);
-/// None when the counts do not fit the bytes.
+/// Return nothing when the counts do not fit the bytes.
 [[nodiscard]] std::optional<Plc> get_plc(std::span<const std::byte> from);
 [[nodiscard]] std::optional<Triangulation> get_triangulation(std::span<const std::byte> from);
 

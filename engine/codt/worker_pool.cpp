@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The mwmesh authors
 // SPDX-License-Identifier: Apache-2.0
-// Workers are taken from a stack and put back.
+// Takes workers from a stack and puts them back.
 #include "engine/codt/worker_pool.h"
 
 namespace mw::engine::codt {

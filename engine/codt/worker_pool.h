@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The mwmesh authors
 // SPDX-License-Identifier: Apache-2.0
-// Worker processes for constrained Delaunay triangulation, as many as threads ask at once.
+// Worker processes for constrained Delaunay triangulation, one for each request at the same time.
 #pragma once
 
 #include <atomic>
@@ -16,11 +16,11 @@
 namespace mw::engine::codt {
 
 struct PoolOptions {
-  std::filesystem::path program;               ///< empty: find_worker()
-  std::chrono::milliseconds patience{60'000};  ///< for one triangulation, then the worker is killed
+  std::filesystem::path program;               ///< if empty, find_worker()
+  std::chrono::milliseconds patience{60'000};  ///< time for each reply, then the worker is killed
 };
 
-/// What a pool did beside answering.
+/// What a pool has done.
 struct PoolFacts {
   std::uint64_t requests = 0;
   std::uint64_t refused = 0;    ///< TetGen found no triangulation
@@ -28,20 +28,20 @@ struct PoolFacts {
   std::uint64_t restarted = 0;  ///< workers started in place of dead ones
 };
 
-/// TetGen keeps predicate constants in statics, rewrites tables and uses the process-wide rand(),
-/// so two threads of one process get different meshes; it may crash or hang, and it is under the
-/// AGPL. So it runs in processes of its own (engine/README.md, "Worker processes").
+/// Runs TetGen in processes of its own (engine/README.md, "Worker processes").  TetGen keeps
+/// predicate constants in statics, rewrites tables and uses the process-wide rand(), so two threads
+/// of one process get different meshes; it may crash or hang, and it is under the AGPL.
 ///
-/// A worker that dies or is too late costs its request nothing: a fresh one is asked the same. When
-/// that dies as well the request fails, as it would fail again.
-/// Thread safety: all members.
+/// When a worker dies or is too late, a fresh one is asked the same.  When that dies as well, the
+/// request fails, as it would fail in every other run.
+/// Thread-safe.
 class WorkerPool {
  public:
-  /// Starts one worker, so that a program that cannot start is known before work.
+  /// Starts one worker, so that a program that cannot be started is found before any work.
   /// ERRORS: those of find_worker() and WorkerProcess.
   explicit WorkerPool(PoolOptions options);
 
-  /// Triangulates as a Triangulate must.  ERRORS: those of WorkerProcess.
+  /// Does what a Triangulate must do.  ERRORS: those of WorkerProcess.
   [[nodiscard]] std::optional<Triangulation> triangulate(const Plc& plc);
 
   [[nodiscard]] PoolFacts facts() const;

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The mwmesh authors
 // SPDX-License-Identifier: Apache-2.0
-// posix_spawn, a socket with deadlines, SIGKILL.
+// Starts a worker by posix_spawn, asks it over a socket with deadlines, and ends it by SIGKILL.
 #include "engine/codt/worker_process.h"
 
 #include <fcntl.h>
@@ -35,7 +35,7 @@ std::pair<io::FileDescriptor, io::FileDescriptor> socket_pair() {
   return {io::FileDescriptor(ends[0]), io::FileDescriptor(ends[1])};
 }
 
-/// What the child does between fork and exec.
+/// Says what the child does between fork and exec.
 class SpawnPlan {
  public:
   explicit SpawnPlan(int control) {
@@ -78,7 +78,7 @@ class SpawnPlan {
   posix_spawnattr_t attributes_{};
 };
 
-/// True when something can be read, or the other end is gone.
+/// Returns true when something can be read or the other end is closed, false at the deadline.
 bool wait_for_message(int descriptor, Clock::time_point deadline) {
   for (;;) {
     const auto left =
@@ -134,7 +134,7 @@ bool WorkerProcess::share(std::size_t bytes, Milliseconds patience) {
 
 WorkerProcess::Outcome WorkerProcess::run(const Plc& plc, Triangulation& out,
                                           Milliseconds patience) {
-  // An answer is some three times its request.  A worker that claims more speaks nonsense.
+  // An answer has some three times the bytes of its request; a worker that claims far more is dead.
   constexpr std::size_t kMaxAnswer = 64;
   const std::size_t bytes = bytes_of(plc);
   if (!share(bytes, patience)) return Outcome::kDead;

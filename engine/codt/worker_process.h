@@ -16,10 +16,10 @@
 namespace mw::engine::codt {
 
 /// A child that runs the worker program.  It is alone in its process group, so that a terminal's
-/// signals do not reach it, and has no descriptor but the control socket and /dev/null.  It ends by
-/// itself when its end of the socket finds nobody.
-/// Thread safety: one thread at a time, any one.  (No PR_SET_PDEATHSIG: that is about the thread
-/// that started the child, and threads come and go.)
+/// signals do not reach it, and its only descriptors are the control socket and /dev/null.  It ends
+/// by itself when the other end of the socket is closed.
+/// Thread safety: any thread, but one at a time.  (PR_SET_PDEATHSIG is not used, because it acts
+/// when the thread ends that started the child, and threads come and go.)
 class WorkerProcess {
  public:
   using Milliseconds = std::chrono::milliseconds;
@@ -34,16 +34,16 @@ class WorkerProcess {
   enum class Outcome {
     kAnswered,
     kRefused,  ///< the worker says that there is no triangulation
-    kDead,     ///< it died, was too late, or spoke nonsense; good for nothing any more
+    kDead,     ///< it died, was too late, or broke the protocol, and cannot be used any more
   };
-  /// `out` is set when the worker answered.  Each message is waited for at most `patience`.
+  /// Waits at most `patience` for each of the worker's replies; `out` is set when it answered.
   /// ERRORS: those of SharedMemory::create().
   [[nodiscard]] Outcome run(const Plc& plc, Triangulation& out, Milliseconds patience);
 
   [[nodiscard]] pid_t id() const { return id_; }
 
  private:
-  /// None when the worker is dead to us.
+  /// Returns nothing when the outcome is kDead.
   [[nodiscard]] std::optional<Reply> ask(const Order& order, Milliseconds patience) const;
   [[nodiscard]] bool share(std::size_t bytes, Milliseconds patience);
 

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The mwmesh authors
 // SPDX-License-Identifier: Apache-2.0
-// Rules of parts and interfaces from text.
+// Parses rules for parts and interfaces.
 #include "engine/connect/connect_options.h"
 
 #include <algorithm>
@@ -28,7 +28,7 @@ PartsRule parse_parts(std::string_view text) {
 
 namespace {
 
-/// Pairs as they stand there.
+/// Returns the pairs of labels in the order of the text.
 std::vector<std::array<RawLabel, 2>> parse_pairs(std::string_view text) {
   std::vector<std::array<RawLabel, 2>> out;
   for (std::size_t begin = 0; begin <= text.size();) {

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The mwmesh authors
 // SPDX-License-Identifier: Apache-2.0
-// Straight through, or by way of temporary files.
+// Passes a mesh straight through, or by way of temporary files.
 #include "engine/connect/connected_sink.h"
 
 #include <algorithm>
@@ -11,7 +11,7 @@ namespace mw::engine {
 namespace {
 
 constexpr std::size_t kBatchTets = 4096;
-/// A row that is the number of a copy.
+/// Set in a row that is the number of a copy.
 constexpr std::uint64_t kCopyBit = std::uint64_t{1} << 63;
 
 }  // namespace
@@ -86,7 +86,7 @@ void ConnectedSink::find_places() {
   }
 }
 
-/// Takes note, too, of the labels of tets that are left out.
+/// Marks the vertices of kept tets, and notes the labels of tets that are left out.
 void ConnectedSink::mark_used() {
   std::set<RawLabel> partial;
   used_.resize(positions_.size() / sizeof(io::Position) / 64 + 1);
@@ -166,7 +166,7 @@ void ConnectedSink::pass_tets_before(std::uint64_t end) {
   }
 }
 
-/// What was loaded may have been changed.
+/// Returns the next tet, which a caller may change until it is passed on.
 ConnectedSink::TetRecord& ConnectedSink::next_tet() {
   if (next_ == loaded_first_ + loaded_.size()) {
     const std::uint64_t left = tets_.size() / sizeof(TetRecord) - next_;

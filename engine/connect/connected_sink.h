@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The mwmesh authors
 // SPDX-License-Identifier: Apache-2.0
-// Tells what hangs together in a mesh on its way into a file, leaves parts out, doubles vertices.
+// Finds what hangs together in a mesh on its way into a file, leaves parts out, doubles vertices.
 #pragma once
 
 #include <memory>
@@ -12,20 +12,20 @@ namespace mw::engine {
 
 struct ConnectTask {
   ConnectOptions options;
-  std::filesystem::path folder;  ///< of temporary files
+  std::filesystem::path folder;  ///< where temporary files go
   std::size_t memory_bytes = kMaxMemoryBytes;
 
   static constexpr std::size_t kMaxMemoryBytes = 8 << 20;
-  /// What of a budget the sorts take.
+  /// Returns the part of a budget that each sort takes.
   [[nodiscard]] static std::size_t memory_of(std::uint64_t budget);
 };
 
-/// Passes a mesh on as it comes, and counts.  Where the options change it, it waits on the disk
+/// Passes a mesh on as it comes, and counts.  If the options change it, the mesh waits on the disk
 /// until it is complete: kept vertices and tets keep their order, copies of vertices come behind
-/// the vertices. Memory: twice memory_bytes, 1 MiB, and what PartFinder says; where parts are left
-/// out, besides, 2 bits a vertex and 8 bytes a label; 64 KiB a value.  Disk: that of PartFinder, 24
-/// bytes a vertex; where the mesh changes, 40 more a tet, and 8 a value.  ERRORS: those of
-/// PartFinder::find(), ScratchFile and the sink below. REQUIRES: the sink below outlives it.
+/// the vertices.  Memory: that of PartFinder and 1 MiB; where parts are left out, 2 bits a vertex
+/// and 8 bytes a label more; 64 KiB a value.  Disk: that of PartFinder and 24 bytes a vertex; where
+/// the mesh changes, 40 more a tet, and 8 a value.  ERRORS: those of PartFinder::find(),
+/// ScratchFile and the sink below.  REQUIRES: the sink below outlives it.
 class ConnectedSink : public io::MeshSink {
  public:
   ConnectedSink(io::MeshSink& below, ConnectTask task);
@@ -37,14 +37,14 @@ class ConnectedSink : public io::MeshSink {
   void finish() override;
   [[nodiscard]] std::uint64_t buffer_bytes() const override;
 
-  /// None where no mesh came.
+  /// Returns what was found; nothing before finish().
   [[nodiscard]] const std::optional<ConnectFacts>& facts() const { return facts_; }
 
  private:
   /// Four rows and the label.
   using TetRecord = std::array<std::uint64_t, 5>;
 
-  /// Vertices of kept tets, and how many there are before each 64.
+  /// Marks the vertices of kept tets among 64, and says how many there are before these.
   struct UsedWord {
     std::uint64_t bits = 0;
     std::uint64_t before = 0;
@@ -70,14 +70,14 @@ class ConnectedSink : public io::MeshSink {
   io::MeshHeader header_;
   io::ScratchFile positions_;
   io::ScratchFile tets_;        ///< only where the mesh changes
-  io::ScratchFile values_;      ///< the same, rows of header_.values
-  std::vector<UsedWord> used_;  ///< empty: all
+  io::ScratchFile values_;      ///< only where the mesh changes: rows of header_.values
+  std::vector<UsedWord> used_;  ///< empty if all vertices are used
   std::uint64_t used_count_ = 0;
   std::uint64_t next_ = 0;             ///< the first tet that was not passed on
   std::vector<TetRecord> loaded_;      ///< some tets, among them the next one
-  std::vector<double> loaded_values_;  ///< of these
+  std::vector<double> loaded_values_;  ///< values of the loaded tets
   std::uint64_t loaded_first_ = 0;
-  std::vector<io::TetRows> batch_;  ///< to be passed on
+  std::vector<io::TetRows> batch_;  ///< tets to be passed on
   std::vector<RawLabel> batch_labels_;
   std::vector<double> batch_values_;
 };

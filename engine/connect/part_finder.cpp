@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The mwmesh authors
 // SPDX-License-Identifier: Apache-2.0
-// Trees of pieces, and stars out of a sort.
+// Unites pieces in trees, by the stars of vertices that a sort brings together.
 #include "engine/connect/part_finder.h"
 
 #include <algorithm>
@@ -19,10 +19,10 @@ std::uint64_t place_of(std::uint64_t chunk, std::uint64_t piece, std::uint64_t t
 /// A face of a chunk's tet, and that tet.
 using ChunkFace = std::array<std::uint64_t, 4>;
 
-/// A ball around the vertex, or a half ball: the tets hang together, and no edge has two fans. The
-/// faces opposite to the vertex form a connected surface.  Where it is pinched in places, it is a
-/// surface in whose places several points were made one, each of which takes one from its Euler
-/// characteristic.  That is at most 2 without such places, 1 if there is a border.
+/// True if a star whose tets faces join is a ball around the vertex or a half ball, so that no edge
+/// has two fans.  The faces opposite to the vertex form a connected surface, whose Euler
+/// characteristic is at most 2, or 1 if it has a border; only a sphere or a disc has that much, as
+/// each place where the surface is pinched takes at least one from it.
 bool is_plain(std::span<const StarTet> star, std::size_t inner_faces) {
   std::vector<std::uint64_t> others;
   for (const StarTet& tet : star) others.insert(others.end(), tet.others.begin(), tet.others.end());
@@ -71,7 +71,7 @@ void PartFinder::add(std::span<const io::TetRows> tets, std::span<const RawLabel
   }
 }
 
-/// Pieces are numbered by their first tets.
+/// Returns the piece of each tet of the chunk; pieces are numbered by their first tets.
 std::vector<std::uint32_t> PartFinder::pieces_of_chunk() {
   std::vector<ChunkFace> faces;
   for (std::size_t t = 0; t < tets_.size(); ++t) {
@@ -126,7 +126,7 @@ void PartFinder::close_chunk() {
   labels_.clear();
 }
 
-/// Sorts the chunk's labels.
+/// Notes the chunk's labels, which it sorts.
 void PartFinder::note_labels() {
   std::sort(labels_.begin(), labels_.end());
   const auto end = std::unique(labels_.begin(), labels_.end());
@@ -181,7 +181,7 @@ void PartFinder::unite_star(std::uint64_t row, std::vector<StarTet>& star) {
 }
 
 void PartFinder::count_stiff_labels() {
-  std::array<std::uint64_t, 2> last{};  // the last record of a label is 1 if any is
+  std::array<std::uint64_t, 2> last{};  // the last record of a label has a 1 if any of them has
   const auto close = [&] {
     ++facts_.labels;
     if (last[1] != 0) return;
@@ -299,7 +299,7 @@ void PartFinder::count_hinges(std::uint64_t row, std::span<const StarTet> star, 
              .rows = {row, row}});
 }
 
-/// A facet comes once from each of its vertices.
+/// Adds the facets at a vertex; a facet is added once for each of its vertices.
 void PartFinder::find_cohesive_facets(std::uint64_t row, std::span<const StarTet> star,
                                       const StarSets& sets) {
   const std::vector<std::size_t> numbers = sets.numbers();
@@ -324,7 +324,7 @@ void PartFinder::count_wedges() {
     const bool is_new = is_first || !std::equal(facet.begin(), facet.begin() + 3, last.begin());
     if (is_new && !is_first) close();
     is_first = false;
-    last = facet;  // that of an open vertex comes behind the others
+    last = facet;  // a record of a doubled vertex comes behind the others
   });
   if (!is_first) close();
 }
@@ -333,7 +333,7 @@ void PartFinder::add_hinge(const HingePlace& hinge) {
   if (facts_.hinges.size() < kMostPlaces) facts_.hinges.push_back(hinge);
 }
 
-/// The set of the first tet keeps the vertex.
+/// The set of the first tet keeps the vertex; each other set gets a copy.
 void PartFinder::double_vertex(std::uint64_t row, std::span<const StarTet> star,
                                const StarSets& sets) {
   const std::vector<std::size_t> numbers = sets.numbers();

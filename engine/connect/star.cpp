@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The mwmesh authors
 // SPDX-License-Identifier: Apache-2.0
-// Small sorts of the edges opposite to the vertex.
+// Sorts the edges opposite to the vertex to find tets with a common face.
 #include "engine/connect/star.h"
 
 #include <algorithm>
@@ -9,7 +9,7 @@
 namespace mw::engine {
 namespace {
 
-/// A face at the vertex: its two other vertices, and the tet.
+/// A face at the vertex: its two other vertices, and the place of the tet.
 using StarFace = std::array<std::uint64_t, 3>;
 
 std::vector<StarFace> faces_of(std::span<const StarTet> star) {
@@ -24,7 +24,7 @@ std::vector<StarFace> faces_of(std::span<const StarTet> star) {
   return out;
 }
 
-/// A tet with an edge, and which sets of tets its fans are.
+/// Returns the edge to `other` with its tets and two of its fans; an empty one if it has one fan.
 SplitEdge fans_at(std::span<const StarTet> star, std::uint64_t other) {
   SplitEdge out{.other = other, .tets = {}};
   for (std::size_t t = 0; t < star.size(); ++t) {

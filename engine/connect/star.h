@@ -16,7 +16,7 @@ namespace mw::engine {
 /// A tet at the vertex.
 struct StarTet {
   std::array<std::uint64_t, 3> others{};  ///< its other vertices, ascending
-  std::uint64_t tet = 0;                  ///< any number of it
+  std::uint64_t tet = 0;                  ///< a number that the caller chooses
   RawLabel label = 0;
 };
 

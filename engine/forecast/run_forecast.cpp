@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The mwmesh authors
 // SPDX-License-Identifier: Apache-2.0
-// How long the rest of a run will take.
+// Predicts how long the rest of a run will take.
 #include "engine/forecast/run_forecast.h"
 
 #include "kernels/core/index.h"

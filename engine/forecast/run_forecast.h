@@ -12,8 +12,8 @@
 
 namespace mw::engine {
 
-/// Follows a run through its marches and its output.  The labels tell the work, the run itself its
-/// speed.  Nothing of it has any effect on the mesh.
+/// Follows a run through its marches and its output.  The work follows from the labels, the speed
+/// is measured in the run itself.  It has no effect on the mesh.
 /// Cost: some microseconds a window.  Thread safety: none.
 class RunForecast {
  public:
@@ -21,11 +21,11 @@ class RunForecast {
   RunForecast(const BoundaryFaces& faces, const RunLayout& layout, const MeshSettings& settings,
               int threads);
 
-  /// To be called when a march begins.
+  /// Must be called when a march begins.
   void begin_march(const IsFinished& finished_before);
   void visited(Index3 window);
   void begin_output();
-  /// To be called when the output reads a block of the last march, which it does twice for each.
+  /// Must be called when the output reads a block of the last march; finish() reads each twice.
   void reading(Index3 block);
 
   [[nodiscard]] double seconds_left() const { return left_.seconds(); }
@@ -39,7 +39,7 @@ class RunForecast {
   const RunLayout& layout_;
   std::vector<MarchWork> marches_;
   TimeLeft left_;
-  std::size_t begun_ = 0;  ///< marches
+  std::size_t begun_ = 0;  ///< marches that have begun
   std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
 };
 

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The mwmesh authors
 // SPDX-License-Identifier: Apache-2.0
-// What windows cost, told before they are visited.
+// Predicts what windows cost before they are visited.
 #include "engine/forecast/run_work.h"
 
 #include <algorithm>
@@ -12,13 +12,13 @@ namespace {
 
 // Microseconds, by least squares from traces of runs (--trace).
 constexpr double kPerWindow = 200;
-constexpr double kPerBoxFace = 0.3;    // of a voxel, on the volume's box
-constexpr double kPerDenseVoxel = 12;  // of the start mesh of five tets a voxel
+constexpr double kPerBoxFace = 0.3;    // for each face of a voxel on the volume's box
+constexpr double kPerDenseVoxel = 12;  // for each voxel of the start mesh of five tets a voxel
 constexpr double kPerOutputBlock = 15, kPerOutputFace = 0.2;
 // Constrained ODT by TetGen takes 3 to 9 times what the rest of its march does.
 constexpr double kTetgenFactor = 5;
 
-/// Faces of voxels of `part` on the box of a volume.
+/// Returns the number of faces of voxels of `part` on the box of a volume.
 double faces_on_box(const Box3& part, Index3 volume) {
   const Index3 s = part.shape();
   const auto ends = [](std::int64_t lo, std::int64_t hi, std::int64_t size) {
@@ -29,7 +29,7 @@ double faces_on_box(const Box3& part, Index3 volume) {
                              s.x * s.y * ends(part.lo.z, part.hi.z, volume.z));
 }
 
-/// Along one axis: windows that hold the block, of `windows` of them.
+/// These return the first and the last of `windows` windows along an axis that hold the block.
 std::int64_t first_with(std::int64_t block) {
   return std::max<std::int64_t>(0, block - 1);
 }
@@ -78,7 +78,7 @@ double MarchWork::of_all() const {
   return work;
 }
 
-/// No earlier window of the sequence holds the block.
+/// True if no earlier window of the sequence holds the block.
 bool MarchWork::sees_first(Index3 window, Index3 block) const {
   const Index3 windows = order_.grid().windows();
   const Box3 holders{{first_with(block.x), first_with(block.y), first_with(block.z)},

@@ -17,9 +17,9 @@ struct MarchIndex {
 
 /// The work of one march's windows in microseconds of one core, as measured for balls, grains,
 /// noise, CT and EM volumes with one thread (within a factor of 1.5 of one another; other machines,
-/// settings and volumes differ by factors that a run measures by itself).  A window costs what
-/// interfaces it holds, more where they are dense, and more again for a block that it is the first
-/// to see.
+/// settings and volumes differ by factors that a run measures by itself).  A window costs the more
+/// the more interfaces it holds, more again where they are dense, and most for a block that it is
+/// the first to see.
 class MarchWork {
  public:
   /// REQUIRES: the faces outlive this.
@@ -40,7 +40,7 @@ class MarchWork {
   double density_factor_;
 };
 
-/// Returns the work, in microseconds too, of one of the two readings of a block for the output.
+/// Returns the work of one of the two readings of a block for the output, in microseconds, too.
 [[nodiscard]] double output_work(const BoundaryFaces& faces, const Box3& block);
 
 }  // namespace mw::engine

@@ -12,7 +12,7 @@
 namespace mw::engine {
 namespace {
 
-/// The share of a part's work for which the speed of the parts before stands beside its own.
+/// The speed of the parts before counts as if this share of a part's work had been done at it.
 constexpr double kShareOfBefore = 0.02;
 
 }  // namespace

@@ -8,19 +8,20 @@
 
 namespace mw::engine {
 
-/// The seconds left of work in several parts, one after the other.  How much work each part is
-/// need only be right up to one factor, which is what is measured; from one part to the next that
-/// factor may change, and the next part's own speed soon replaces that of those before, as that of
-/// the first replaces a guess: a stall in the first window says nothing of the others.
-/// A pure function of what it is told, times included.
+/// The seconds left of work in several parts, one after the other.  The amounts of work need only
+/// be right up to a factor, the speed, which is measured.  The speed may change from one part to
+/// the next: a part's own speed soon replaces that of the parts before, as that of the first part
+/// replaces a guess; a stall in the first window says nothing of the others.
+/// It is a pure function of the calls, times included.
 class TimeLeft {
  public:
-  /// work: of each part, in any unit, none negative.  guess: seconds a unit, positive.
+  /// work holds the amount of work of each part, in any unit; none is negative.  guess is the
+  /// seconds that one unit takes, and is positive.
   TimeLeft(std::vector<double> work, double guess);
 
-  /// The next part begins, `now` seconds from any moment on; skipped: what of it was done before.
+  /// Begins the next part `now` seconds after any fixed moment; `skipped` of its work is done.
   void begin(double now, double skipped);
-  /// So much of it has been done since the last call.
+  /// Notes that this much work of the part has been done since the last call.
   void done(double now, double work);
   [[nodiscard]] double seconds() const;
 
@@ -32,11 +33,11 @@ class TimeLeft {
 
   [[nodiscard]] double work_left() const;
 
-  std::vector<double> work_;  ///< that is left, of each part
+  std::vector<double> work_;  ///< the work left in each part
   std::size_t next_ = 0;      ///< part to begin
   double begun_ = 0;
   double size_ = 0;  ///< work of the part without what was skipped
-  Pace before_;      ///< of all parts that are over, and one unit of work as guessed
+  Pace before_;      ///< pace of all parts that are over, and of one guessed unit of work
   Pace part_;
 };
 

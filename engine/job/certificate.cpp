@@ -14,11 +14,11 @@
 namespace mw::engine {
 namespace {
 
-// Buffers and lists; a tile with what is around it, on each thread.
+// Memory for buffers and lists, and on each thread for a tile with what is around it.
 constexpr std::uint64_t kShared = std::uint64_t{48} << 20U;
 constexpr std::uint64_t kPerThread = std::uint64_t{40} << 20U;
 
-/// "P2 faces: 3 triangles ..., P3 ...".
+/// Returns "P2 faces: 3 triangles ..., P3 ...".
 std::string failures(const audit::AuditReport& report) {
   std::string out;
   for (const audit::Check& check : report.checks) {

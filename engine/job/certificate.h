@@ -19,7 +19,7 @@ namespace mw::engine {
 /// when that throws, the sink is not finished, so that nothing appears under its name.
 class CertifiedSink : public io::TeeSink {
  public:
-  /// bytes: what certify() takes.  REQUIRES: sink and tiles outlive it.
+  /// bytes is the memory that certify() takes.  REQUIRES: sink and tiles outlive it.
   CertifiedSink(io::MeshSink& sink, MeshTiles& tiles, std::uint64_t bytes,
                 std::function<void()> certify)
       : TeeSink(sink, tiles),
@@ -52,7 +52,7 @@ class Certifier {
   Certifier(const CertificatePlan& plan, const MeshJob& job, const io::DenseVolume& volume,
             io::MeshSink& sink, std::function<void()> stop);
 
-  /// Where the mesh goes.  Its finish() throws mw::Error(kCheckFailed), naming what fails.
+  /// Returns where the mesh goes.  Its finish() throws mw::Error(kCheckFailed), naming what fails.
   [[nodiscard]] io::MeshSink& sink() { return sink_; }
   /// REQUIRES: the sink is finished.
   [[nodiscard]] const audit::AuditReport& report() const { return *report_; }

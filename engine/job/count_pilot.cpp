@@ -23,18 +23,18 @@ namespace mw::engine {
 namespace {
 
 constexpr int kMaxTrials = 6;
-/// A trial that is so near is good enough: counts that are asked are met within 10 %.
+/// A trial with this error is near enough: counts that are asked for are met within 10 %.
 constexpr double kNearEnough = 0.05;
 constexpr std::int64_t kCube = 64;
 constexpr std::int64_t kHalo = 16;
 constexpr std::int64_t kLeastCubes = 4;
 constexpr std::int64_t kMostCubes = 16;
-/// A cube of one label has some tets, too, as many as this share of its voxels has faces.
+/// Voxels weigh as this many faces, since a cube of one label has some tets, too.
 constexpr double kFacesPerVoxel = 0.01;
-/// No limit on edges matters beyond that, in voxels.
+/// The size, in voxels, beyond which no limit on edges matters.
 constexpr double kLargestSize = 64.0;
 
-/// The sizes that the factor is meant for.
+/// Returns the sizes that the factor is meant for.
 SizeRules base_rules(const SizeRules& rules) {
   SizeRules out = rules;
   if (!out.any()) out.others = 1.0;
@@ -44,7 +44,7 @@ SizeRules base_rules(const SizeRules& rules) {
 /// A part of the volume that is meshed, and what of it counts.
 struct Cube {
   Box3 voxels;  ///< of the volume, with the halo
-  Box3 within;  ///< of the lattice of these voxels
+  Box3 within;  ///< what counts, in the lattice of these voxels
   double weight = 0.0;
 };
 
@@ -55,8 +55,8 @@ class Whole : public io::VolumeView {
   void read(const Box3& box, std::span<RawLabel> out) const override { below().read(box, out); }
 };
 
-/// Which cubes are meshed: their chances are as their weights, and each place along the sum of all
-/// weights that is an odd multiple of half a step draws the cube that it is in.
+/// Draws the cubes that are meshed, with chances in proportion to their weights: along the sum of
+/// all weights, each odd multiple of half a step draws the cube that it lies in.
 class Sample {
  public:
   Sample(const PilotTask& task, const VoxelLattice& lattice, const PreparedLabels& labels)
@@ -87,7 +87,7 @@ class Sample {
   }
 
  private:
-  /// Multiples of the layers, so that a cube is of whole voxels.
+  /// Returns multiples of the layers, so that a cube is of whole voxels.
   [[nodiscard]] Index3 cube_edges() const {
     const Index3 layers = lattice_.layers();
     const auto rounded = [](std::int64_t n) { return std::max<std::int64_t>(1, kCube / n) * n; };
@@ -99,7 +99,7 @@ class Sample {
     return intersection({lo, lo + e}, {{0, 0, 0}, lattice_.info().shape});
   }
 
-  /// Faces between labels, and voxels, of labels that are written.
+  /// Returns a weight for the faces between labels, and for the voxels, of labels that are written.
   [[nodiscard]] double weight_of(const Box3& box) const {
     const LabelSelection kept(wanted_labels(task_.job.choice, lattice_.volume().table()),
                               lattice_.volume().table());
@@ -138,7 +138,7 @@ class Sample {
   double total_ = 0;
 };
 
-/// One trial after the other, each at a logarithm of the factor.
+/// Makes one trial after the other, each at a logarithm of the factor.
 class Pilot {
  public:
   explicit Pilot(const PilotTask& task) : task_(task) {
@@ -148,7 +148,7 @@ class Pilot {
     const double voxel = *std::min_element(spacing.begin(), spacing.end());
     const double diagonal = std::hypot(spacing[0], spacing[1], spacing[2]);
     const SizeRules rules = base_rules(settings.sizes.rules);
-    // Sizes of an image alone are about those of its voxels.
+    // Sizes of an image alone are taken to be about those of its voxels.
     const double least = std::isfinite(rules.least()) ? rules.least() : voxel;
     constexpr double kRoundedUp = 1.0 + 1e-9;
     range_ = {std::log(kRoundedUp * diagonal / SizeRules::kContracted / least),
@@ -183,7 +183,7 @@ class Pilot {
  private:
   /// The volume of a regular tet with edges of 1.
   static constexpr double kTetVolume = 0.1178511301977579;
-  /// Counts grow at least with this power of the size, and at most with that.
+  /// Exponents of the size in the count: the flattest, the steepest, and the usual one.
   static constexpr double kFlattest = -0.3, kSteepest = -3.5, kUsual = -2.4;
 
   struct Trial {
@@ -192,7 +192,7 @@ class Pilot {
   };
 
   [[nodiscard]] double asked() const { return static_cast<double>(task_.job.settings.sizes.count); }
-  /// Returns the error of the logarithm.
+  /// Returns the error of the count, as a logarithm.
   [[nodiscard]] double error_of(const Trial& t) const {
     return std::log(std::max(t.tets, 1.0) / asked());
   }
@@ -200,8 +200,8 @@ class Pilot {
     return (t.at == range_[0] && error_of(t) < 0) || (t.at == range_[1] && error_of(t) > 0);
   }
 
-  /// Where the line through the two trials that are nearest to what is asked, one on each side if
-  /// there are, has the count.
+  /// Returns where a line has the count: through the nearest trials on both sides of it, else
+  /// through the last two.
   [[nodiscard]] double next() const {
     std::optional<Trial> more, fewer;
     for (const Trial& t : trials_) {
@@ -285,7 +285,7 @@ class Pilot {
   std::vector<Cube> cubes_;  ///< empty: the volume is meshed whole
   double inner_quality_ = 0;
   std::vector<Trial> trials_;
-  std::int64_t voxels_ = 0;  ///< that were meshed in all
+  std::int64_t voxels_ = 0;  ///< how many were meshed in all
 };
 
 }  // namespace

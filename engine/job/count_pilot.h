@@ -11,7 +11,7 @@
 
 namespace mw::engine {
 
-/// Volumes up to that many voxels of the lattice are meshed whole by a pilot.
+/// A pilot meshes volumes of up to this many voxels of the lattice whole.
 inline constexpr std::int64_t kMaxWholePilot = std::int64_t{1} << 23;
 
 /// What a pilot works on.  All of it outlives the call.
@@ -23,25 +23,24 @@ struct PilotTask {
   std::int64_t max_whole = kMaxWholePilot;  ///< voxels
 };
 
-/// Finds the factor on all sizes (where none is given, on a size of 1 of all labels) with which the
-/// mesh that is written has about SizeSettings::count tets.
+/// Finds the factor on all sizes with which the mesh that is written has about SizeSettings::count
+/// tets.  Where no size is given, all labels have size 1.
 ///
-/// It meshes at up to six factors, each by the secant through the logarithms of the two counts
-/// nearest to what is asked.  A volume of up to max_whole voxels is meshed whole, which tells the
-/// count exactly.  Of a larger one some cubes of 64 voxels are meshed, with 16 voxels around them
-/// whose tets are not counted.  They are drawn with a chance that grows with the faces between
-/// labels and with the voxels that are written in them, evenly along the volume, and without any
-/// random number; a count is then the mean of tets per chance.  So it is a function of volume and
-/// settings, for any number of threads.
+/// It meshes at up to six factors, each found by a secant through the logarithms of two counts.  A
+/// volume of up to max_whole voxels is meshed whole, which tells the count exactly.  In a larger
+/// one some cubes of 64 voxels are meshed, with 16 voxels around them whose tets are not counted.
+/// Cubes are drawn evenly along the volume, without any random number, with a chance that grows
+/// with their faces between labels and their voxels that are written; a count is then the mean of
+/// tets per chance.  So it is a function of volume and settings, for any number of threads.
 ///
-/// A count that cannot be had leaves the factor at the end of its range: the sizes that voxels
-/// allow, and sizes of 64 voxels, with which only the bound on the distance, the topology and the
-/// quality floor keep tets.
+/// Where no factor gives the count, the factor is at an end of its range: the least sizes that
+/// voxels allow, or sizes of 64 voxels, with which only the bound on the distance, the topology and
+/// the quality floor keep tets.
 /// REQUIRES: count > 0.
 /// ERRORS: those of mesh_volume(), and what the job's functions throw.
 [[nodiscard]] report::CountFacts scale_for_count(const PilotTask& task);
 
-/// The settings of the run: sizes multiplied, and the rest as it was.
+/// Returns the settings with all sizes multiplied; without any, all labels get size `scale`.
 [[nodiscard]] MeshSettings with_scale(const MeshSettings& settings, double scale);
 
 }  // namespace mw::engine

@@ -34,7 +34,7 @@ int halvings_of(const io::VolumeInfo& volume, const MeshJob& job, double in_imag
 }
 
 SizeSettings before_halvings(SizeSettings sizes, int times) {
-  const int edges = 1 << times;  // of a part, one behind the other, for one of before
+  const int edges = 1 << times;  // into which an edge is cut, one behind the other
   sizes.rules = sizes.rules.scaled(edges);
   sizes.across = (sizes.across + edges - 1) / edges;
   return sizes;

@@ -16,25 +16,24 @@ namespace mw::engine {
 
 /// Returns how often the tets of a run are cut: as often as its least size asks for, where that is
 /// below least_size() (1.39 voxels where these are cubes); never with a count, as sizes are weights
-/// then.
-/// in_image: the least size of the image, infinity without one.  What it asks for beyond
+/// then.  in_image is the least size of the image, or infinity without one; what it asks for beyond
 /// io::kMostHalvings is left out.
-/// ERRORS: mw::Error(kUsage) when these are not enough for another size, with the least that is
-///         kept; when several processes would have to cut.
+/// ERRORS: mw::Error(kUsage) when io::kMostHalvings cuts are not enough for another size, with the
+/// least size that can be kept; when several processes would have to cut.
 [[nodiscard]] int halvings_of(const io::VolumeInfo& volume, const MeshJob& job, double in_image);
 
-/// Returns the sizes of marches whose tets are cut so often afterwards.
+/// Returns the sizes for marches whose tets are cut this often afterwards.
 [[nodiscard]] SizeSettings before_halvings(SizeSettings sizes, int times);
 
 /// The sinks that cut, one behind the other, and the figures of what they write.
 class Halving {
  public:
-  /// times: 0: the mesh is passed on as it is.  sizes: by dense label, 0 where none is asked;
-  /// empty: edges are not measured.  REQUIRES: below and table outlive it.
+  /// With times 0 the mesh is passed on as it is.  sizes are by dense label, 0 where none is asked;
+  /// if empty, edges are not measured.  REQUIRES: below and table outlive it.
   Halving(int times, io::MeshSink& below, const MeshJob& job, const io::LabelTable& table,
           std::vector<double> sizes);
 
-  /// Where the mesh of the marches goes.
+  /// Returns where the mesh of the marches goes.
   [[nodiscard]] io::MeshSink& sink() { return cuts_.empty() ? below_ : *cuts_.back(); }
   /// Puts the figures of what was written in the place of those of the marches' mesh; those of
   /// surfaces stay, as surfaces do.  REQUIRES: the sink is finished.

@@ -67,8 +67,8 @@ class CountedVolume : public io::VolumeView {
 /// several processes the one that speaks leaves them.
 class KeptInput {
  public:
-  /// ERRORS: those of KeepFolder and KeptLabels; mw::Error(kUsage) when a delta is wanted and there
-  /// is nothing before.
+  /// ERRORS: those of KeepFolder and KeptLabels; mw::Error(kUsage) when a delta is wanted and no
+  /// run before was complete.
   KeptInput(const io::LabelVolume& opened, const MeshJob& job) : counted_(opened) {
     const KeepOptions& options = job.run.keep;
     const bool speaks = job.run.processes == nullptr || job.run.processes->speaks();
@@ -91,8 +91,8 @@ class KeptInput {
   [[nodiscard]] const std::shared_ptr<KeepFolder>& folder() const { return folder_; }
   [[nodiscard]] std::uint64_t voxels_read() const { return counted_.voxels(); }
 
-  /// What the edit did to the volume `after`, which the steps of the job were applied to, and to
-  /// the mesh.
+  /// Returns what the edit did to the volume and to the mesh; the steps of the job were applied to
+  /// `after`.
   [[nodiscard]] io::Json delta(const io::LabelVolume& after, const MeshJob& job,
                                const MeshSize& size) const {
     const PatchedVolume unpatched(counted_, *before_, {});
@@ -108,7 +108,7 @@ class KeptInput {
                       is_known ? std::optional(old_size) : std::nullopt, size);
   }
 
-  /// The run is complete.
+  /// Must be called once the run is complete.
   void finish(const MeshSize& size) {
     if (folder_ == nullptr) return;
     after_->commit();
@@ -140,7 +140,7 @@ class KeptInput {
   std::unique_ptr<io::AtomicFile> after_;
 };
 
-/// By dense label, as OutputOptions has them.
+/// Returns sizes by dense label, as OutputOptions has them.
 std::vector<double> edge_sizes(const SizeRules& rules, const io::LabelTable& table) {
   std::vector<double> out(rules.any() ? table.size() : 0);
   for (Label label = 0; label < out.size(); ++label) {
@@ -151,7 +151,7 @@ std::vector<double> edge_sizes(const SizeRules& rules, const io::LabelTable& tab
 
 constexpr const char* kCountScale = "count scale";
 
-/// What a run has in common with the one that it goes on from, beside what the engine adds.
+/// Returns what a run shares with the one that it goes on from, beside what the engine adds.
 std::string identity_of(const report::FinishedRun& run) {
   std::string out =
       io::text("version = ", version(), "\nlabel fingerprint = ", run.fingerprint, "\n");
@@ -159,7 +159,7 @@ std::string identity_of(const report::FinishedRun& run) {
   return out;
 }
 
-/// The scale that the run found whose work is gone on with; none: there is no such run.
+/// Returns the scale that the run found whose work this one goes on with, if there is such a run.
 std::optional<report::CountFacts> saved_count(const MeshJob& job, report::FinishedRun run) {
   if (!job.run.store.resume) return std::nullopt;
   const auto text = saved_value(job.run.store.workdir, kCountScale);
@@ -172,7 +172,7 @@ std::optional<report::CountFacts> saved_count(const MeshJob& job, report::Finish
   return run.count;
 }
 
-/// By a pilot, unless an earlier run has made it.
+/// Finds the scale by a pilot, unless an earlier run has done so.
 report::CountFacts count_facts(const PilotTask& task, const report::FinishedRun& run) {
   if (const auto saved = saved_count(task.job, run)) return *saved;
   const report::ResourceMeter meter;
@@ -181,7 +181,7 @@ report::CountFacts count_facts(const PilotTask& task, const report::FinishedRun&
   return out;
 }
 
-/// What the marches are told beside what the job says.
+/// Returns what the marches are told, beyond what the job says.
 RunHooks run_hooks(const MeshJob& job, const report::FinishedRun& run, std::uint64_t memory) {
   const io::LabelTable& table = run.labels;
   RunHooks out = job.run;
@@ -200,7 +200,7 @@ RunHooks run_hooks(const MeshJob& job, const report::FinishedRun& run, std::uint
   return out;
 }
 
-/// ERRORS: as SizeImage; kUsage when there is an image in the settings and not in the job.
+/// Opens the image of sizes, if any.  ERRORS: those of SizeImage; kUsage when the job lacks it.
 std::optional<SizeImage> size_image(const io::VolumeInfo& labels, const MeshJob& job) {
   const std::string& file = job.settings.sizes.rules.image;
   if (file.empty()) return std::nullopt;
@@ -208,7 +208,7 @@ std::optional<SizeImage> size_image(const io::VolumeInfo& labels, const MeshJob&
   throw Error(ErrorKind::kUsage, "size: the image " + file + " was not opened");
 }
 
-/// What is there to read the volume, the program and the preparation of labels left out.
+/// Returns the room to read the volume, beside the program and the preparation of labels.
 ReadingRoom reading_room(const MeshJob& job, bool has_scores = false) {
   const Processes* const processes = job.run.processes;
   const int sharers = processes == nullptr ? 1 : processes->count_here();
@@ -252,7 +252,7 @@ ConnectTask connect_task(const MeshJob& job) {
           .memory_bytes = ConnectTask::memory_of(job.run.store.memory)};
 }
 
-/// Says where the work is when a run that ends early leaves some.
+/// Marches, and says where the work is when a run that ends early leaves some.
 RunReport march(const io::DenseVolume& labels, const MeshJob& job, io::MeshSink& sink,
                 RunHooks run) {
   std::string work;
@@ -268,8 +268,8 @@ RunReport march(const io::DenseVolume& labels, const MeshJob& job, io::MeshSink&
   }
 }
 
-/// Tells of a mesh that does not pass its check because the labels are no longer those that were
-/// read first.
+/// Throws if the labels are not those that were read first, which explains a mesh that does not
+/// pass its check.
 void refuse_changed_input(const io::LabelVolume& volume, std::uint64_t first, int threads) {
   const FingerprintVolume again(volume);
   static_cast<void>(collect_labels(again, threads));

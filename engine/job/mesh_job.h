@@ -18,7 +18,7 @@
 namespace mw::engine {
 
 enum class Certify {
-  kAuto,  ///< certifies where memory allows it
+  kAuto,  ///< certifies where memory allows it, unless divided or updating (KeepUse::kUpdate)
   kOn,
   kOff,
 };
@@ -33,19 +33,19 @@ struct MeshJob {
   bool finds_parts = false;  ///< whether parts and hinges are counted where the mesh stays as it is
   Certify certify = Certify::kAuto;
   bool is_measured = false;      ///< whether quality and shape are measured, for a report
-  bool wants_delta = false;      ///< what changed since the run that run.keep goes on from
-  std::filesystem::path folder;  ///< of the certificate's temporary files
+  bool wants_delta = false;      ///< whether to tell what changed since the run that is updated
+  std::filesystem::path folder;  ///< of temporary files
   /// Threads, memory, work folder, other processes and callbacks.  mesh() sets what is written and
   /// the identity of the run.
   RunHooks run{.threads = 0};
   /// These two do not change the result.
   std::function<void()> stop = [] {};                    ///< called often, by any thread; may throw
-  std::function<void(std::size_t labels)> labels_known;  ///< optional: before the marches
+  std::function<void(std::size_t labels)> labels_known;  ///< optional; called before marches
 };
 
 /// What a certificate takes of a run's memory budget, which is a quarter at most.
 struct CertificatePlan {
-  std::string why_not;  ///< empty: it is made
+  std::string why_not;  ///< empty if it is made
   int threads = 0;
   std::uint64_t memory_bytes = 0;
 };
@@ -53,9 +53,9 @@ struct CertificatePlan {
 /// ERRORS: mw::Error(kUsage) when it is asked for and cannot be had.
 [[nodiscard]] CertificatePlan plan_certificate(const MeshJob& job);
 
-/// Meshes a volume into `sink`, begin to finish; a certificate is made before finish(), of the mesh
-/// before parts are left out and vertices doubled.
-/// ENSURES: promises P1 to P3 and P5 of the README.  Digest and resources are the caller's to add.
+/// Meshes a volume into `sink`, from begin to finish.  A certificate is made before finish(), of
+/// the mesh before parts are left out and vertices doubled.
+/// ENSURES: promises P1 to P3 and P5 of the README.  The digest is the caller's to add.
 /// ERRORS: those of the volume, its steps, mesh_volume() and the sink; kCheckFailed when the
 ///         certificate does not hold; io::fail_input_changed() when that is because the labels
 ///         changed, or when a later reading finds labels that the first did not; what the job's

@@ -9,7 +9,7 @@
 namespace mw::engine {
 
 void check_unpacking(const io::LabelVolume& volume, const ReadingRoom& room) {
-  constexpr std::uint64_t kLittle = 4;  // of these chunks are in a share
+  constexpr std::uint64_t kLittle = 4;  // a chunk is little if this many fit into a share
   const std::uint64_t unpacked = volume.buffer_bytes(1);
   if (unpacked < room.memory / room.shares / kLittle) return;
   const std::uint64_t least = room.shares * (room.beside + unpacked);

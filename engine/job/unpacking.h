@@ -9,10 +9,10 @@
 
 namespace mw::engine {
 
-/// What of a budget is there to read a volume.
+/// How much of a memory budget is there to read a volume.
 struct ReadingRoom {
   std::uint64_t memory = 0;  ///< bytes, as the user gives them
-  std::uint64_t shares = 1;  ///< that it is divided into; one of them reads
+  std::uint64_t shares = 1;  ///< into which it is divided; one of them reads
   std::uint64_t beside = 0;  ///< bytes of that share which something else holds meanwhile
 };
 

@@ -21,7 +21,7 @@
 namespace mw::engine {
 namespace {
 
-/// The labels that a mesh is to hold, and who says so where nobody was asked.
+/// The labels that a mesh is to hold and, in words, what is left out by what its file says.
 struct ChosenLabels {
   audit::KeptLabels labels;
   std::string told;
@@ -32,7 +32,7 @@ audit::KeptLabels empty_if_all(audit::KeptLabels kept) {
   return leaves_out ? std::move(kept) : audit::KeptLabels{};
 }
 
-/// "2, 3, 4 and 95 more".
+/// Returns "2, 3, 4 and 95 more".
 std::string list_of(const std::vector<RawLabel>& labels, bool is_signed) {
   constexpr std::size_t kMostNamed = 8;
   std::string out;
@@ -43,7 +43,7 @@ std::string list_of(const std::vector<RawLabel>& labels, bool is_signed) {
   return out + " and " + std::to_string(labels.size() - kMostNamed) + " more";
 }
 
-/// What a run has left out, its record tells.
+/// Returns the labels that the run has not left out, by its record.
 ChosenLabels recorded_labels(const io::MeshRecord& record, const io::LabelTable& table) {
   const bool are_left_out = record.only_labels.empty();
   const auto& named = are_left_out ? record.without_labels : record.only_labels;
@@ -57,7 +57,7 @@ ChosenLabels recorded_labels(const io::MeshRecord& record, const io::LabelTable&
           (are_left_out ? "without label " : "only label ") + list_of(named, table.is_signed())};
 }
 
-/// A file that tells of no run holds the labels that it holds.
+/// Returns the labels in the mesh, since a file that tells of no run is to hold just these.
 ChosenLabels found_labels(const audit::KeptLabels& in_mesh, const io::LabelTable& table) {
   std::vector<RawLabel> missing;
   for (Label l = 0; l < table.size(); ++l) {
@@ -79,7 +79,7 @@ void add_words(std::string& text, const std::string& words) {
   text += (text.empty() ? "" : ", ") + words;
 }
 
-/// Which of the kept labels are there in part; those that are gone are kept no more.
+/// Returns which of the kept labels are there in part, and drops those that are gone from `kept`.
 audit::KeptLabels leave_parts_out(const io::MeshRecord& record, const audit::KeptLabels& in_mesh,
                                   const io::LabelTable& table, ChosenLabels& kept) {
   if (record.partial_labels.empty()) return {};
@@ -120,7 +120,7 @@ report::Bounds bounds_of(const AskedBounds& asked, const io::MeshRecord& record,
     out.told = kept.told;
     return out;
   }
-  // What was asked for is no promise that the file weakens.
+  // A bound that was asked for is no promise that the file weakens.
   io::MeshPromises recorded = bounds;
   const io::MeshPromises usual = promises_of({});
   if (asked.max_distance) recorded.max_distance = usual.max_distance;

@@ -24,7 +24,7 @@ struct AskedBounds {
 struct VerifyJob {
   const io::LabelVolume& volume;  ///< as opened
   io::InputSteps steps;
-  LabelChoice choice;  ///< that the mesh was made with; empty: what its file says
+  LabelChoice choice;  ///< of the run that made the mesh; if empty, its file tells
   AskedBounds asked = {};
   int threads = 0;                        ///< 0: all cores
   std::uint64_t memory = 0;               ///< bytes

@@ -20,14 +20,14 @@ struct LabelFacts {
   audit::RegionBetti betti;
 };
 
-/// A label that gained or lost voxels; none: the volume did not have it.
+/// A label that gained or lost voxels; before or after is empty where the volume did not have it.
 struct LabelChange {
   RawLabel label = 0;
   std::optional<LabelFacts> before;
   std::optional<LabelFacts> after;
 };
 
-/// Labels whose common faces changed in number.
+/// Two labels whose common faces changed in number.
 struct ContactChange {
   RawLabel first = 0;
   RawLabel second = 0;
@@ -36,27 +36,28 @@ struct ContactChange {
 };
 
 struct VolumeDelta {
-  std::uint64_t voxels = 0;             ///< that changed
-  Box3 box;                             ///< that has them all
+  std::uint64_t voxels = 0;             ///< how many changed
+  Box3 box;                             ///< holds all that changed
   std::vector<LabelChange> labels;      ///< ascending
   std::vector<ContactChange> contacts;  ///< ascending
   bool labels_signed = false;
 };
 
-/// Several passes over both volumes, which have the same shape.  task: threads, memory, folder and
-/// between are looked at.
+/// Compares two volumes of the same shape, in several passes over both.  Of task, it looks at
+/// threads, memory, folder and between.
 /// ERRORS: those of the volumes, and of temporary files.
 [[nodiscard]] VolumeDelta delta_of(const io::LabelVolume& before, const io::LabelVolume& after,
                                    const VerifyTask& task);
 
-/// before and after of a mesh's size.
+/// The size of a mesh.
 struct MeshSize {
   std::uint64_t vertices = 0;
   std::uint64_t tets = 0;
 };
 
-/// "box" null: nothing changed.  Betti numbers are of the closed and the open region of a label, as
-/// promise P1 counts them; null: the volume does not have the label.
+/// Returns the changes as JSON.  "box" is null if nothing changed, and a label's facts are null
+/// where the volume does not have it.  Betti numbers are those of the closed and the open region of
+/// a label, as promise P1 counts them.
 [[nodiscard]] io::Json delta_json(const VolumeDelta& delta, const std::optional<MeshSize>& before,
                                   const MeshSize& after);
 

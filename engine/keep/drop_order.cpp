@@ -15,7 +15,7 @@ Box3 box_of(const RunLayout& layout, std::uint64_t window) {
   return layout.grid(key.march).window_box(key.window);
 }
 
-/// The largest gap along an axis; 0 where they touch.
+/// Returns the largest gap between two boxes along an axis; 0 where they touch.
 std::int64_t distance(const Box3& a, const Box3& b) {
   const auto gap = [](std::int64_t a_lo, std::int64_t a_hi, std::int64_t b_lo, std::int64_t b_hi) {
     return std::max({std::int64_t{0}, a_lo - b_hi, b_lo - a_hi});

@@ -31,7 +31,7 @@ constexpr std::array<const char*, 9> kFiles{kLockFile,    kSettingsFile, kVersio
                                             kWindowsFile, kLabelsFile,   kChosenFile,
                                             kLimitFile,   kMeshFile,     kChangingFile};
 
-/// Left by a kill in an unlucky instant.
+/// True for the name of a file that a kill in an unlucky instant leaves.
 bool is_left_over(const std::string& name) {
   return name.find(".partial-") != name.npos || name.starts_with(io::kScratchPrefix);
 }

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The mwmesh authors
 // SPDX-License-Identifier: Apache-2.0
-// The folder in which a run leaves what later runs may use: whose it is, and of which settings.
+// The folder in which a run leaves what later runs may use: who works in it, for which settings.
 #pragma once
 
 #include <filesystem>
@@ -21,11 +21,11 @@ namespace mw::engine {
 ///     windows       what went into windows and came out (record_log.h, window_records.h)
 ///     labels        the labels of the run that was complete last (kept_labels.h)
 ///     chosen.txt    what the last run chose by itself
-///     limit.txt     bytes that all this may take when a run ends; not there: any number
+///     limit.txt     bytes that all this may take when a run ends; if missing, any number
 ///     mesh.txt      how large the mesh of the run was that was complete last
-///     changing      boxes that runs which were not complete may have seen changed, a line each
-///     part-N        such a folder, of the Nth process beside the first (kept_part()); the first
-///                   one takes it over when the run ends, or when the next one begins
+///     changing      boxes in which incomplete runs may have seen other labels, a line each
+///     part-N        the folder of process N (kept_part()), with the same files; the first process
+///                   takes it over when the run ends, or when the next one begins
 /// and, while a run goes on, files without a name; nothing else.  It stays when the run ends.
 class KeepFolder : public WorkFiles {
  public:
@@ -34,30 +34,30 @@ class KeepFolder : public WorkFiles {
   /// others, or cannot be made.
   KeepFolder(const std::filesystem::path& path, KeepUse use);
 
-  /// What is here is of these settings from now on.
-  /// ERRORS: mw::Error(kUsage) when it is of other ones; each difference is named.
+  /// Saves the settings that the facts here depend on, or checks that they are the saved ones.
+  /// ERRORS: mw::Error(kUsage) when they are not; each difference is named.
   void settle(const std::string& settings) const;
 
   [[nodiscard]] std::unique_ptr<WorkFile> open(const std::string& name) override;
-  /// A file without a name.
+  /// Opens a file without a name.
   [[nodiscard]] std::unique_ptr<WorkFile> open_scratch() const;
   [[nodiscard]] const std::filesystem::path& path() const { return path_; }
-  /// A file of labels of this size replaces the one that is here when the run is complete.
+  /// Says that a file of labels of this size replaces the one here when the run is complete.
   void expect_labels(std::uint64_t bytes) { coming_labels_ = bytes; }
-  /// Bytes of all its files, once such labels have their place.
+  /// Returns the bytes of all its files, counting expected labels in the place of those here.
   [[nodiscard]] std::uint64_t bytes() const;
 
-  /// The folders of other processes that are here.
+  /// Returns the folders of other processes that are here.
   [[nodiscard]] std::vector<std::filesystem::path> parts() const;
 
-  /// A small file as a whole; empty: it is not there.
+  /// Returns the text of a small file; empty where it is not there.
   [[nodiscard]] std::string text(const char* name) const;
   void put_text(const char* name, const std::string& text) const;
 
-  /// A run begins that may see other labels than the run that was complete last, outside of `boxes`
-  /// none.  Returns these boxes, and those of runs in between that were not complete; durable then.
+  /// Begins a run that may see other labels than the run that was complete last, but only inside
+  /// `boxes`.  Returns these boxes and those of incomplete runs in between, which are durable then.
   [[nodiscard]] std::vector<Box3> begin_change(const std::vector<Box3>& boxes) const;
-  /// The run is complete, and its labels have the place of those before.
+  /// Ends a run that is complete, once its labels have replaced those of the last complete one.
   void end_change() const;
 
  private:
@@ -69,10 +69,11 @@ class KeepFolder : public WorkFiles {
   io::FileDescriptor lock_;
 };
 
-/// Changes with what is in the files; it is one of the settings, so a folder of another is refused.
+/// The version of what is in the files.  It is one of the settings, so a folder of another version
+/// is refused.
 inline constexpr int kFolderFormat = 3;
 
-/// Where a process of a run keeps what it does: in `folder` itself if it is the first, rank 0.
+/// Returns where a process of a run keeps what it does: in `folder` itself if it is rank 0.
 [[nodiscard]] std::filesystem::path kept_part(const std::filesystem::path& folder, int rank);
 
 inline constexpr const char* kVersionsFile = "versions";

@@ -19,23 +19,23 @@ class KeepFolder;
 
 enum class KeepUse {
   kBegin,   ///< the folder holds nothing yet
-  kGoOn,    ///< with what is there, if there is something
+  kGoOn,    ///< the run goes on with what is there, if anything
   kUpdate,  ///< an earlier run has left something there
 };
 
 struct KeepOptions {
-  std::filesystem::path folder;  ///< empty: nothing is kept
+  std::filesystem::path folder;  ///< if empty, nothing is kept
   KeepUse use = KeepUse::kBegin;
-  /// What the folder may take when the run ends; none: as an earlier run said, or any number.
+  /// Bytes that the folder may take when the run ends; if empty, the limit of an earlier run holds.
   std::optional<std::uint64_t> bytes;
   /// Boxes of the volume's voxels outside of which the labels are those of the run that was
-  /// complete last; empty: anything may have changed.  For mesh() (engine/job/mesh_job.h).
+  /// complete last.  If empty, anything may have changed.  mesh() uses it (engine/job/mesh_job.h).
   std::vector<Box3> changed;
-  /// What else two runs must have in common: lines "name = value".
+  /// Further lines "name = value" that two runs must have in common.
   std::string identity;
-  /// The folder, where it is open already; null: it is opened.
+  /// The folder if it is open already; if null, it is opened.
   std::shared_ptr<KeepFolder> opened;
-  /// Optional: told, in a line each, what a user should know.
+  /// Optional; called with each line that a user should read.
   std::function<void(const std::string&)> say;
 };
 
@@ -46,9 +46,9 @@ struct KeepFacts {
     std::uint64_t skipped = 0;
   };
   std::vector<March> marches;
-  std::uint64_t voxels_read = 0;    ///< of labels, from the volume and not from the folder
-  std::uint64_t bytes_kept = 0;     ///< in the folder, at the end
-  std::uint64_t bytes_written = 0;  ///< of blocks
+  std::uint64_t voxels_read = 0;    ///< voxels read from the volume, not from the folder
+  std::uint64_t bytes_kept = 0;     ///< what the folder takes at the end
+  std::uint64_t bytes_written = 0;  ///< bytes of blocks written
 };
 
 }  // namespace mw::engine

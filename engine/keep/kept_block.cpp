@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: The mwmesh authors
 // SPDX-License-Identifier: Apache-2.0
-// Only the list of labels at the front changes: tets and samples name places in it, and ranks
-// ascend as labels do.
+// Only the list of labels at the front changes: tets and samples name places in this list, and its
+// order is the same, since ranks ascend as labels do.
 #include "engine/keep/kept_block.h"
 
 #include <utility>

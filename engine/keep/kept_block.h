@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The mwmesh authors
 // SPDX-License-Identifier: Apache-2.0
-// Blocks as they are kept: with the labels' own numbers in the place of their ranks.
+// Blocks as they are kept: with the labels' own numbers instead of their ranks.
 #pragma once
 
 #include <cstddef>
@@ -12,7 +12,7 @@
 
 namespace mw::engine {
 
-/// Numbers that ascend as labels do, whether signed or not.
+/// Keys of labels: numbers that ascend as the labels' own numbers do, whether signed or not.
 class LabelKeys {
  public:
   /// The table outlives it.
@@ -21,7 +21,7 @@ class LabelKeys {
 
   /// REQUIRES: a label of the table.
   [[nodiscard]] std::uint64_t key(Label label) const { return table_.raw(label) ^ flip_; }
-  /// kExterior for a key of no label of the table.
+  /// Returns kExterior for a key of no label of the table.
   [[nodiscard]] Label label(std::uint64_t key) const { return table_.find(key ^ flip_); }
   [[nodiscard]] const io::LabelTable& table() const { return table_; }
 
@@ -30,8 +30,8 @@ class LabelKeys {
   RawLabel flip_;
 };
 
-/// The bytes of encode_block() without its head and key, each label being its key: they are the
-/// same when another label comes to the volume or leaves it.
+/// Returns the bytes of encode_block() without head and block key, and with each label's key in its
+/// place: they stay the same when another label comes to the volume or leaves it.
 ///
 ///     labels var; each key var, minus the one before (ascending)
 ///     everything that follows the labels in encode_block()
@@ -40,8 +40,8 @@ class LabelKeys {
 [[nodiscard]] std::vector<std::byte> to_kept(std::span<const std::byte> encoded,
                                              const LabelKeys& labels);
 
-/// The other way round.
-/// ERRORS: DamagedWork when there is a label that the table does not have, or no list of labels.
+/// Returns the bytes of encode_block() for a block that to_kept() made.
+/// ERRORS: DamagedWork when it has a label that the table does not have, or no list of labels.
 [[nodiscard]] std::vector<std::byte> from_kept(const BlockKey& key, std::span<const std::byte> kept,
                                                const LabelKeys& labels);
 

@@ -13,7 +13,7 @@
 namespace mw::engine {
 namespace {
 
-/// Gaps take at most such a part of the file when a run ends.
+/// Gaps of more than one part in kMostGaps of the file are filled when a run ends.
 constexpr std::uint64_t kMostGaps = 8;
 constexpr const char* kCompactedFile = ".windows.partial-compacted";
 
@@ -21,7 +21,7 @@ constexpr const char* kCompactedFile = ".windows.partial-compacted";
   throw DamagedWork("records of windows", "two point to the same bytes, or to none");
 }
 
-/// What an extent takes of the file.
+/// Returns the bytes that an extent takes of the file.
 std::uint64_t sectors_of(const Extent& extent) {
   constexpr std::uint64_t kSector = ExtentAllocator::kSectorBytes;
   return (extent.size + kSector - 1) / kSector * kSector;
@@ -92,7 +92,7 @@ WindowRecord KeptFacts::add(WindowRecord record, std::span<const std::byte> pack
     full = group_.size() >= limits_.windows || Clock::now() - group_since_ >= limits_.age;
   }
   if (full) {
-    const std::unique_lock turn(saving_, std::try_to_lock);  // else another thread is at it
+    const std::unique_lock turn(saving_, std::try_to_lock);  // if it fails, another thread saves
     if (turn.owns_lock()) write_group();
   }
   return record;
@@ -147,7 +147,7 @@ std::vector<std::uint64_t> KeptFacts::take_over_parts() {
   return by_march;
 }
 
-/// The records of the part go first, so that a folder which is half gone after a kill holds none.
+/// The records of the part are removed first, so that a folder half removed by a kill holds none.
 void KeptFacts::take_over(const std::filesystem::path& part, std::vector<std::uint64_t>& by_march) {
   const std::filesystem::path records = part / kWindowsFile;
   if (std::filesystem::exists(records)) {
@@ -167,11 +167,11 @@ void KeptFacts::take_over(const std::filesystem::path& part, std::vector<std::ui
     save();
     std::filesystem::remove(records);
   }
-  std::error_code ignored;  // what stays holds no records, and goes next time
+  std::error_code ignored;  // what stays holds no records, and the next run removes it
   std::filesystem::remove_all(part, ignored);
 }
 
-/// What is given up leaves gaps, not all of which can be filled, so it may take some rounds.
+/// Bytes that are given up leave gaps, not all of which can be filled, so it may take some rounds.
 void KeptFacts::shrink_to(std::uint64_t folder_bytes) {
   const std::lock_guard turn(saving_);
   write_group();
@@ -186,7 +186,7 @@ void KeptFacts::shrink_to(std::uint64_t folder_bytes) {
   }
 }
 
-/// Gives up at least that many bytes, or all that may go.  Returns false if there are none.
+/// Gives up at least `bytes` bytes, or all that may go.  Returns false if none may.
 bool KeptFacts::drop(std::uint64_t bytes) {
   std::vector<KeptBytes> kept;
   each([&](const WindowRecord& record) {
@@ -228,7 +228,7 @@ void KeptFacts::move_down() {
   write_group();
 }
 
-/// Writes the last record of each window alone.
+/// Replaces the log by one that has only the last record of each window.
 void KeptFacts::compact_log() {
   if (records_ > live_) {
     const std::filesystem::path file = folder_.path() / kCompactedFile;

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The mwmesh authors
 // SPDX-License-Identifier: Apache-2.0
-// The facts of a folder: what went into visits and came out, and the bytes of that.
+// The facts of a folder: what went into visits, what came out, and the bytes of the blocks.
 #pragma once
 
 #include <chrono>
@@ -18,40 +18,41 @@
 
 namespace mw::engine {
 
-/// The last record of each window, and the bytes that it points to.  A group of records becomes
-/// durable at a time: first bytes, then the records, and only then what these replace is free.
+/// The last record of each window, and the bytes that it points to.  Records become durable a group
+/// at a time: first their bytes, then the records; only then the bytes that these replace are free.
 ///
 /// Each run has a number, which is higher than those of the runs before it.
 ///
 /// Thread safety: of(), add() and read() may be called from many threads, the others one at a time.
 class KeptFacts {
  public:
-  /// limits: when a group is full.  The references outlive it.
+  /// limits says when a group is full.  The references outlive it.
   /// ERRORS: DamagedWork.
   KeptFacts(KeepFolder& folder, const RunLayout& layout, const GroupCommit& limits);
 
-  /// The durable record of a window.  REQUIRES: the number of a window of the layout.
+  /// Returns the durable record of a window.  REQUIRES: the number of a window of the layout.
   [[nodiscard]] std::optional<WindowRecord> of(std::uint64_t window) const;
   /// Adds a record of this run, and the bytes of the blocks that it keeps; returns it with their
   /// place.
   WindowRecord add(WindowRecord record, std::span<const std::byte> packed);
-  /// What add() wrote.
+  /// Reads what add() wrote.
   void read(const Extent& extent, const UseBytes& use) const { bytes_.read(extent, use); }
-  /// Whether bytes of the window were given up for want of space (shrink_to()).
+  /// True if bytes of the window were given up for want of space (shrink_to()).
   [[nodiscard]] bool is_dropped(std::uint64_t window) const { return dropped_[window]; }
   [[nodiscard]] bool has_dropped() const;
   /// True if there are records.
   [[nodiscard]] bool any() const;
 
-  /// What was added so far survives a power cut.
+  /// ENSURES: what was added so far survives a power cut.
   void save();
-  /// Has what other processes kept in KeepFolder::parts() from then on; they are gone then.
-  /// Returns how many records of each march these were.
-  /// REQUIRES: nobody is at work in them.  ERRORS: DamagedWork.
+  /// Adds what other processes kept in KeepFolder::parts(), and removes these folders.
+  /// Returns how many records of each march they had.
+  /// REQUIRES: no process is at work in them.  ERRORS: DamagedWork.
   std::vector<std::uint64_t> take_over_parts();
-  /// Gives up bytes until the folder takes no more than that: drop_order() says which.
+  /// Gives up bytes, in the order of drop_order(), until the folder takes no more than
+  /// folder_bytes or nothing else may go.
   void shrink_to(std::uint64_t folder_bytes);
-  /// Nothing is added any more: files end where their last record and extent do.
+  /// Makes the files end where their last record and extent do.  Nothing is added afterwards.
   void finish();
 
  private:
@@ -76,16 +77,16 @@ class KeptFacts {
 
   mutable std::mutex mutex_;  ///< guards the next lines
   SegmentFile bytes_;
-  std::vector<std::uint64_t> record_at_;  ///< by window, 1 more than where its record is; 0: none
+  std::vector<std::uint64_t> record_at_;  ///< by window: 1 more than where its record is; 0 if none
   std::vector<bool> dropped_;             ///< by window
-  std::vector<WindowRecord> group_;       ///< not durable yet
-  std::vector<Extent> superseded_;        ///< by what is in the group
+  std::vector<WindowRecord> group_;       ///< records that are not durable yet
+  std::vector<Extent> superseded_;        ///< extents that records of the group replace
   Clock::time_point group_since_ = Clock::now();
   std::uint64_t live_ = 0;  ///< windows with a record
 
   std::mutex saving_;  ///< taken before mutex_; guards the log's end
   std::unique_ptr<RecordLog> log_;
-  std::uint64_t records_ = 0;  ///< in the log
+  std::uint64_t records_ = 0;  ///< records in the log
 };
 
 }  // namespace mw::engine

@@ -103,7 +103,7 @@ std::vector<RawLabel> KeptLabels::read(Index3 tile) const {
         io::unpack_zstd(packed, voxels * sizeof(RawLabel), "labels");
     if (bytes.size() == voxels * sizeof(RawLabel)) return numbers_in(bytes);
   } catch (const Error&) {
-    // told below
+    // It is reported below.
   }
   fail_damaged("a tile cannot be unpacked");
 }

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The mwmesh authors
 // SPDX-License-Identifier: Apache-2.0
-// The labels of a run, packed, so that a later one need only read what has changed.
+// The labels of a run, packed, so that a later run need only read what has changed.
 #pragma once
 
 #include <atomic>
@@ -22,13 +22,13 @@ namespace mw::engine {
 ///     tiles, frames of Zstandard of 8 bytes a voxel
 class KeptLabels {
  public:
-  /// Nothing where there is no such file, or one of another shape.
+  /// Returns nothing where there is no such file, or one for another shape.
   /// ERRORS: DamagedWork.
   [[nodiscard]] static std::optional<KeptLabels> open(const std::filesystem::path& file,
                                                       Index3 shape);
 
   [[nodiscard]] const ReadingTiles& tiles() const { return tiles_; }
-  /// The labels of a tile, x fastest.  Thread-safe.  ERRORS: DamagedWork.
+  /// Returns the labels of a tile, x fastest.  Thread-safe.  ERRORS: DamagedWork.
   [[nodiscard]] std::vector<RawLabel> read(Index3 tile) const;
 
  private:
@@ -46,15 +46,15 @@ class KeptLabels {
   std::vector<Place> places_;
 };
 
-/// Reads the volume once.  Memory: two tiles.
+/// Writes the file that KeptLabels opens.  It reads the volume once, and holds two tiles in memory.
 void write_kept_labels(const io::LabelVolume& volume, io::AtomicFile& file);
 
 /// A volume that is read in some boxes only; everywhere else the labels are those that were kept.
-/// Thread safety: as LabelVolume.
+/// Thread safety: that of LabelVolume.
 class PatchedVolume : public io::VolumeView {
  public:
-  /// changed: boxes of voxels, which may reach out of the volume.  REQUIRES: kept has the volume's
-  /// shape.  volume and kept outlive it.
+  /// changed are boxes of voxels, which may reach out of the volume.  REQUIRES: kept has the
+  /// volume's shape; volume and kept outlive it.
   PatchedVolume(const io::LabelVolume& volume, const KeptLabels& kept, std::vector<Box3> changed)
       : VolumeView(volume), kept_(kept), changed_(std::move(changed)) {}
 

@@ -16,12 +16,12 @@ namespace mw::engine {
 namespace {
 
 constexpr Index3 kBrickShape{kBrick, kBrick, kBrick};
-/// In the place of a label's key; what follows it says that it is none (run_of).
+/// Stands for a label's key outside the volume; the number after it says that it is none (run_of).
 constexpr std::uint64_t kOutside = 0;
-/// Limits on edges are looked up so far around what is seen, in voxels: at the ends of edges and of
-/// cells of the start mesh.
+/// How far around what is seen limits on edges are looked up, in voxels: at the ends of edges and
+/// of cells of the start mesh.
 constexpr std::int64_t kLimitHalo = 8;
-/// Allowed cells are looked up so far around a block that is made from voxels.
+/// How far around a block that is made from voxels allowed cells are looked up.
 constexpr std::int64_t kCellHalo = 2;
 
 }  // namespace
@@ -81,15 +81,15 @@ io::ContentDigest LabelDigests::of_one_label(Label label, const Box3& voxels) co
   return maker.finish();
 }
 
-/// The labels that the distance bound looks at, and those that the source surface there depends on
-/// (WindowVisitor); empty where there is no bound.
+/// Returns the box of the labels that the distance bound looks at and that the source surface
+/// there depends on (WindowVisitor); empty where there is no bound.
 Box3 LabelDigests::around(const Box3& content) const {
   if (!reach_ || is_empty(content)) return {};
   const std::int64_t halo = *reach_ + (labels_.has_source() ? kSourceHalo : 0);
   return intersection(grown(content, halo), {{0, 0, 0}, grid_.volume()});
 }
 
-/// The label's key and where its run ends.
+/// Returns the label's key, and twice the place where its run ends, plus 1 outside the volume.
 std::array<std::uint64_t, 2> LabelDigests::run_of(Label label, std::size_t end) const {
   const bool is_outside = label == kExterior;
   return {is_outside ? kOutside : keys_.key(label), std::uint64_t{end} * 2 + (is_outside ? 1 : 0)};
@@ -122,7 +122,7 @@ void LabelDigests::add_shapes(const Box3& voxels, io::DigestMaker& to) const {
                  [&](Index3 brick) { to.add(shapes_[raster(brick, bricks_)]); });
 }
 
-/// Which large cells the start mesh of a block may have.
+/// Adds which large cells the start mesh of a block may have.
 void LabelDigests::add_cells(const Box3& block, io::DigestMaker& to) const {
   const LevelMap& levels = labels_.levels();
   if (levels.cubes() == Index3{}) return;
@@ -163,7 +163,7 @@ io::ContentDigest LabelDigests::of_bricks(const SeenLabels& seen) const {
   return maker.finish();
 }
 
-/// Where all bricks have one label each their digests say as much, and are at hand.
+/// Where all bricks have one label each, their digests say as much as the voxels, and are at hand.
 io::ContentDigest LabelDigests::exact(const SeenLabels& seen) const {
   const Box3 looked_at = around(seen.content);
   const auto is_plain = [&](Index3 block) {

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The mwmesh authors
 // SPDX-License-Identifier: Apache-2.0
-// Names for the labels that visits see, which tell whether a later volume has the same there.
+// Digests of the labels that visits see, which tell whether a later volume has the same ones there.
 #pragma once
 
 #include <array>
@@ -22,13 +22,14 @@ struct SeenLabels {
   Box3 content;                ///< voxels that the content of the window touches
 };
 
-/// Digests of prepared labels by their own numbers, of each brick of 16^3 voxels and of what visits
-/// see.  Bricks that no window of this process needs are digested when they are asked for.
+/// Digests of prepared labels, by the labels' own numbers: of each brick of 16^3 voxels, and of
+/// what visits see.  Bricks of original labels that no window of this process needs are digested
+/// when they are asked for.
 /// Thread safety: const members may be called from many threads.
 /// Memory: label_digest_bytes().
 class LabelDigests {
  public:
-  /// grid: of the first march.  threads: they change nothing.  The references outlive it.
+  /// grid is that of the first march.  threads do not change digests.  The references outlive it.
   LabelDigests(const PreparedLabels& labels, const LabelKeys& keys, const MeshSettings& settings,
                const WindowGrid& grid, int threads);
 
@@ -44,7 +45,7 @@ class LabelDigests {
 
   using DigestOf = std::function<io::ContentDigest(Index3 brick)>;
 
-  /// Returns the digests of these bricks, and none of others.
+  /// Returns the digests of these bricks; those of all others are none.
   [[nodiscard]] Digests digests_of(const Box3& bricks, const DigestOf& of, int threads) const;
   [[nodiscard]] Box3 voxels_of(Index3 brick) const;
   [[nodiscard]] io::ContentDigest original_of(Index3 brick) const;
@@ -58,19 +59,19 @@ class LabelDigests {
   void add_voxels(const LabelBox& labels, io::DigestMaker& to) const;
   void add_cells(const Box3& block, io::DigestMaker& to) const;
   void add_limits(const Box3& voxels, io::DigestMaker& to) const;
-  /// Whether each brick has one label, and one for start meshes, too, if asked.
+  /// True if each brick has one label, and with as_shapes also one coarsened label.
   [[nodiscard]] bool all_uniform(const Box3& voxels, bool as_shapes) const;
 
   const PreparedLabels& labels_;
   const LabelKeys& keys_;
   const WindowGrid& grid_;
-  std::optional<std::int64_t> reach_;  ///< of the distance bound; none: there is none
+  std::optional<std::int64_t> reach_;  ///< how far the distance bound looks, if there is one
   Index3 bricks_;
   Digests originals_;
   Digests shapes_;  ///< empty where labels are not coarsened
 };
 
-/// Memory that they take for a volume of this shape.
+/// Returns the memory that LabelDigests takes for a volume of this shape.
 [[nodiscard]] std::uint64_t label_digest_bytes(Index3 shape);
 
 }  // namespace mw::engine

@@ -13,7 +13,7 @@ namespace {
 
 constexpr std::uint64_t kLogMagic = 0x0200474F4C574D2EU;  // ".MWLOG", version 0 2
 constexpr std::uint64_t kMagicBytes = 8;
-constexpr std::uint64_t kHeadBytes = 8;  ///< of a record: length and checksum
+constexpr std::uint64_t kHeadBytes = 8;  ///< length and checksum of a record
 constexpr std::uint64_t kGrowBytes = 1 << 20;
 
 template <class T>
@@ -53,7 +53,7 @@ void RecordLog::replay(const UseRecord& use) {
     if (!whole) break;
     end_ += kHeadBytes + length;
   }
-  // New bytes are zeros, so that nothing old is ever taken for a record behind a new one.
+  // Bytes that are added later are zeros, so that none of these is taken for a record.
   file_->resize(end_);
 }
 

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The mwmesh authors
 // SPDX-License-Identifier: Apache-2.0
-// A file of records that only grows; a kill leaves whole records.
+// A file of records that only grows and of which a kill leaves whole records.
 #pragma once
 
 #include <functional>
@@ -11,29 +11,29 @@
 
 namespace mw::engine {
 
-/// 8 bytes that say what the file is, then records: length and CRC-32 in 4 bytes each, then bytes
-/// of that length.  What is not whole ends the log: it was never there.  Zeros may follow. Thread
-/// safety: read() may run beside everything, the others one at a time.
+/// The file has 8 bytes that say what it is, then records: length and CRC-32 in 4 bytes each, then
+/// bytes of that length.  A record that is not whole ends the log and does not count; zeros may
+/// follow.  Thread safety: read() may run beside everything, the others one at a time.
 class RecordLog {
  public:
   using UseRecord = std::function<void(std::uint64_t at, std::span<const std::byte> record)>;
 
-  /// Begins an empty file.
-  /// ERRORS: DamagedWork when the file begins as another one.
+  /// Writes the first 8 bytes if the file is empty.
+  /// ERRORS: DamagedWork when the file begins otherwise.
   explicit RecordLog(std::unique_ptr<WorkFile> file);
 
   /// Calls use for all records in their order, and cuts off what is not whole behind them.
-  /// REQUIRES: called once, before append().
+  /// REQUIRES: it is called once, before append().
   void replay(const UseRecord& use);
-  /// Returns where the record is; durable after sync().
+  /// Returns where the record is.  It is durable after sync().
   std::uint64_t append(std::span<const std::byte> record);
   void sync() { file_->sync(); }
   /// Makes the file end where its last record does.
   void trim() { file_->resize(end_); }
-  /// REQUIRES: a place that replay() or append() told.
+  /// REQUIRES: a place that replay() or append() gave.
   void read(std::uint64_t at, const UseBytes& use) const;
 
-  /// Bytes of all records.
+  /// Returns where the last record ends.
   [[nodiscard]] std::uint64_t bytes() const { return end_; }
 
  private:

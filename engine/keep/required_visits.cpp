@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The mwmesh authors
 // SPDX-License-Identifier: Apache-2.0
-// Forwards to what an edit may reach, then backwards to what that needs.
+// Walks forwards to the windows that an edit may reach, then backwards to what these need.
 #include "engine/keep/required_visits.h"
 
 #include <algorithm>
@@ -10,7 +10,7 @@
 namespace mw::engine {
 namespace {
 
-/// The windows of all marches in the order of the run.
+/// Returns the windows of all marches in the order of the run.
 std::vector<WindowKey> in_order(const RunLayout& layout) {
   std::vector<WindowKey> out;
   for (std::uint32_t march = 0; march < layout.marches(); ++march) {

@@ -10,14 +10,15 @@
 
 namespace mw::engine {
 
-/// Whether a window sees what its record says, if those do from which it takes blocks.  Called in
-/// the order of the run, only for windows of which all of these do.
+/// True if a window sees what its record says.  It is called in the order of the run, and only for
+/// windows that take blocks from no window for which that may be false.
 using Recalls = std::function<bool(const WindowKey& key)>;
-/// Whether the bytes that a window left are nowhere.
+/// True if the bytes that a window left were given up.
 using IsDropped = std::function<bool(std::uint64_t window)>;
 
-/// Returns, by window, those that some window may need which has to be visited: one that may see
-/// something else than its record says, or one that is returned.
+/// Returns, by window, which windows have to be visited because their bytes were given up and a
+/// window that is visited takes their blocks.  A window is visited if it may see something else
+/// than its record says, or if it is one of those returned.
 /// Cost: a call of `recalls` a window.
 [[nodiscard]] std::vector<bool> required_visits(const RunLayout& layout, const Recalls& recalls,
                                                 const IsDropped& is_dropped);

@@ -1,12 +1,12 @@
 // SPDX-FileCopyrightText: The mwmesh authors
 // SPDX-License-Identifier: Apache-2.0
-// Which sources decide on results: facts of other ones are not to be believed.
+// An id of the sources that decide on results: facts from other sources are not used.
 #pragma once
 
 namespace mw::engine {
 
-/// 16 hexadecimal digits, another number for other sources; the file that has it is made by
-/// results_id.cmake.
+/// Returns 16 hexadecimal digits, which differ for other sources.  results_id.cmake makes the file
+/// that defines it.
 [[nodiscard]] const char* results_id();
 
 }  // namespace mw::engine

@@ -57,7 +57,7 @@ WindowKeep::WindowKeep(const KeepOptions& options, const std::string& settings,
 void WindowKeep::begin(const PreparedLabels& labels, const MeshSettings& settings,
                        double inner_quality, int threads) {
   digests_.emplace(labels, keys_, settings, layout_.grid(0), threads);
-  // Nothing was ever made with another choice, so no fact fits.
+  // The choice is a part of every fact, so with another one no fact fits.
   const std::string chosen = io::text("inner-quality = ", inner_quality, "\n");
   const std::string before = folder_->text(kChosenFile);
   if (!before.empty() && before != chosen && options_.say) {
@@ -71,7 +71,7 @@ void WindowKeep::begin(const PreparedLabels& labels, const MeshSettings& setting
   if (kept_.has_dropped()) find_required();
 }
 
-/// Looks windows up in their order as if all that may be recalled were.
+/// Looks windows up in their order, as if each that can be recalled is recalled.
 void WindowKeep::find_required() {
   const Recalls recalls = [this](const WindowKey& key) {
     const Known known = look_up(key);
@@ -136,13 +136,13 @@ WindowKeep::Known WindowKeep::look_up(const WindowKey& key, const VersionOf& ver
   return out;
 }
 
-/// Whether the window comes before all that share a block with it.
+/// True if the window comes before all that share a block with it.
 bool WindowKeep::is_first(const WindowKey& key) const {
   return key.march == 0 && layout_.order(0).step(key.window) == 0;
 }
 
-/// The window that takes a block right after a window that is first; nothing where there is none.
-/// In colour order it is the neighbour along x.
+/// Returns the window that takes a block right after a window that is first, or nothing where there
+/// is none.  In colour order it is the neighbour along x.
 std::optional<WindowKey> WindowKeep::follower(const WindowKey& key, const Index3& block) const {
   WindowKey next = key;
   next.window.x += block.x == key.window.x ? -1 : 1;
@@ -150,8 +150,8 @@ std::optional<WindowKey> WindowKeep::follower(const WindowKey& key, const Index3
   return is_there ? std::optional(next) : std::nullopt;
 }
 
-/// Whether a follower will find what it knows, as far as can be told before any window is visited:
-/// if the windows before it, which are first, leave what their facts say.
+/// True if a follower's fact will fit, as far as that can be told before any window is visited: if
+/// the windows before it, which are first, leave what their facts say.
 bool WindowKeep::will_recall(const WindowKey& follower) const {
   std::map<std::uint64_t, KeptVersion> left;  // by slot
   for (const std::int64_t step : {-1, 1}) {
@@ -172,7 +172,7 @@ bool WindowKeep::will_recall(const WindowKey& follower) const {
   return known.record.has_value();
 }
 
-/// Whether a window may take a block of this first one, whose bytes are nowhere.
+/// True if a window that is visited may take a block of this first one which is not kept.
 bool WindowKeep::is_needed(const WindowKey& key) const {
   for (const std::int64_t step : {0, 1}) {
     const auto next = follower(key, {key.window.x + step, key.window.y, key.window.z});
@@ -210,7 +210,7 @@ std::optional<std::vector<KeptPlace>> WindowKeep::recalled(const WindowKey& key)
   return places_of(*record);
 }
 
-/// What the window left is there now.
+/// Makes what the window left the present versions of its blocks.
 void WindowKeep::leave(const WindowKey& key, const WindowRecord& record) {
   const std::vector<BlockKey> blocks = blocks_of(key);
   if (blocks.size() != record.blocks.size()) {
@@ -237,7 +237,7 @@ std::vector<KeptPlace> WindowKeep::places_of(const WindowRecord& record) {
   return out;
 }
 
-/// To make one costs more than to pack a window of one label.
+/// Packers are used again, since to make one costs more than to pack a window of one label.
 std::unique_ptr<io::ZstdPacker> WindowKeep::take_packer() {
   const std::lock_guard lock(mutex_);
   if (packers_.empty()) return std::make_unique<io::ZstdPacker>(kPackLevel);
@@ -317,7 +317,7 @@ void WindowKeep::take_over_parts() {
   for (std::size_t i = 0; i < by_march.size(); ++i) facts_.marches[i].visited += by_march[i];
 }
 
-/// A limit holds for later runs that name none.
+/// A limit is saved, since it holds for later runs that name none.
 void WindowKeep::shrink() {
   std::uint64_t limit = 0;
   if (options_.bytes) {

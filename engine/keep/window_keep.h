@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The mwmesh authors
 // SPDX-License-Identifier: Apache-2.0
-// Visits that were made before are not made again.
+// Recalls visits that an earlier run has made, so that they are not made again.
 #pragma once
 
 #include <functional>
@@ -21,44 +21,45 @@
 
 namespace mw::engine {
 
-/// Remembers, across runs, what visits made of what.
+/// Remembers, across runs, what visits made from which input.
 ///
-/// A visit is a function of its blocks, of the labels that it sees, and of settings.  The folder
-/// holds such facts, the last one of each window; so nothing in it is ever wrong, whatever happened
-/// to the volume or the run.  A window whose input is that of its fact is not visited: its blocks
-/// are those that came out then, by reference.
+/// A visit is a function of its blocks, of the labels that it sees, and of settings.  A fact says
+/// what went into a visit and what came out; the folder holds the last one of each window.  So it
+/// is never wrong, whatever happens to the volume or the run.  A window whose input is that of its
+/// fact is not visited: the store refers to the blocks that came out then.
 ///
 /// A window that no other comes before makes its blocks from labels alone.  Those of its blocks
-/// that another window takes next are a quarter of all bytes, so they are not kept: such a window
-/// is visited again where one that takes them will be.
+/// that another window takes next would be a quarter of all bytes, so they are not kept: such a
+/// window is visited again where one that takes them is visited.
 ///
 /// Blocks and labels are digested by the labels' own numbers, and visits depend on nothing but the
 /// order of these (kernels/README.md, "Determinism").
 ///
-/// Where the folder is to take less than all that takes, bytes of some windows are given up
-/// (KeptFacts::shrink_to()).  Such a window is visited again, too, where others may take its
-/// blocks.
+/// Where the folder has a limit below that, bytes of some windows are given up
+/// (KeptFacts::shrink_to()).  These windows are visited again, too, where windows that are visited
+/// may take their blocks.
 ///
 /// Each process of a run keeps its own visits, in a folder of its own.
 ///
 /// Thread safety: windows that share no block may be asked for and kept at the same time.
 class WindowKeep : public BlockKeeper {
  public:
-  /// settings: what every fact depends on, lines "name = value".  limits: when facts become
+  /// settings are lines "name = value" that every fact depends on.  limits says when facts become
   /// durable.  The references outlive it.
   /// ERRORS: those of KeepFolder; DamagedWork; mw::Error(kResource) when the index exceeds the
   /// budget.
   WindowKeep(const KeepOptions& options, const std::string& settings, const RunLayout& layout,
              MemoryBudget& budget, const io::LabelTable& table, const GroupCommit& limits);
 
-  /// To be called before the first march.  inner_quality: that is kept to (MeshSettings).  labels
-  /// outlive it.
+  /// Must be called before the first march.  inner_quality is the one that the run uses
+  /// (MeshSettings).  labels outlive it.
   void begin(const PreparedLabels& labels, const MeshSettings& settings, double inner_quality,
              int threads);
 
-  /// Whether the window need not be visited.  REQUIRES: its predecessors are done.
+  /// True if the window need not be visited.  REQUIRES: its predecessors are done.
   [[nodiscard]] bool recalls(const WindowKey& key);
-  /// The blocks of a window that need not be visited, which is done then; nothing for another.
+  /// Returns the blocks of a window that need not be visited, and notes that it has left them;
+  /// nothing for a window that must be visited.
   /// REQUIRES: recalls() was asked, and nothing that it depends on has changed since.
   [[nodiscard]] std::optional<std::vector<KeptPlace>> recalled(const WindowKey& key);
 
@@ -69,15 +70,14 @@ class WindowKeep : public BlockKeeper {
                                             const KeptPlace& place) const override;
   [[nodiscard]] std::unique_ptr<WorkFile> open_spill() override { return folder_->open_scratch(); }
 
-  /// What was kept so far survives a power cut.
+  /// ENSURES: what was kept so far survives a power cut.
   void save() { kept_.save(); }
-  /// Has what other processes of the run kept in folders beside this one's files
-  /// (kept_part()) from then on; they are gone then.  REQUIRES: nobody is at work in them.
-  /// ERRORS: DamagedWork.
+  /// Adds what other processes of the run kept in folders beside this one's files (kept_part()),
+  /// and removes these folders.  REQUIRES: no process is at work in them.  ERRORS: DamagedWork.
   void take_over_parts();
-  /// The run is complete.
+  /// Shrinks the folder to its limit when the run is complete.
   void finish();
-  /// Whether a later run finds anything.
+  /// True if a later run finds anything.
   [[nodiscard]] bool has_facts() const { return kept_.any(); }
 
   [[nodiscard]] KeepFacts facts() const;
@@ -87,11 +87,11 @@ class WindowKeep : public BlockKeeper {
   struct Known {
     VisitInput input;
     SeenLabels seen;
-    std::optional<WindowRecord> record;  ///< the fact that tells the outcome
+    std::optional<WindowRecord> record;  ///< the fact with the outcome; none if it must be visited
   };
 
   [[nodiscard]] std::vector<BlockKey> blocks_of(const WindowKey& key) const;
-  /// The version of a block that a window takes; null: there is none yet.
+  /// Returns the version of a block that a window takes, or null if there is none yet.
   using VersionOf = std::function<const KeptVersion*(const BlockKey& block)>;
   [[nodiscard]] Known look_up(const WindowKey& key, const VersionOf& version_of) const;
   [[nodiscard]] Known look_up(const WindowKey& key) const;
@@ -116,13 +116,13 @@ class WindowKeep : public BlockKeeper {
   MemoryBudget::Reservation room_;
   KeptFacts kept_;
   std::optional<LabelDigests> digests_;
-  io::ContentDigest scope_;            ///< of what is settled for the run
-  std::vector<KeptVersion> versions_;  ///< by slot: those that are there now
-  std::vector<bool> required_;         ///< by window: must be visited; empty: none
+  io::ContentDigest scope_;            ///< digest of what is settled for the run
+  std::vector<KeptVersion> versions_;  ///< by slot: the present version of the block
+  std::vector<bool> required_;         ///< by window: it must be visited; empty if none must
 
   mutable std::mutex mutex_;              ///< guards the next lines
-  std::map<std::uint64_t, Known> known_;  ///< of windows that are asked for and not done
-  std::vector<std::unique_ptr<io::ZstdPacker>> packers_;  ///< that nobody uses
+  std::map<std::uint64_t, Known> known_;  ///< by window: those asked for that are not done
+  std::vector<std::unique_ptr<io::ZstdPacker>> packers_;  ///< those that no thread uses
   KeepFacts facts_;
 };
 

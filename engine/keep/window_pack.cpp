@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The mwmesh authors
 // SPDX-License-Identifier: Apache-2.0
-// Kept blocks to columns and back.
+// Turns kept blocks into columns and back.
 #include "engine/keep/window_pack.h"
 
 #include <algorithm>
@@ -14,22 +14,22 @@
 namespace mw::engine {
 namespace {
 
-/// Things of one kind.  Vertices that an earlier block has as well are in kIds and kSeen alone.
+/// Values of one kind.  Vertices that an earlier block has as well are in kIds and kSeen alone.
 enum Column : std::size_t {
-  kCounts,        ///< of all lists, and the labels
-  kIds,           ///< of vertices, as steps
+  kCounts,        ///< lengths of all lists, and the labels
+  kIds,           ///< ids of vertices, as steps
   kSeen,          ///< 1: an earlier block has the vertex, 0: it follows in the next columns
   kNear,          ///< positions minus those of the vertex before, zigzag: the lowest bytes
-  kFar,           ///< the second bytes
-  kFarther,       ///< the rest of each
+  kFar,           ///< the second bytes of these
+  kFarther,       ///< the rest of these
   kQuadricCodes,  ///< 5 bytes each
-  kFirstBytes,    ///< of the quadric's numbers, each kind of these (kKindOf) for itself
+  kFirstBytes,    ///< first bytes of the quadrics' numbers, a column for each kind (kKindOf)
   kSecondBytes = kFirstBytes + 4,
   kOtherBytes = kSecondBytes + 4,
-  kFirstRows,  ///< of tets
+  kFirstRows,  ///< first rows of tets
   kOtherRows,
   kTetLabels,
-  kFirstCorners,  ///< of lists of samples
+  kFirstCorners,  ///< first corners of lists of samples
   kOtherCorners,
   kSides,
   kListSizes,
@@ -61,7 +61,7 @@ std::size_t code_of(std::uint64_t codes, std::size_t number) {
   return codes >> 4 * number & 15;
 }
 
-/// How many bytes of a number follow.
+/// Returns how many bytes of a number follow.
 std::size_t stored_bytes(std::uint64_t codes, std::size_t number) {
   const std::size_t code = code_of(codes, number);
   return code == kSameAsFirst ? 0 : code;
@@ -76,12 +76,12 @@ std::size_t quadric_bytes(std::uint64_t codes) {
 /// The vertices of the blocks so far, ascending, each id once.
 class KnownVertices {
  public:
-  /// Ids of one block are asked for in their order.  Null: there is none of that id.
+  /// Returns null if no vertex has that id.  REQUIRES: ids of one block ascend from call to call.
   const KnownVertex* find(std::uint64_t id) {
     while (next_ < known_.size() && known_[next_].id < id) ++next_;
     return next_ < known_.size() && known_[next_].id == id ? &known_[next_] : nullptr;
   }
-  /// Takes a vertex of the present block; find() tells of it from the next block on.
+  /// Takes a vertex of the present block; find() finds it from the next block on.
   void add(const KnownVertex& vertex) { fresh_.push_back(vertex); }
   void end_block() {
     std::vector<KnownVertex> all;
@@ -198,7 +198,7 @@ class ColumnWriter {
   }
 
  public:
-  /// Where the k-th byte of a number goes.
+  /// Returns the column of the k-th byte of a number.
   static std::size_t column_of(std::size_t number, std::size_t k) {
     if (k > 1) return kOtherBytes;
     return (k == 0 ? kFirstBytes : kSecondBytes) + kKindOf[number];
@@ -245,7 +245,7 @@ class ColumnReader {
     for (const std::vector<std::byte>& column : columns) in_.emplace_back(column);
   }
 
-  /// The next block, as it was.
+  /// Returns the next block, as it was.
   std::vector<std::byte> next() {
     ByteWriter out;
     labels(out);
@@ -256,7 +256,7 @@ class ColumnReader {
     return {bytes.begin(), bytes.end()};
   }
 
-  /// Goes past the next block: what later ones share with it is known then.
+  /// Goes past the next block, and notes its vertices, which later blocks may share.
   void pass() {
     in_[kCounts].pass(in_[kCounts].varint());
     static_cast<void>(read_vertices(in_[kCounts].varint()));
@@ -275,7 +275,7 @@ class ColumnReader {
 
  private:
   struct Vertices {
-    std::vector<std::uint64_t> steps;  ///< of their ids
+    std::vector<std::uint64_t> steps;  ///< steps of their ids
     std::vector<KnownVertex> all;
   };
 

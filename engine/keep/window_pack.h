@@ -11,20 +11,20 @@
 
 namespace mw::engine {
 
-/// Packs kept blocks (kept_block.h) of one window.  What two of them share, the vertices between
-/// them, is written once; and what is alike stands together, in columns, since Zstandard packs
-/// these by a third better than blocks as they are.
+/// Packs kept blocks (kept_block.h) of one window.  The vertices that two of them share are written
+/// once, and values of one kind stand together, in columns, since Zstandard packs these by a third
+/// better than blocks as they are.
 ///
 ///     CRC-32 of everything that follows, 4 bytes
-///     blocks var; of each column: bytes var, bytes of its frame var (0: it is in the last frame)
-///     frames of Zstandard: of the long columns, and one of all others behind one another
+///     for each column: bytes var; if it is long (kLongColumn), also bytes of its frame var
+///     frames of Zstandard: one for each long column, then one of all others behind one another
 ///
-/// A column has one thing of all blocks in their order: see Column in window_pack.cpp.
+/// A column has the values of one kind of all blocks in their order: see Column in window_pack.cpp.
 /// REQUIRES: bytes of to_kept().  Cost: linear.  Memory: twice the blocks.
 [[nodiscard]] std::vector<std::byte> pack_blocks(std::span<const std::vector<std::byte>> blocks,
                                                  io::ZstdPacker& packer);
 
-/// The kept bytes of one of the packed blocks.  Memory: as all blocks take.
+/// Returns the kept bytes of one of the packed blocks.  Memory: that of all blocks.
 /// ERRORS: BadBytes (byte_codes.h), mw::Error(kInput) when these bytes were not packed so.
 [[nodiscard]] std::vector<std::byte> unpack_block(std::span<const std::byte> packed,
                                                   std::size_t index);

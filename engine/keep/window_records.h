@@ -16,8 +16,8 @@ namespace mw::engine {
 
 /// A version of a block by its content.
 struct KeptVersion {
-  io::ContentDigest digest;              ///< of its kept bytes; none: there is no such version
-  std::array<std::int32_t, 6> voxels{};  ///< that its vertices touch: a box, lo and hi
+  io::ContentDigest digest;              ///< digest of its kept bytes; none: there is no version
+  std::array<std::int32_t, 6> voxels{};  ///< the box that its vertices touch, lo and hi
 
   [[nodiscard]] Box3 box() const {
     return {{voxels[0], voxels[1], voxels[2]}, {voxels[3], voxels[4], voxels[5]}};
@@ -40,10 +40,10 @@ struct KeptBlock {
 /// A visit: a fact that stays true whatever happens to the volume.
 struct WindowRecord {
   std::uint64_t window = 0;
-  std::uint32_t run = 0;    ///< that made the visit: see KeptFacts
+  std::uint32_t run = 0;    ///< the run that made the visit, see KeptFacts
   bool is_dropped = false;  ///< the bytes of the blocks were given up for want of space
   VisitInput input;
-  Extent extent;                  ///< of the blocks that are kept, packed together (window_pack.h)
+  Extent extent;                  ///< the blocks that are kept, packed together (window_pack.h)
   std::vector<KeptBlock> blocks;  ///< in the order of the window's blocks
 };
 

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The mwmesh authors
 // SPDX-License-Identifier: Apache-2.0
-// How much there is to do where: faces between voxels of different labels, brick by brick.
+// Counts the faces between voxels of different labels, brick by brick.
 #include "engine/labels/boundary_faces.h"
 
 #include <algorithm>
@@ -18,7 +18,7 @@ std::int64_t bricks_along(std::int64_t voxels) {
 }
 
 /// Counts the faces between `count` voxels of a row and those above them in y and z, and between
-/// `next` of them and the next in x.  up, out: steps to the voxel above in y and z; 0 for none.
+/// `next` of them and the next in x.  up and out are steps to the voxel above in y and z, or 0.
 std::uint32_t faces_of_row(const Label* row, std::int64_t count, std::int64_t next, std::int64_t up,
                            std::int64_t out) {
   std::uint32_t faces = 0;

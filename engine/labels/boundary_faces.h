@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The mwmesh authors
 // SPDX-License-Identifier: Apache-2.0
-// Counts the faces between voxels of different labels by brick, which tells where the work is.
+// Counts the faces between voxels of different labels by brick, which shows where the work is.
 #pragma once
 
 #include <cstdint>
@@ -12,7 +12,7 @@
 namespace mw::engine {
 
 /// Faces between two voxels of the volume with different labels; each counts for the voxel below
-/// it.  2 bytes for 16^3 voxels.
+/// it.  Memory: 2 bytes for 16^3 voxels.
 class BoundaryFaces {
  public:
   BoundaryFaces() = default;
@@ -20,7 +20,7 @@ class BoundaryFaces {
   explicit BoundaryFaces(Index3 volume);
 
   /// Counts the faces of a brick, except those that it shares with voxels outside `labels`.
-  /// uniform: the brick has one label, hence no faces inside.
+  /// uniform says that the brick has one label, hence no faces inside.
   /// REQUIRES: labels cover the brick.  Thread safety: different bricks may be counted at once.
   void count(const LabelBox& labels, Index3 brick, bool uniform);
 

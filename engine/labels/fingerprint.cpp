@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The mwmesh authors
 // SPDX-License-Identifier: Apache-2.0
-// Whether two volumes hold the same labels, told by a number.
+// A number that tells whether two volumes hold the same labels.
 #include "engine/labels/fingerprint.h"
 
 #include <array>

@@ -21,7 +21,7 @@ std::optional<Label> only_label(std::span<const Label> voxels) {
 
 }  // namespace
 
-/// Sums of whole numbers: the same whichever thread adds first.
+/// Sums of whole numbers do not depend on which thread adds first.
 void LabelCounts::count(const LabelBox& tile, Index3 brick, std::span<const Label> mine,
                         std::optional<Label> only) {
   faces.count(tile, brick, only.has_value());

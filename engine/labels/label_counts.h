@@ -13,17 +13,17 @@
 
 namespace mw::engine {
 
-/// Whole numbers of bricks that are counted once each, so parts add up to the whole.
+/// Sums of whole numbers over bricks, each counted once, so that parts add up to the whole.
 struct LabelCounts {
   /// Begins with no counts.
   LabelCounts(Index3 shape, std::size_t labels) : faces(shape), voxels(labels) {}
 
-  /// Counts a brick of a tile that was read.  mine: the brick's voxels; only: its only label, if it
+  /// Counts a brick of a tile that was read.  mine are the brick's voxels; only is its label if it
   /// has just one.  Thread safety: different bricks may be counted at once.
   void count(const LabelBox& tile, Index3 brick, std::span<const Label> mine,
              std::optional<Label> only);
 
-  BoundaryFaces faces;                ///< where there is much to do
+  BoundaryFaces faces;                ///< shows where there is much to do
   std::vector<std::uint64_t> voxels;  ///< by dense label
 };
 

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The mwmesh authors
 // SPDX-License-Identifier: Apache-2.0
-// From what visits ask for back to what is read, a halo a step.
+// Goes back from what visits ask for to what has to be read; each step adds a halo.
 #include "engine/labels/label_need.h"
 
 #include <algorithm>
@@ -13,9 +13,9 @@
 namespace mw::engine {
 namespace {
 
-/// A start mesh asks for the leaves a voxel around its block, in pairs of voxels.
+/// A start mesh asks for the octree's leaves a voxel around its block, in pairs of voxels.
 constexpr std::int64_t kLeafHalo = 2;
-// Each of the steps below grows by whole bricks, one of them.
+// Each of the steps below adds one brick on each side.
 static_assert(kCoarsenHalo <= kBrick && LevelMap::kHalo <= kBrick && LevelMap::kCube == kBrick);
 
 Box3 bricks_around(const Box3& voxels, std::int64_t halo, Index3 volume) {
@@ -52,7 +52,7 @@ NeededBricks bricks_of(const LabelNeed& need, Index3 volume, const MeshSettings&
   NeededBricks out;
   out.shapes = bricks_around(need.starts, kStartHalo, volume);
   if (settings.start != StartMesh::kDense) {
-    // A cell of 16 voxels is allowed by its neighbours of 8 voxels, these by the labels around.
+    // Whether a cell of 16 voxels may be there depends on neighbours of 8, and these on the labels.
     out.levels = wider(bricks_around(need.starts, kLeafHalo, volume), all.levels);
     out.shapes = hull(out.shapes, wider(out.levels, all.shapes));
   }

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: The mwmesh authors
 // SPDX-License-Identifier: Apache-2.0
-// Runs of one label along x, added up by label; every face between two voxels is counted in the
-// tile that has its lower one.
+// Adds up runs of one label along x by label, and counts every face between two voxels in the tile
+// that has its lower voxel.
 #include "engine/labels/label_regions.h"
 
 #include <algorithm>
@@ -60,7 +60,7 @@ class RegionCount {
 
 class ContactCount {
  public:
-  /// REQUIRES: labels are those of read, which has tile and the voxels behind it.
+  /// REQUIRES: labels are those of the box `read`: the tile and the voxels next to its far sides.
   void add(const Box3& tile, const Box3& read, std::span<const RawLabel> labels) {
     const Index3 shape = read.shape();
     const std::array<std::int64_t, 3> step{1, shape.x, shape.x * shape.y};
@@ -90,7 +90,7 @@ class ContactCount {
  private:
   using Pair = std::pair<RawLabel, RawLabel>;
 
-  /// Neighbours on an interface are mostly of the same pair.
+  /// The last pair is remembered, since neighbours on an interface are mostly of the same pair.
   void count(RawLabel a, RawLabel b, std::size_t axis) {
     const Pair pair = std::minmax(a, b);
     if (last_ == nullptr || pair != last_pair_) {

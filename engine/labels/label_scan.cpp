@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The mwmesh authors
 // SPDX-License-Identifier: Apache-2.0
-// A set of labels a thread, then one of all.
+// Each thread collects a set of labels, and these are joined.
 #include "engine/labels/label_scan.h"
 
 #include <tbb/enumerable_thread_specific.h>
@@ -17,7 +17,7 @@ struct Scan {
   std::vector<RawLabel> tile;
 };
 
-/// Planes of the volume's slowest axis.
+/// Returns the box of the part's planes across the volume's slowest axis.
 Box3 planes(const io::VolumeInfo& info, const SequencePart& part) {
   Box3 out{{0, 0, 0}, info.shape};
   std::int64_t& lo = info.z_fastest ? out.lo.x : out.lo.z;

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The mwmesh authors
 // SPDX-License-Identifier: Apache-2.0
-// Which labels a volume has, found by many threads.
+// Finds the labels of a volume on many threads.
 #pragma once
 
 #include "engine/labels/reading_tiles.h"
@@ -8,8 +8,8 @@
 
 namespace mw::engine {
 
-/// The labels of one part of a volume, in no particular order; together the parts have all voxels,
-/// each once, earlier parts those that come earlier in the file.  Otherwise as collect_labels().
+/// Does what collect_labels() does for one part of a volume; the labels are in no particular order.
+/// Together the parts have every voxel once.  If voxels may be no labels, parts are in file order.
 [[nodiscard]] std::vector<RawLabel> labels_of_part(const io::LabelVolume& volume, int threads,
                                                    const SequencePart& part);
 

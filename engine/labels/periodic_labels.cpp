@@ -11,8 +11,8 @@
 namespace mw::engine {
 namespace {
 
-/// A cell of 16 voxels outside of a face depends on cells of 8 in the cubes of 16 around it, and
-/// these on labels 6 voxels around.
+/// A cell of 16 voxels behind a face depends on cells of 8 in the cubes of 16 around it, and these
+/// depend on labels up to 6 voxels around them.
 constexpr std::int64_t kMargin = 48;
 
 bool is_periodic(const MeshSettings& settings, unsigned axis) {
@@ -30,7 +30,7 @@ Point moved(Point p, Index3 by) {
   return {p.x - units(by.x), p.y - units(by.y), p.z - units(by.z)};
 }
 
-/// The number of a corner in a volume (VertexId), from that in a volume with a margin around it.
+/// Returns the number of a corner in a volume (VertexId) from that in the volume with its margin.
 VertexId id_within(VertexId id, Index3 volume, Index3 margin) {
   const auto at = static_cast<std::int64_t>(id);
   const Index3 corners = volume + margin + margin + Index3{1, 1, 1};

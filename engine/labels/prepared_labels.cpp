@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The mwmesh authors
 // SPDX-License-Identifier: Apache-2.0
-// Three passes over bricks: read, coarsen, find the large cells.
+// Passes over bricks: read, find sizes and source surface, coarsen, find large cells.
 #include "engine/labels/prepared_labels.h"
 
 #include <algorithm>
@@ -26,11 +26,11 @@ namespace {
 
 /// Bricks along an axis of a tile that is coarsened at once; the halo is one brick.
 constexpr std::int64_t kBricksPerTile = 4;
-/// Faces of a tile whose source surface is found at once.
+/// The most faces of a tile whose source surface is found at once.
 constexpr std::size_t kMostSourceFaces = 500'000;
-/// Faces of a tile whose crossings are found at once; each takes some 120 bytes.
+/// The most faces of a tile whose crossings are found at once; each takes some 120 bytes.
 constexpr std::size_t kMostCrossings = 200'000;
-/// Bricks of a tile whose thin parts are found at once, and those that have a part of its halo.
+/// The bricks of a tile whose thin parts are found at once, and how many bricks its halo reaches.
 constexpr Index3 kTile{kBricksPerTile, kBricksPerTile, kBricksPerTile};
 constexpr std::int64_t kBricksInReach = (kThinHalo + kBrick - 1) / kBrick;
 
@@ -42,7 +42,7 @@ Index3 scaled(Index3 v, std::int64_t by) {
   return {v.x * by, v.y * by, v.z * by};
 }
 
-/// How many tiles have these bricks.
+/// Returns how many tiles along each axis hold these bricks.
 Index3 tiles_of(Index3 bricks) {
   const auto along = [](std::int64_t n) { return (n + kBricksPerTile - 1) / kBricksPerTile; };
   return {along(bricks.x), along(bricks.y), along(bricks.z)};
@@ -69,7 +69,7 @@ LabelBox read(const io::BrickVolume& volume, const Box3& box) {
   return out;
 }
 
-/// True when each of the bricks has one label, though not all the same.
+/// True when each of the bricks has one label; their labels may differ.
 bool all_uniform(const io::BrickVolume& volume, const Box3& bricks) {
   bool uniform = true;
   for_each_index(clipped(bricks, volume.bricks()),
@@ -90,13 +90,13 @@ bool all_one_label(const io::BrickVolume& volume, const Box3& bricks) {
   return is_within(bricks, {{0, 0, 0}, volume.bricks()}) && has_one_label(volume, bricks);
 }
 
-/// Contraction makes no edge of this size longer; in lengths of the metric.
+/// Returns the longest edge that contraction makes for this size, in lengths of the metric.
 double limit_of(double size, const io::DenseVolume& volume) {
   const auto& spacing = volume.info().space.spacing;
   return SizeRules::kContracted / *std::min_element(spacing.begin(), spacing.end()) * size;
 }
 
-/// What settings ask of edges, in lengths of the metric.
+/// Returns the limits that settings put on edges, in lengths of the metric.
 SizeField size_field(const io::DenseVolume& volume, const SizeSettings& sizes) {
   if (!sizes.limits_edges()) return {};
   std::vector<double> limits(volume.table().size(), SizeField::kNoLimit);
@@ -108,7 +108,7 @@ SizeField size_field(const io::DenseVolume& volume, const SizeSettings& sizes) {
           SizeRules::kContracted * sizes.gradation, !sizes.rules.image.empty()};
 }
 
-/// By dense label: those that have sizes, all where none is listed.
+/// Returns by dense label which labels have sizes; all of them if none is listed.
 std::vector<bool> labels_with_sizes(const io::LabelTable& table, const SizeRules& rules) {
   std::vector<bool> out(table.size(), rules.labels.empty() || rules.others);
   for (const LabelSize& s : rules.labels) out[table.dense(s.label)] = true;
@@ -147,7 +147,7 @@ PreparedLabels::PreparedLabels(const io::DenseVolume& volume, const MeshSettings
       sizes_(size_field(volume, settings.sizes)),
       inner_(inner_demand(volume.table(), settings.sizes)) {
   read_bricks(volume, threads);
-  volume.raw().drop_buffers();  // it is not read again, unless a visit looks beyond what it needs
+  volume.raw().drop_buffers();  // it is read again only if a visit looks beyond needed bricks
   if (sizes_.limits()) find_sizes(settings.sizes, image, threads);
   const bool has_scores = volume.raw().scores() != nullptr;
   if (wants_source(settings, has_scores)) {
@@ -163,7 +163,7 @@ PreparedLabels::PreparedLabels(const io::DenseVolume& volume, const MeshSettings
   if (settings.start != StartMesh::kDense) find_levels(bricks.levels, threads);
 }
 
-/// Limits that do not come from labels, and then all that follows from limits.
+/// Adds the limits that do not come from labels, then spreads all limits.
 void PreparedLabels::find_sizes(const SizeSettings& sizes, const SizeImage* image, int threads) {
   if (!sizes.rules.interfaces.empty()) limit_interfaces(sizes.rules, threads);
   if (image != nullptr) limit_by_image(*image, threads);
@@ -174,7 +174,7 @@ void PreparedLabels::find_sizes(const SizeSettings& sizes, const SizeImage* imag
   sizes_.spread();
 }
 
-/// On both sides of their faces.
+/// Limits the voxels on both sides of the interfaces' faces.
 void PreparedLabels::limit_interfaces(const SizeRules& rules, int threads) {
   std::map<std::pair<Label, Label>, double> limits;
   for (const InterfaceSize& s : rules.interfaces) {
@@ -195,7 +195,7 @@ void PreparedLabels::limit_interfaces(const SizeRules& rules, int threads) {
   });
 }
 
-/// What is less than the voxels allow is as little as they do.
+/// A limit below what the voxels allow is raised to that.
 void PreparedLabels::limit_by_image(const SizeImage& image, int threads) {
   const Metric metric(volume_.info().space.spacing);
   const double least = metric.voxel().norm();
@@ -286,7 +286,7 @@ void PreparedLabels::find_source(int threads) {
   });
 }
 
-/// In parts, as find_source_in().
+/// Divides bricks as find_source_in() does.
 void PreparedLabels::find_crossings_in(const Box3& bricks) {
   if (has_one_label(original_, grown(bricks, 1))) return;
   const Box3 tile =
@@ -300,7 +300,7 @@ void PreparedLabels::find_crossings_in(const Box3& bricks) {
   for_each_index(bricks, [&](Index3 b) { source_->write(b, surface, original_.box_of(b)); });
 }
 
-/// In parts, when there are too many faces for the memory that is reckoned with.
+/// Takes bricks one by one when all have too many faces for the memory that is planned.
 void PreparedLabels::find_source_in(const Box3& bricks) {
   if (has_one_label(original_, grown(bricks, 1))) return;
   const Box3 tile =

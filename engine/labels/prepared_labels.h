@@ -22,8 +22,8 @@ namespace mw::engine {
 /// Voxels in the middle of thin parts; lengths are those of the metric.
 struct ThinParts {
   std::uint64_t voxels = 0;
-  std::uint64_t too_thin = 0;  ///< of these: where voxels allow fewer edges across than are asked
-  double least = 0.0;          ///< thickness; 0: there is none
+  std::uint64_t too_thin = 0;  ///< those where voxels allow fewer edges across than are asked for
+  double least = 0.0;          ///< the least thickness; 0 without voxels
 
   void add(double thickness, bool is_too_thin) { add({1, is_too_thin ? 1U : 0U, thickness}); }
   void add(const ThinParts& more) {
@@ -36,17 +36,17 @@ struct ThinParts {
 
 /// The input's labels, the labels that the start mesh takes its shape from, and its large cells.
 /// With MeshSettings::periodic the volume has periodic_margin() around the cell that is meshed.
-/// Boxes begin at the cell's corner then, and may reach as far out of it; levels() and what is
-/// counted are of the volume with its margin.
-/// A pure function of the volume and the settings.  Where only some windows are visited it is
-/// made only where these need it, and tells there what the whole would tell.
+/// Coordinates of boxes then begin at the cell's corner, and boxes may reach into the margin;
+/// levels() and counts are those of the volume with its margin.
+/// A pure function of the volume and the settings.  Where only some windows are visited, only what
+/// these need is prepared, and it is the same as in the whole.
 /// Thread safety: const members may be called from many threads.
 class PreparedLabels {
  public:
   /// Reads the volume once, drops its buffers, and coarsens it when the start mesh asks for that.
-  /// image: of the settings' SizeRules.  folder: where temporary files go.  The result does not
-  /// depend on threads.  ERRORS: what the volume throws; kResource when the temporary file cannot
-  /// grow.  Memory while it works: preparation_bytes() a thread; 8 bytes a label stay.
+  /// image is that of the settings' SizeRules; temporary files go into `folder`.  The result does
+  /// not depend on threads.  ERRORS: what the volume throws; kResource when the temporary file
+  /// cannot grow.  Memory while it works: preparation_bytes() a thread; 8 bytes a label stay.
   PreparedLabels(const io::DenseVolume& volume, const MeshSettings& settings, int threads = 1,
                  const std::filesystem::path& folder = io::scratch_folder(),
                  const SizeImage* image = nullptr);
@@ -63,13 +63,14 @@ class PreparedLabels {
   [[nodiscard]] LabelBox original(const Box3& box) const;
   /// Returns the labels for start meshes.  REQUIRES: box is a needed block with its kStartHalo.
   [[nodiscard]] LabelBox shape(const Box3& box) const;
-  /// The surface that interfaces are fitted to; they are fitted to voxel faces without one.
+  /// True if interfaces are fitted to a source surface; otherwise they are fitted to voxel faces.
   [[nodiscard]] bool has_source() const { return source_.has_value(); }
-  /// Whether its places are where the scores of labels are equal.  REQUIRES: has_source().
+  /// True if the source surface lies where the scores of labels are equal.  REQUIRES: has_source().
   [[nodiscard]] bool has_crossings() const {
     return source_->kind() == SourceSurface::Kind::kCrossings;
   }
-  /// The faces of the box that are in the volume.  REQUIRES: has_source().
+  /// Returns the source surface in the part of the box that is in the volume.
+  /// REQUIRES: has_source().
   [[nodiscard]] SourceSurface source(const Box3& box) const;
   /// Returns the bricks that windows need; labels of others are read when they are asked for.
   [[nodiscard]] const NeededBricks& needed() const { return needed_; }
@@ -112,12 +113,12 @@ class PreparedLabels {
   void coarsen_tiles(double max_distance, int threads);
   void coarsen_tile(const Box3& tile, double max_distance);
   void find_levels(const Box3& cubes, int threads);
-  /// Has the cube one label, and do sizes allow the largest cell in it?
+  /// True if the cube has one label and sizes allow the largest cell in it.
   [[nodiscard]] bool may_be_large(Index3 cube) const;
   [[nodiscard]] bool all_may_be_large(const Box3& cubes) const;
   [[nodiscard]] const io::BrickVolume& shapes() const { return coarse_ ? *coarse_ : original_; }
 
-  io::DenseVolume volume_;  ///< looked at again only where some labels are prepared
+  io::DenseVolume volume_;  ///< read again only where not all labels are prepared
   Index3 margin_;
   NeededBricks needed_;
   std::optional<LabelCounts> counts_;

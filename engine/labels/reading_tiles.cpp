@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The mwmesh authors
 // SPDX-License-Identifier: Apache-2.0
-// Chunks, rounded to bricks.
+// Rounds chunks to bricks, and cuts what is read into bricks.
 #include "engine/labels/reading_tiles.h"
 
 #include <algorithm>
@@ -18,7 +18,7 @@ std::int64_t whole_bricks(std::int64_t voxels) {
   return (voxels + kBrick - 1) / kBrick * kBrick;
 }
 
-/// Half as many bricks, at least one.
+/// Returns the edge of half as many bricks, at least one.
 std::int64_t halved(std::int64_t voxels) {
   return std::max(kBrick, whole_bricks(voxels / 2));
 }
@@ -32,7 +32,7 @@ ReadingTiles::ReadingTiles(const io::VolumeInfo& volume) : shape_(volume.shape) 
   edges_ = {edge(volume.chunk.x, kPlainTile.x, shape_.x),
             edge(volume.chunk.y, kPlainTile.y, shape_.y),
             edge(volume.chunk.z, kPlainTile.z, shape_.z)};
-  // The slowest axis first: what is left of a chunk is then read while it is still kept.
+  // The slowest axis is halved first: the rest of a chunk is then read while it is still kept.
   for (std::int64_t* axis : {&edges_.z, &edges_.y, &edges_.x}) {
     while (edges_.product() > kMaxVoxels && *axis > kBrick) *axis = halved(*axis);
   }

@@ -23,8 +23,9 @@ struct SequencePart {
   [[nodiscard]] std::int64_t end(std::int64_t things) const { return things * (index + 1) / count; }
 };
 
-/// Boxes of whole bricks (io::BrickVolume) that cover a volume, each read at once: as its chunks
-/// are, if it has some, so that no chunk is unpacked twice; otherwise long rows.
+/// Boxes of whole bricks (io::BrickVolume) that cover a volume, each read at once.  They follow the
+/// volume's chunks, if it has some, so that chunks are not unpacked twice; otherwise they are long
+/// rows.
 class ReadingTiles {
  public:
   /// The most voxels of a tile.

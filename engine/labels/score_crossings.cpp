@@ -22,13 +22,13 @@ struct CrossedFace {
   ScoreDifference difference{};
 };
 
-/// The faces at which a label has a say, and the scores that they look at.
+/// The faces that have a label on one side, and the voxels whose scores they look at.
 struct ScoresAtFaces {
   std::vector<std::uint32_t> faces;
-  Box3 box;  ///< of the scores' voxels
+  Box3 box;  ///< box of the scores' voxels
 };
 
-/// Scores of one label.
+/// The scores of one label in a box.
 struct ScoreBox {
   Box3 box;
   std::vector<double> scores;
@@ -99,7 +99,7 @@ class Crossings {
     }
   }
 
-  /// By central differences, one-sided at the ends of the volume.
+  /// Returns central differences, which are one-sided at the ends of the volume.
   [[nodiscard]] Vec3 slope(const ScoreBox& read, Index3 v) const {
     const Box3 all{{0, 0, 0}, scores_.shape()};
     Vec3 out = Vec3::Zero();
@@ -113,7 +113,7 @@ class Crossings {
     return out;
   }
 
-  /// From the middle between two voxels of scores to the centre of a face, lattice voxels.
+  /// Returns the centre of a face from the middle between two voxels of scores, in lattice voxels.
   [[nodiscard]] Vec3 centre_of(const CrossedFace& face) const {
     const auto along = [](std::int64_t v, std::int64_t layers) {
       return static_cast<double>(v % layers) + 0.5 - 0.5 * static_cast<double>(layers);
@@ -132,7 +132,7 @@ class Crossings {
   [[nodiscard]] std::vector<PackedPlane> planes() const {
     std::vector<PackedPlane> out;
     for (const CrossedFace& face : faces_) {
-      const ScoreDifference none{};  // which has no crossing
+      const ScoreDifference none{};  // it has no crossing
       const SourcePlane crossing =
           find_crossing(has_scores(face) ? face.difference : none, face.axis);
       const LayeredFace place{.axis = face.axis, .layers = layers_, .centre = centre_of(face)};

@@ -12,22 +12,23 @@
 
 namespace mw::engine {
 
-/// The volume must outlive it.  Thread safety: const members from many threads.
+/// The sizes that an image asks for.  The volume must outlive it.
+/// Thread safety: const members may be called from many threads.
 class SizeImage {
  public:
-  /// labels: of the volume that is meshed.
+  /// labels describes the volume that is meshed.
   /// ERRORS: mw::Error(kInput) when the image has another shape, or is of a format whose numbers
   ///         are not read here.
   SizeImage(const io::LabelVolume& image, const io::VolumeInfo& labels, std::string file);
   /// Returns the image with each size multiplied.
   [[nodiscard]] SizeImage scaled(double factor) const;
 
-  /// The sizes in a box of the lattice, x fastest, physical units; what is no positive number is
-  /// infinity: nothing is asked there.  lattice: its shape, a multiple of the labels'.
+  /// Returns the sizes in a box, x fastest, in physical units; infinity where the image has no
+  /// positive number.  lattice is the shape of the lattice, a multiple of that of the labels.
   [[nodiscard]] std::vector<double> read(const Box3& box, Index3 lattice) const;
-  /// A sum of all that it holds.  Cost: it is read once.
+  /// Returns a hash of all sizes.  Cost: the image is read once.
   [[nodiscard]] std::uint64_t fingerprint() const;
-  /// The smallest of its sizes; infinity when there is none.  Cost: it is read once.
+  /// Returns the smallest size; infinity when there is none.  Cost: the image is read once.
   [[nodiscard]] double least() const;
 
  private:

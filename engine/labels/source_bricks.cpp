@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The mwmesh authors
 // SPDX-License-Identifier: Apache-2.0
-// A brick is its box, two counts, the faces of its voxels, and its planes.
+// In the file a brick is its box, two counts, the faces of its voxels, and its planes.
 #include "engine/labels/source_bricks.h"
 
 namespace mw::engine {

@@ -13,12 +13,12 @@
 namespace mw::engine {
 
 /// The source surface of a volume, written once and read many times in small boxes.  Bricks are
-/// those of BrickVolume.  In memory it holds 8 bytes a brick, in the file a byte a voxel and 4
-/// bytes a face, of bricks that have faces.
-/// Thread safety: different bricks may be written at once; reading goes on after writing.
+/// those of BrickVolume.  In memory it holds 8 bytes a brick; the file has a byte a voxel and 4
+/// bytes a face for bricks that have faces.
+/// Thread safety: different bricks may be written at once, and then read by many threads.
 class SourceBricks {
  public:
-  /// bricks: along each axis.  folder: where the temporary file goes.
+  /// bricks is their number along each axis.  The temporary file goes into `folder`.
   SourceBricks(Index3 bricks, const std::filesystem::path& folder,
                SourceSurface::Kind kind = SourceSurface::Kind::kFiltered);
 

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The mwmesh authors
 // SPDX-License-Identifier: Apache-2.0
-// Layers, and what can be promised on them.
+// Layers of voxels, and checks of what can be promised on them.
 #include "engine/labels/voxel_lattice.h"
 
 #include <algorithm>
@@ -17,7 +17,7 @@
 namespace mw::engine {
 namespace {
 
-/// What ids and samples can number, and positions hold.
+/// Checks that ids and samples can number the lattice, and that positions can hold its coordinates.
 void check_shape(Index3 shape, Index3 layers) {
   const Index3 lattice = layered_shape(shape, layers);
   const std::int64_t longest = std::max({lattice.x, lattice.y, lattice.z});
@@ -32,14 +32,14 @@ void check_shape(Index3 shape, Index3 layers) {
                        " can be meshed at once: mesh parts of it with --crop"));
 }
 
-/// The floor that the start mesh keeps.
+/// Returns the quality floor that the start mesh keeps.
 double kept_floor(const io::VolumeInfo& volume, const MeshSettings& settings) {
   const Index3 layers = layers_of(volume.space.spacing);
   const Metric metric(layered_spacing(volume.space.spacing, layers));
   return min_start_ratio(metric, largest_cell_level(settings));
 }
 
-/// Another setting under which the floor can be promised, in words.
+/// Returns another setting under which the floor can be promised, in words, if there is one.
 std::string way_out(const io::VolumeInfo& volume, const MeshSettings& settings) {
   MeshSettings dense = settings;
   dense.start = StartMesh::kDense;
@@ -50,7 +50,7 @@ std::string way_out(const io::VolumeInfo& volume, const MeshSettings& settings) 
 void check_floor(const io::VolumeInfo& volume, const MeshSettings& settings) {
   const double kept = kept_floor(volume, settings);
   if (kept >= settings.quality_floor) return;
-  // Rounded down, so that what is told can be promised.
+  // It is rounded down, so that the floor a user is told can be promised.
   const double told = std::floor(1000 * kept) / 1000;
   const std::array<double, 3> voxel =
       layered_spacing(volume.space.spacing, layers_of(volume.space.spacing));
@@ -72,7 +72,7 @@ void check_sizes(const io::VolumeInfo& volume, const MeshSettings& settings) {
                told_size(kept), " can be kept"));
 }
 
-/// Largest absolute coordinate of the box.
+/// Returns the largest absolute coordinate of the box.
 double farthest_coordinate(const io::VolumeInfo& volume) {
   double farthest = 0;
   for (int corner = 0; corner < 8; ++corner) {
@@ -87,8 +87,8 @@ double farthest_coordinate(const io::VolumeInfo& volume) {
   return farthest;
 }
 
-/// Meshes are written in double: points of the lattice must stay apart there with room for the
-/// shapes of tets between them, and volumes of lengths must be numbers.
+/// Meshes are written in double: points of the lattice must stay far enough apart there for the
+/// shapes of tets between them, and products of three lengths must be finite and not 0.
 void check_coordinates(const io::VolumeInfo& volume) {
   constexpr double kSmallest = 1e-30;
   constexpr double kLargest = 1e30;

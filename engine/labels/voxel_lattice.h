@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The mwmesh authors
 // SPDX-License-Identifier: Apache-2.0
-// The lattice that a volume is meshed on: its voxels, or layers of them where slices are thick.
+// The lattice that a volume is meshed on: its voxels, cut into layers where slices are thick.
 #pragma once
 
 #include "engine/settings/settings.h"
@@ -9,11 +9,11 @@
 
 namespace mw::engine {
 
-/// Returns the least size of edges that the marches keep: the diagonal of a voxel of the lattice
-/// may be SizeRules::kContracted times as long.
+/// Returns the least size of edges that the marches can keep: the diagonal of a voxel of the
+/// lattice is SizeRules::kContracted times as long.
 [[nodiscard]] double least_size(const io::VolumeInfo& volume);
 
-/// Returns a size rounded up to three digits, so that what is told can be kept.
+/// Returns a size rounded up to three digits, so that the size a user is told can be kept.
 [[nodiscard]] double told_size(double size);
 
 /// A volume and the lattice that it is meshed on.  The volume must outlive it.
@@ -24,7 +24,7 @@ class VoxelLattice {
   VoxelLattice& operator=(const VoxelLattice&) = delete;
 
   [[nodiscard]] const io::DenseVolume& volume() const { return volume_; }
-  /// The labels of the lattice's voxels: each has that of the volume's voxel in which it lies.
+  /// Returns the lattice's labels: each voxel has that of the volume's voxel in which it lies.
   [[nodiscard]] const io::DenseVolume& labels() const { return labels_; }
   [[nodiscard]] const io::VolumeInfo& info() const { return labels_.info(); }
   [[nodiscard]] Index3 layers() const { return layers_; }
@@ -37,7 +37,8 @@ class VoxelLattice {
 };
 
 /// Checks before any work that a volume fits the settings of a run.
-/// ERRORS: those of check(settings); kInput when the lattice has too many voxels along an axis;
+/// ERRORS: those of check(settings) and check_periodic(); kInput when the lattice has too many
+///         voxels along an axis or coordinates are too large or too small for it;
 ///         kUsage when the quality floor cannot be kept at this spacing, with the floor that can,
 ///         or when a size is below least_size().
 void check(const io::VolumeInfo& volume, const MeshSettings& settings);

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The mwmesh authors
 // SPDX-License-Identifier: Apache-2.0
-// A view that slides over a process's own windows.
+// A range of a process's own windows that advances with the first unfinished one.
 #include "engine/march/arrival_front.h"
 
 #include <algorithm>

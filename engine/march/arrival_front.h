@@ -13,18 +13,18 @@
 
 namespace mw::engine {
 
-/// The windows of a march that are visited here, when others are visited elsewhere.
+/// The windows of a march that this process visits, where others are visited elsewhere.
 struct PartialMarch {
   std::uint32_t march = 0;
   std::function<bool(Index3 window)> is_mine;
-  /// How many blocks that other windows leave a window has to wait for.
+  /// Returns how many blocks left by other windows a window has to wait for.
   std::function<std::uint32_t(Index3 window)> inputs;
   Arrivals* arrivals = nullptr;  ///< outlives the march
 };
 
-/// Own windows are ready when their inputs are there, wherever these come from.  They come
-/// into view less than `look_ahead` own windows behind the first unfinished one.
-/// Memory: 9 bytes an own window, and what waits in Arrivals.
+/// The front of own windows.  They are ready when their inputs are there, whichever process they
+/// come from, and are looked at when less than `look_ahead` own windows behind the first
+/// unfinished one.  Memory: 9 bytes for each own window, and what waits in Arrivals.
 class ArrivalFront : public Front {
  public:
   /// REQUIRES: look_ahead >= 1; order and part outlive this.
@@ -36,7 +36,7 @@ class ArrivalFront : public Front {
   [[nodiscard]] bool is_ready(std::uint64_t rank) const override;
   void start(std::uint64_t rank) override;
   void finish(std::uint64_t rank) override;
-  /// Looks at what came in since the last time.
+  /// Makes windows ready whose inputs have come in since the last call.
   void poll();
 
  private:
@@ -44,7 +44,7 @@ class ArrivalFront : public Front {
   using Priority = std::pair<std::int64_t, std::uint64_t>;
 
   [[nodiscard]] Priority priority(std::uint64_t rank) const;
-  /// Position of a rank in mine_, or none for a window that is visited elsewhere.
+  /// Returns the position of a rank in mine_, or nothing for a window that is visited elsewhere.
   [[nodiscard]] std::optional<std::size_t> find(std::uint64_t rank) const;
   void make_ready_if_due(std::size_t at);
   void advance();
@@ -54,8 +54,8 @@ class ArrivalFront : public Front {
   std::uint64_t look_ahead_;
   std::vector<std::uint64_t> mine_;  ///< ranks, ascending
   std::vector<State> states_;
-  std::size_t first_ = 0;  ///< in mine_: the first unfinished
-  std::size_t seen_ = 0;   ///< in mine_: the end of what is in view
+  std::size_t first_ = 0;  ///< position in mine_ of the first unfinished window
+  std::size_t seen_ = 0;   ///< end, in mine_, of the windows that are looked at
   std::set<Priority> ready_;
 };
 

@@ -12,29 +12,29 @@
 
 namespace mw::engine {
 
-/// Counts inputs by the window that needs them next.  Thread safety: all members.
+/// Counts inputs by the window that needs them next.  Thread-safe.
 class Arrivals {
  public:
   using Window = std::pair<std::uint32_t, std::uint64_t>;  ///< march, rank in its order
 
-  /// One more input is there.
+  /// Notes that one more input is there.
   void add(Window window);
-  /// How many of a window's inputs are there.
+  /// Returns how many of a window's inputs are there.
   [[nodiscard]] std::uint32_t count(Window window) const;
-  /// The window has started; nobody will ask again.
+  /// Forgets a window that has started, for which count() is not called again.
   void forget(Window window);
-  /// Windows that got inputs since the last call, and belong to that march.
+  /// Returns the windows of that march that got inputs since the last call.
   [[nodiscard]] std::vector<std::uint64_t> take_touched(std::uint32_t march);
 
-  /// Wakes the march, if one waits: room may have become free, or add() was called by a thread
-  /// that is none of its own.
+  /// Wakes the march if it waits, because room may have become free, or because a thread that is
+  /// none of the march's has called add().
   void wake();
-  /// The march ends with this error; the first one counts.
+  /// Ends the march with this error; only the first error counts.
   void fail(std::exception_ptr error);
   [[nodiscard]] std::exception_ptr error() const;
 
-  /// Called by wake() and fail() from any thread; empty: nobody.  ENSURES: not called any more once
-  /// this returns.
+  /// Sets what wake() and fail() call, from any thread; an empty function is not called.
+  /// ENSURES: the former one is not called any more once this returns.
   void on_wake(std::function<void()> wake);
 
  private:

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: The mwmesh authors
 // SPDX-License-Identifier: Apache-2.0
-// A loop of two nodes: the keeper, one call at a time, sends windows; the visitor, many at once,
-// sends outcomes back.
+// A loop of two nodes: the keeper, called one at a time, sends windows; the visitor, called by many
+// threads at once, sends outcomes back.
 #include "engine/march/flow_march.h"
 
 #include <oneapi/tbb/flow_graph.h>
@@ -19,7 +19,7 @@ namespace {
 
 namespace flow = oneapi::tbb::flow;
 
-/// What the visitor sends to the keeper; without a visit, that something came in.
+/// What the visitor sends to the keeper.  Without a visit it says that inputs came in.
 struct Outcome {
   std::optional<Visited> visited;
   std::exception_ptr error;
@@ -69,8 +69,8 @@ class Dispatcher {
     }
   }
 
-  /// The next window to send, which then counts as running; nothing when all threads are busy or
-  /// no window may start.
+  /// Returns the next window to send, which then counts as running; nothing when all threads are
+  /// busy or no window may start.
   [[nodiscard]] std::optional<Index3> next() {
     if (error_ || running_.size() == threads_) return std::nullopt;
     const std::optional<std::uint64_t> best = front_->best();
@@ -81,7 +81,7 @@ class Dispatcher {
     return order_.window(first);
   }
 
-  /// Whether other processes may still bring something to do.
+  /// True if inputs from other processes may still come that make windows ready.
   [[nodiscard]] bool waits() const {
     return arrival_front_ != nullptr && !error_ && front_->first_unfinished() < order_.size();
   }
@@ -96,7 +96,7 @@ class Dispatcher {
     Admission admission;
   };
 
-  /// False when the window was refused or the hook threw.
+  /// Returns false when the window was refused or the hook threw.
   bool try_start(std::uint64_t rank) {
     Admission admission;
     try {
@@ -105,7 +105,7 @@ class Dispatcher {
       note(rank, std::current_exception());
       return false;
     }
-    // What other processes have not taken yet may hold the room: then it is asked again.
+    // In a part of a march, blocks on their way may hold the room; then the march asks again.
     const bool must_start =
         arrival_front_ == nullptr && running_.empty() && rank == front_->first_unfinished();
     if (options_.admit && !admission && !must_start) return false;
@@ -129,13 +129,13 @@ class Dispatcher {
   const MarchOptions& options_;
   std::size_t threads_;
   std::unique_ptr<Front> front_;
-  ArrivalFront* arrival_front_ = nullptr;  ///< the same, of a part
+  ArrivalFront* arrival_front_ = nullptr;  ///< front_ if this is a part of a march
   std::vector<Running> running_;
   std::exception_ptr error_;
   std::uint64_t error_rank_ = 0;
 };
 
-/// Keeps a graph alive while other processes may bring something to do, and wakes it when they do.
+/// Keeps a graph alive while inputs may come from other processes, and wakes it when they do.
 class Waiting {
  public:
   Waiting(flow::graph& graph, const Dispatcher& dispatcher, Arrivals* arrivals)
@@ -146,15 +146,15 @@ class Waiting {
   Waiting& operator=(const Waiting&) = delete;
   ~Waiting() { end(); }
 
-  /// From now on what comes in wakes the keeper, which may be at work before this returns.
+  /// Makes arrivals wake the keeper, which may be at work before this returns.
   void begin(Keeper& keeper) {
     if (arrivals_ != nullptr) arrivals_->on_wake([&keeper] { keeper.try_put(Outcome{}); });
   }
-  /// By the keeper, after each outcome.
+  /// The keeper calls this after each outcome.
   void release_if_over() {
     if (!dispatcher_.waits()) release();
   }
-  /// ENSURES: nobody wakes the graph any more; what is on its way still has to run.
+  /// ENSURES: arrivals do not wake the graph any more; messages on their way still have to run.
   void end() {
     if (arrivals_ != nullptr) arrivals_->on_wake({});
     release();
@@ -171,7 +171,7 @@ class Waiting {
   std::atomic<bool> released_ = false;
 };
 
-/// Runs the graph in the calling thread's arena.  arrivals: null when all windows are visited here.
+/// Runs the graph in the calling thread's arena.  arrivals is null if all windows are visited here.
 void run_graph(Dispatcher& dispatcher, const VisitWindow& visit, Arrivals* arrivals) {
   flow::graph graph;
   Visitor visitor(graph, flow::unlimited,
@@ -184,16 +184,16 @@ void run_graph(Dispatcher& dispatcher, const VisitWindow& visit, Arrivals* arriv
   });
   flow::make_edge(visitor, keeper);
   flow::make_edge(flow::output_port<0>(keeper), visitor);
-  // All of the first windows are chosen before one is sent: from then on the keeper may be at work.
+  // All first windows are chosen before one is sent, since from then on the keeper may be at work.
   std::vector<Index3> first;
   while (const auto window = dispatcher.next()) first.push_back(*window);
   waiting.begin(keeper);
   try {
     for (Index3 window : first) visitor.try_put(window);
-    // What came in meanwhile, or nothing to do at all.
+    // The keeper has to look at what came in meanwhile, and to see if there is nothing to do.
     if (arrivals != nullptr) arrivals->wake();
   } catch (...) {
-    // No memory for a message: those that were sent must be over before the nodes go.
+    // There was no memory for a message: those that were sent must end before the nodes go.
     waiting.end();
     graph.cancel();
     graph.wait_for_all();

@@ -8,8 +8,8 @@
 
 namespace mw::engine {
 
-/// Marches as march() does, by this crew, always through the graph.  REQUIRES: order.size() >= 1.
-/// Memory: that of the wavefront, and two messages and one admission a thread.
+/// Does what march() does, by this crew, always through the graph.  REQUIRES: order.size() >= 1.
+/// Memory: that of the wavefront, and for each thread two messages and one admission.
 void flow_march(const WindowOrder& order, const VisitWindow& visit, const MarchOptions& options,
                 Crew& crew);
 

@@ -13,7 +13,7 @@
 namespace mw::engine {
 namespace {
 
-/// The reference.
+/// The reference for all other ways to march.
 void march_in_sequence(const WindowOrder& order, const VisitWindow& visit,
                        const MarchOptions& options) {
   for (std::uint64_t rank = 0; rank < order.size(); ++rank) {
@@ -45,7 +45,7 @@ void march(const WindowOrder& order, const VisitWindow& visit, const MarchOption
   }
   Crew crew(thread_count(options.threads));
   if (crew.size() > 1 || options.part != nullptr) return flow_march(order, visit, options, crew);
-  // In the crew's arena all the same: what a visit does there must not wake threads of oneTBB.
+  // The crew's arena is used all the same, since a visit must not wake threads of oneTBB.
   crew.run([&] { march_in_sequence(order, visit, options); });
 }
 

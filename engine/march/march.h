@@ -13,7 +13,7 @@
 
 namespace mw::engine {
 
-/// Processes one window.  Windows without a path between them are visited at the same time.
+/// Visits one window.  Windows without a path between them may be visited at the same time.
 using VisitWindow = std::function<void(Index3 window)>;
 
 /// Chooses among windows that are ready; returns a position in the span, which is never empty.
@@ -22,11 +22,12 @@ using PickReady = std::function<std::size_t(std::span<const Index3> ready)>;
 /// Whatever a window holds while it runs, for instance a reservation of memory.
 using Admission = std::shared_ptr<void>;
 
-/// Asked before a window starts, never by two threads at a time; null: not now, and it is asked
-/// again when another window has finished.  When no other runs, the sequence's first unfinished
-/// window starts whatever the answer, so a march cannot lock up: keep room for one, or throw.
-/// Must not wait for visits to end: the march may not have begun those that it asked for.
-/// The admission is let go as soon as the visit is over.
+/// Called before a window starts, never by two threads at a time.  Null means that the window may
+/// not start yet; the march asks again when another window has finished.  When no other runs, the
+/// sequence's first unfinished window starts whatever the answer (except in a PartialMarch), so a
+/// march cannot lock up: keep room for one window, or throw.  It must not wait for visits to end,
+/// since the march may not have begun those that it asked for.  The admission is released as soon
+/// as the visit is over.
 using AdmitWindow = std::function<Admission(Index3 window)>;
 
 /// A visit that is over.
@@ -36,42 +37,42 @@ struct Visited {
   Index3 window;
   Time start;
   Time end;
-  double cpu_seconds = 0.0;  ///< of the visiting thread
-  int slot = 0;              ///< of the visiting thread, below the number of threads
+  double cpu_seconds = 0.0;  ///< time of the visiting thread
+  int slot = 0;              ///< number of the visiting thread, below the number of threads
 };
 
-/// Told of each visit, in order of completion, never by two threads at a time.
+/// Called after each visit, in order of completion, never by two threads at a time.
 using OnVisited = std::function<void(const Visited& visited)>;
 
 /// How a march goes.  Nothing here changes its result.
 struct MarchOptions {
-  /// 1: in sequence, by the caller's thread; 0: as many as there are cores.  Fewer where the
-  /// system gives no more.
+  /// With 1, the caller's thread visits in sequence; 0 means as many threads as there are cores.
+  /// There are fewer where the system gives no more.
   int threads = 1;
-  /// How many ranks from the sequence's first unfinished window others may run; bounds the march's
-  /// memory and how many blocks are in use; 0: default_look_ahead().
+  /// How many ranks behind the sequence's first unfinished window others may run, which bounds the
+  /// march's memory and the number of blocks in use; 0 means default_look_ahead().
   std::uint64_t look_ahead = 0;
   AdmitWindow admit;           ///< optional
   OnVisited visited;           ///< optional; may throw to stop the march
   IsFinished finished_before;  ///< optional: windows to pass over, closed under predecessors
-  /// Optional: only these windows, and each when its inputs are there.
+  /// Optional; then only these windows are visited, each when its inputs are there.
   const PartialMarch* part = nullptr;
 };
 
-/// Visits all windows.  With several threads a oneTBB flow graph of two nodes, which windows pass
-/// as messages: one visits, the other keeps the wavefront and, whenever a thread is free, sends the
-/// ready window with the longest path to go.
+/// Visits all windows.  Several threads run a oneTBB flow graph of two nodes, which windows pass as
+/// messages: one node visits, the other keeps the wavefront and, whenever a thread is free, sends
+/// the ready window with the longest path to go.
 /// ENSURES: every visit happens after the visits of its window's predecessors.
-/// ERRORS: what visit, admit or visited throw, and the error of the part's arrivals; then no more
+/// ERRORS: what visit, admit or visited throw, and the error of the part's arrivals.  Then no more
 /// windows start, those that run end, and of several exceptions the one of the sequence's earliest
-/// window is thrown on.
+/// window is rethrown.
 void march(const WindowOrder& order, const VisitWindow& visit, const MarchOptions& options = {});
 
-/// Sequential, in any order that respects predecessors, as `pick` decides.  The result is the same
-/// for every pick (promise P5).  Memory grows with the number of windows: for tests.
+/// Visits all windows one by one, in an order that respects predecessors and that `pick` decides.
+/// The result is the same for every pick (promise P5).  For tests: its memory grows with windows.
 void march_by_choice(const WindowOrder& order, const VisitWindow& visit, const PickReady& pick);
 
-/// The number of threads that `threads` asks for: itself, or the number of cores for 0.
+/// Returns the number of threads that `threads` asks for: itself, or the number of cores for 0.
 [[nodiscard]] int thread_count(int threads);
 
 /// Visits the window and says when.  ERRORS: what visit throws.

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The mwmesh authors
 // SPDX-License-Identifier: Apache-2.0
-// A ring of window states behind the sequence's first unfinished window.
+// A ring of the states of windows, from the sequence's first unfinished one on.
 #include "engine/march/wavefront.h"
 
 #include <algorithm>
@@ -57,7 +57,7 @@ void Wavefront::make_ready_if_due(std::uint64_t rank) {
   ready_.insert(priority(rank));
 }
 
-/// Forgets what lies behind the first unfinished window and creates what came within reach.
+/// Forgets windows before the first unfinished one, and creates those that came within reach.
 void Wavefront::advance() {
   while (true) {
     while (first_ < created_ && is_finished(first_)) ++first_;

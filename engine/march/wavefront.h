@@ -14,14 +14,14 @@
 
 namespace mw::engine {
 
-/// Windows by their rank in the march's order.  Thread safety: none.
+/// Says which windows may start; each is given by its rank in the order.  Thread safety: none.
 class Front {
  public:
   virtual ~Front() = default;
 
-  /// The ready window with the longest path to go, of equals the first in sequence.
+  /// Returns the ready window with the longest path to go, among equals the first in sequence.
   [[nodiscard]] virtual std::optional<std::uint64_t> best() const = 0;
-  /// The first unfinished of its windows in sequence; the order's size() at the end.
+  /// Returns the first of its windows in sequence that is unfinished, or the order's size().
   [[nodiscard]] virtual std::uint64_t first_unfinished() const = 0;
   [[nodiscard]] virtual bool is_ready(std::uint64_t rank) const = 0;
   /// REQUIRES: ready.
@@ -30,13 +30,13 @@ class Front {
   virtual void finish(std::uint64_t rank) = 0;
 };
 
-/// Whether a window was finished by an earlier run.
+/// True if an earlier run has finished the window.
 using IsFinished = std::function<bool(Index3 window)>;
 
-/// How far ahead a march of this many threads looks unless it is told otherwise.  In simulated
-/// marches over 343 and 9261 windows with 2 to 32 cores this was at most 1.5 % slower than looking
-/// ahead without end, with fewer blocks in use: for 2 cores in the colour order those of the
-/// sequence's three layers instead of all.
+/// Returns how far ahead a march of this many threads looks if it is not set.  In simulated marches
+/// over 343 and 9261 windows with 2 to 32 cores this was at most 1.5 % slower than looking ahead
+/// without end, with fewer blocks in use: for 2 cores in the colour order only those of the
+/// sequence's three layers.
 [[nodiscard]] constexpr std::uint64_t default_look_ahead(std::size_t threads) {
   return 128 * std::uint64_t{threads};
 }
@@ -55,11 +55,11 @@ class Wavefront : public Front {
   Wavefront(const WindowOrder& order, std::uint64_t look_ahead, IsFinished finished_before = {});
 
   [[nodiscard]] std::optional<std::uint64_t> best() const override;
-  /// It is ready unless it runs.
+  /// This window is ready unless it runs.
   [[nodiscard]] std::uint64_t first_unfinished() const override { return first_; }
   [[nodiscard]] bool is_ready(std::uint64_t rank) const override;
   [[nodiscard]] std::size_t ready_count() const { return ready_.size(); }
-  /// Windows that it can hold at a time.
+  /// Returns how many windows it can hold at a time.
   [[nodiscard]] std::size_t capacity() const { return states_.size(); }
 
   void start(std::uint64_t rank) override;
@@ -77,7 +77,7 @@ class Wavefront : public Front {
 
   const WindowOrder& order_;
   IsFinished finished_before_;
-  std::vector<State> states_;  // of ranks first_ to created_ - 1, in a ring
+  std::vector<State> states_;  // states of ranks first_ to created_ - 1, in a ring
   std::uint64_t first_ = 0;
   std::uint64_t created_ = 0;
   std::set<Priority> ready_;

@@ -14,14 +14,14 @@ std::array<std::int64_t, 3> axes(Index3 i) {
   return {i.x, i.y, i.z};
 }
 
-/// Place of index i in 0, 2, 1, 4, 3, ... below count, where odd places come after those beside
-/// them; its own inverse.
+/// Returns the place of index i in 0, 2, 1, 4, 3, ... below count, where odd indices come after
+/// those beside them.  It is its own inverse.
 std::int64_t even_first(std::int64_t i, std::int64_t count) {
   return i % 2 == 0 ? std::max<std::int64_t>(i - 1, 0) : std::min(i + 1, count - 1);
 }
 
-/// Place of index i in 1, 0, 3, 2, 5, ... below count, where even places come after those beside
-/// them; its own inverse.
+/// Returns the place of index i in 1, 0, 3, 2, 5, ... below count, where even indices come after
+/// those beside them.  It is its own inverse.
 std::int64_t odd_first(std::int64_t i, std::int64_t count) {
   return i % 2 == 0 ? std::min(i + 1, count - 1) : i - 1;
 }
@@ -30,7 +30,7 @@ std::int64_t place(std::int64_t i, std::int64_t count, std::int64_t parity) {
   return parity % 2 == 0 ? even_first(i, count) : odd_first(i, count);
 }
 
-/// The window at each place of the colour order's sequence, whose places are indices too.
+/// Returns the window at a place of the colour order's sequence; places are given as indices, too.
 Index3 colour_window(Index3 at, Index3 windows) {
   const std::int64_t z = place(at.z, windows.z, 0), y = place(at.y, windows.y, z);
   return {place(at.x, windows.x, y + z), y, z};
@@ -41,8 +41,8 @@ Index3 colour_place(Index3 w, Index3 windows) {
   return {place(w.x, windows.x, w.y + w.z), place(w.y, windows.y, w.z), place(w.z, windows.z, 0)};
 }
 
-/// The colour as the place in the Gray code of the parities, of those axes that have several
-/// windows.
+/// Returns the colour: the place of the parities in their Gray code, over those axes that have
+/// several windows.
 std::int64_t colour_step(Index3 window, Index3 windows) {
   std::int64_t step = 0, parity = 0;
   for (std::size_t axis = 3; axis-- > 0;) {
@@ -52,8 +52,8 @@ std::int64_t colour_step(Index3 window, Index3 windows) {
   return step;
 }
 
-/// Windows beside this one along the axis in which the colours of steps `step` - 1 and `step`
-/// differ: that of the lowest bit which is set.
+/// Returns the windows beside this one along the axis in which the colours of steps `step` - 1 and
+/// `step` differ, which is that of the lowest bit set in `step`.
 std::vector<Index3> beside(Index3 window, Index3 windows, std::int64_t step) {
   std::vector<Index3> out;
   auto bit = std::countr_zero(static_cast<std::uint64_t>(step));
@@ -66,9 +66,9 @@ std::vector<Index3> beside(Index3 window, Index3 windows, std::int64_t step) {
   return out;
 }
 
-/// Edges lead from each colour to the next.  Any two colours are joined by steps along axes, each
-/// as often as parity asks, so of any two windows that share a block one is reached from the other
-/// by going there and back.
+/// Edges lead from each colour to the next.  Between two colours the number of steps along an axis
+/// is odd where parities differ, else even.  So of two windows that share a block, one is reached
+/// from the other, since steps along an axis may go there and back.
 std::vector<Index3> colour_predecessors(Index3 window, Index3 windows) {
   const std::int64_t step = colour_step(window, windows);
   return step == 0 ? std::vector<Index3>{} : beside(window, windows, step);
@@ -81,7 +81,7 @@ std::vector<Index3> colour_successors(Index3 window, Index3 windows) {
 /// The inverse of WindowGrid::predecessors().
 std::vector<Index3> raster_successors(Index3 w, Index3 windows) {
   std::vector<Index3> out;
-  // Whose +1, clamped, is i: the one before, and the last itself.
+  // Returns the range of indices whose +1, clamped, is i: the one before, and the last one itself.
   const auto clamped_to = [](std::int64_t i, std::int64_t count) {
     return Index3{std::max<std::int64_t>(i - 1, 0), i == count - 1 ? i : i - 1, 0};
   };
@@ -97,8 +97,8 @@ std::vector<Index3> raster_successors(Index3 w, Index3 windows) {
   return out;
 }
 
-/// A row is its predecessor's two steps later, a layer two rows, unless there is only one window
-/// or row to wait for.
+/// A row begins two steps after the one before it, and a layer two rows after the one before it; it
+/// is one step or row where there is only one window or row to wait for.
 std::int64_t raster_step(Index3 window, Index3 windows) {
   const std::int64_t row = std::min<std::int64_t>(windows.x, 2);
   const std::int64_t layer = row * std::min<std::int64_t>(windows.y, 2);

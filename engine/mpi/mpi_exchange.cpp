@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The mwmesh authors
 // SPDX-License-Identifier: Apache-2.0
-// A thread that talks to MPI: an out box, sends and receives under way, signs of life.
+// The thread that talks to MPI, with its out box, its sends and receives under way, and heartbeats.
 #include "engine/mpi/mpi_exchange.h"
 
 #include <mpi.h>
@@ -27,9 +27,9 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-/// Tags are the kinds of messages; the transport's own have this one.
+/// Tags are the kinds of messages; the transport's own messages have this tag.
 constexpr int kOwnTag = 0;
-constexpr std::size_t kMaxSends = 256;  ///< under way at a time
+constexpr std::size_t kMaxSends = 256;  ///< the most sends under way at a time
 constexpr std::chrono::microseconds kPause{100};
 constexpr std::chrono::seconds kBeat{1};
 
@@ -37,7 +37,7 @@ constexpr std::chrono::seconds kBeat{1};
 constexpr std::uint64_t kAlive = ~std::uint64_t{0};
 constexpr std::uint64_t kLeaving = ~std::uint64_t{1};
 
-/// What MPI counts with is an int.
+/// MPI counts bytes with an int.
 int as_int(std::size_t bytes) {
   if (bytes > std::size_t{1} << 30U) {
     throw Error(ErrorKind::kInternal, "a message of more than 1 GiB");
@@ -45,7 +45,7 @@ int as_int(std::size_t bytes) {
   return static_cast<int>(bytes);
 }
 
-/// Head and bytes as one message, wherever they lie.
+/// Returns a type that sends head and bytes as one message, wherever they lie in memory.
 MPI_Datatype type_of(const MessageHead& head, const void* bytes, std::size_t size) {
   std::array<int, 2> lengths{static_cast<int>(sizeof(MessageHead)), as_int(size)};
   std::array<MPI_Aint, 2> at{};
@@ -64,7 +64,7 @@ struct Outgoing {
   SharedBytes bytes;
 };
 
-/// Whether that is a process of Open MPI that waits for this one.
+/// True if this is a process of Open MPI that waits for its children.
 bool is_launcher(pid_t process) {
   std::ifstream in("/proc/" + std::to_string(process) + "/comm");
   std::string name;
@@ -115,7 +115,7 @@ class MpiExchange::Transport {
     const std::lock_guard turn(listening_);
     listener_ = std::move(listener);
   }
-  /// Bytes that MPI still reads stay for good.
+  /// Waits up to 2 s for sends to end.  What is in the out box then is kept and never sent.
   void let_go() {
     const Clock::time_point until = Clock::now() + std::chrono::seconds(2);
     while (!is_idle() && Clock::now() < until) std::this_thread::sleep_for(kPause);
@@ -125,7 +125,7 @@ class MpiExchange::Transport {
     kept.push_back(std::move(out_box_));
     out_box_.clear();
   }
-  /// How many ranks have said that they leave.
+  /// Returns how many ranks have said that they leave.
   [[nodiscard]] int leaving() const {
     const std::lock_guard lock(mutex_);
     return leaving_;
@@ -204,7 +204,7 @@ class MpiExchange::Transport {
     MPI_Datatype type =
         type_of(m.head, empty ? nullptr : m.bytes->data(), empty ? 0 : m.bytes->size());
     MPI_Isend(MPI_BOTTOM, 1, type, m.to, tag_of(m.head), MPI_COMM_WORLD, &sending.request);
-    MPI_Type_free(&type);  // once it is no longer needed
+    MPI_Type_free(&type);  // MPI frees it when the send is over
   }
 
   bool end_sends() {
@@ -280,13 +280,13 @@ class MpiExchange::Transport {
     listener_.receive(std::move(message));
   }
 
-  /// Tells all that this one lives; ends it when another one does not.
+  /// Tells all ranks that this one is alive, and ends this process if one of them is silent.
   void keep_alive() {
     const Clock::time_point now = Clock::now();
     if (now - last_beat_ < kBeat) return;
     last_beat_ = now;
     {
-      // What came before anybody listened.
+      // These came before there was a listener.
       const std::lock_guard turn(listening_);
       if (listener_.receive) {
         for (Message& before : std::exchange(waiting_, {})) listener_.receive(std::move(before));
@@ -305,7 +305,7 @@ class MpiExchange::Transport {
     }
   }
 
-  /// Open MPI's own processes wait for ever for those that they cannot reach, so they go first.
+  /// Ends Open MPI's own processes first, since they wait for ever for those they cannot reach.
   [[noreturn]] void end_for_silence(int other) const {
     std::fprintf(stderr,
                  "mwmesh: error: rank %d has not heard from rank %d for %d seconds; the network or "
@@ -331,7 +331,7 @@ class MpiExchange::Transport {
   ExchangeListener listener_;
   std::vector<Message> waiting_;
 
-  // The thread's own.
+  // Only the thread uses the next lines.
   std::list<Sending> sends_;
   std::list<Receiving> receives_;
   std::vector<Clock::time_point> heard_;
@@ -369,7 +369,7 @@ void MpiExchange::leave(int code) {
   constexpr std::chrono::milliseconds kLook{1};
   if (rank() != 0) {
     send(0, {kLeaving, 0, 0, 0}, nullptr);
-    // Rank 0 says when its files are done, or tells the user and ends, and mpirun ends this one.
+    // Rank 0 says when its files are complete, or reports an error and ends; mpirun ends this one.
     const Clock::time_point until = Clock::now() + kPatience;
     while (transport_->leaving() == 0 && (code == 0 || Clock::now() < until)) {
       std::this_thread::sleep_for(kLook);

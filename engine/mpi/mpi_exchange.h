@@ -9,17 +9,17 @@
 
 namespace mw::engine {
 
-/// The processes that mpirun, or srun, has started.  One thread of its own starts MPI, makes all of
-/// its calls and ends it, so any level of thread support does (MPI_THREAD_FUNNELED).  It sends and
-/// receives without copies, and sleeps when there is nothing to do.
+/// The processes that mpirun, or srun, has started.  A thread of its own starts MPI, makes all
+/// calls to it and ends it, so MPI_THREAD_FUNNELED suffices.  It sends and receives without copies,
+/// and sleeps when there is nothing to do.
 ///
-/// Every rank hears from every other at least each second.  After kSilence without a word from one
-/// this process ends (exit code 1): Open MPI itself waits for ever when a network is cut.
+/// Every rank sends a message to every other each second.  When a rank has been silent for kSilence
+/// this process ends (exit code 1), since Open MPI itself waits for ever when a network is cut.
 class MpiExchange : public Exchange {
  public:
   static constexpr int kSilence = 30;  ///< seconds
 
-  /// Once a process.  ERRORS: mw::Error(kInternal) when MPI cannot be started.
+  /// A process may make only one.  ERRORS: mw::Error(kInternal) when MPI cannot be started.
   MpiExchange();
   ~MpiExchange() override;
 
@@ -31,9 +31,9 @@ class MpiExchange : public Exchange {
   void let_go() override;
   void listen(ExchangeListener listener) override;
 
-  /// The end of the program with this exit code.  After 0 everywhere MPI is ended in order.  After
-  /// an error the other ranks, which have been told, get some seconds to put their things away;
-  /// then this process ends, rank 0 first, and mpirun ends with the same code.
+  /// Ends the program with this exit code.  If it is 0 on all ranks, MPI is ended in order.  After
+  /// an error the other ranks, which have been told, get some seconds to clean up; then this
+  /// process ends, rank 0 first, and mpirun ends with the same code.
   [[noreturn]] void leave(int code);
 
  private:

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The mwmesh authors
 // SPDX-License-Identifier: Apache-2.0
-// What final blocks tell one by one, whichever process reads them in whatever order.
+// Figures that final blocks give one by one; which process reads them in which order is free.
 #pragma once
 
 #include <algorithm>
@@ -17,16 +17,17 @@
 
 namespace mw::engine {
 
-/// Memory: 16 bytes a label.  Cost: about 10 ns a tet, 50 where its label has a size.
+/// Longest edges by label, and ratios of edges to sizes.  Memory: 16 bytes a label.  Cost: about
+/// 10 ns a tet, 50 where its label has a size.
 class LongestEdges {
  public:
-  /// sizes: by dense label, 0 for none; empty: of no label.
+  /// sizes are by dense label, 0 where it has none; empty if no label has one.
   explicit LongestEdges(std::size_t labels, std::vector<double> sizes = {})
       : squared_(labels, 0.0), sizes_(std::move(sizes)) {
     sizes_.resize(labels, 0.0);
   }
 
-  /// positions: of the block's rows.
+  /// positions are those of the block's vertices, by row.
   void add(std::span<const BlockTet> tets, std::span<const io::Position> positions) {
     for (const BlockTet& t : tets) {
       const auto& [a, b, c, d] = t.vertices;
@@ -47,9 +48,9 @@ class LongestEdges {
   }
 
   [[nodiscard]] EdgeRatios& ratios() { return ratios_; }
-  /// Squares of lengths(), so far.
+  /// Returns the squares of lengths(), so far.
   [[nodiscard]] std::vector<double>& squares() { return squared_; }
-  /// By dense label; 0 where there is no tet.
+  /// Returns the longest edge by dense label; 0 where there is no tet.
   [[nodiscard]] std::vector<double> lengths() const {
     std::vector<double> out = squared_;
     for (double& length : out) length = std::sqrt(length);
@@ -67,7 +68,7 @@ class LongestEdges {
   EdgeRatios ratios_;
 };
 
-/// Figures of what is written: sums of whole numbers, and extremes.
+/// Figures of the tets that are written: sums of whole numbers, and extremes.
 /// Memory: 24 bytes a label.
 struct BlockFigures {
   std::optional<audit::QualityMeter> quality;
@@ -75,14 +76,14 @@ struct BlockFigures {
   bool has_volumes = false;
   std::vector<Int128> volumes6;  ///< by dense label; see FinishedMesh
 
-  /// labels: how many there are.
+  /// labels is the number of dense labels.
   BlockFigures(const OutputOptions& options, std::size_t labels);
 
-  /// shape: of the block's tets, by their numbers in the block; first_tet: the number of the first
-  /// one in the mesh.
+  /// shape is the quality of the block's tets, by their numbers in the block; first_tet is the
+  /// number of the first one in the mesh.
   void add(const WrittenBlock& block, const audit::QualityMeter& shape, std::uint64_t first_tet);
 
-  /// Ends it.
+  /// Moves the figures into `out`; nothing may be added afterwards.
   void report(FinishedMesh& out);
 };
 

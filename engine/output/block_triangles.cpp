@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The mwmesh authors
 // SPDX-License-Identifier: Apache-2.0
-// All triangles of a block's tets, sorted, so that those of two tets follow one another.
+// Sorts the triangles of all tets of a block, so that equal ones of two tets follow one another.
 #include "engine/output/block_triangles.h"
 
 #include <algorithm>
@@ -17,7 +17,7 @@ struct Face {
   std::uint32_t tet = 0;
 };
 
-/// Sorted by rows.
+/// Returns the triangles of all tets, sorted by rows.
 std::vector<Face> faces_of(const BlockMesh& block) {
   std::vector<Face> out;
   out.reserve(4 * block.tets.size());
@@ -70,7 +70,7 @@ class Finder {
            scope_.selection.keeps(label(other));
   }
 
-  /// Room for all that can be told: a list that grew would take three times as much meanwhile.
+  /// Reserves room for all entries: a list that grows would take three times as much meanwhile.
   void reserve(std::span<const Face> faces) {
     std::size_t lone = 0;
     std::size_t interfaces = 0;
@@ -103,7 +103,7 @@ class Finder {
            on_side(a.z, b.z, c.z, scope_.shape.z);
   }
 
-  /// Whether (b - a) x (c - a) points out of the face's tet.
+  /// True if (b - a) x (c - a) points out of the face's tet.
   [[nodiscard]] bool points_out(const Face& face) const {
     const auto& [a, b, c] = face.rows;
     for (const std::uint32_t v : block_.tets[face.tet].vertices) {

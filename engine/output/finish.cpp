@@ -13,7 +13,7 @@
 namespace mw::engine {
 namespace {
 
-/// Exact: four times a barycentre is the sum of the corners.
+/// The result is exact: four times a barycentre is the sum of the corners.
 std::uint64_t tets_within(const BlockMesh& block, const Box3& box) {
   const auto is_between = [](std::int64_t sum, std::int64_t lo, std::int64_t hi) {
     constexpr std::int64_t kScale = std::int64_t{4} * kUnitsPerVoxel;
@@ -45,14 +45,14 @@ io::VolumeInfo lattice_info(io::VolumeInfo info, Index3 layers) {
   return info;
 }
 
-/// What a block tells in the first pass.
+/// What the first pass counts in a block.
 struct Counts {
   std::vector<std::size_t> lines;  ///< see VertexUses
   std::uint64_t tets = 0;
   std::uint64_t tets_within = 0;
 };
 
-/// First pass.  Returns the lines of blocks that use vertices.
+/// Makes the first pass.  Returns the lines of blocks that use vertices.
 VertexUses count(const FinalMesh& mesh, const LabelSelection& selection,
                  const OutputOptions& options, FinishedMesh& out) {
   VertexUses uses(mesh.grid);
@@ -73,14 +73,14 @@ VertexUses count(const FinalMesh& mesh, const LabelSelection& selection,
   return uses;
 }
 
-/// What can be told of a block before those in front of it are written.
+/// What can be made from a block before those in front of it are written.
 struct MadeBlock {
   WrittenBlock written;
   audit::QualityMeter quality;              ///< with measure_quality
   std::optional<BlockTriangles> triangles;  ///< with measure_shape
 };
 
-/// Second pass.
+/// Makes the second pass.
 class Writer {
  public:
   Writer(const FinalMesh& mesh, const LabelSelection& selection, VertexUses uses,
@@ -101,7 +101,7 @@ class Writer {
   [[nodiscard]] MadeBlock make(Index3 where) const {
     MadeBlock out;
     BlockMesh block = mesh_.blocks.load(where);
-    block.samples = {};  // what is made next needs the memory
+    block.samples = {};  // frees memory for what is made next
     if (shape_) out.triangles = shape_->look_at(block);
     selection_.apply(block);
     out.written = written_block(std::move(block), mesh_.volume, options_.layers);
@@ -160,7 +160,7 @@ class Writer {
   Remembered remembered_;
   BlockFigures figures_;
   std::optional<InterfaceShape> shape_;
-  std::uint64_t tets_ = 0;  ///< so far
+  std::uint64_t tets_ = 0;  ///< tets written so far
 };
 
 }  // namespace

@@ -23,46 +23,46 @@
 
 namespace mw::engine {
 
-/// The blocks after the last march.  Reading leaves them as they are, so it may happen more than
-/// once.
+/// The blocks after the last march.  Reading leaves them as they are, so they may be read several
+/// times.
 class FinalBlocks {
  public:
   virtual ~FinalBlocks() = default;
-  /// A copy of the block.  Only vertices (id, position) and tets are looked at.
-  /// Thread safety: as many threads as OutputOptions::work has.
+  /// Returns a copy of the block.  Only vertices (id, position) and tets are looked at.
+  /// Thread safety: as many threads as OutputOptions::work has may call it at once.
   [[nodiscard]] virtual BlockMesh load(Index3 block) = 0;
 };
 
 /// What the mesh is made from when the marches are over.
 struct FinalMesh {
   FinalBlocks& blocks;
-  const WindowGrid& grid;  ///< of the lattice: its shape is that of the volume times the layers
+  const WindowGrid& grid;  ///< grid of the lattice, whose shape is the volume's times the layers
   const io::DenseVolume& volume;
 };
 
-/// What is written and told of the mesh.
+/// What is written of the mesh, and what is measured.
 struct OutputOptions {
-  WantedLabel wanted;  ///< empty: every label
-  /// Tets whose barycentres are in this box of the lattice are counted apart; none: not done.
+  WantedLabel wanted;  ///< if empty, every label is written
+  /// Optional; tets whose barycentres are in this box of the lattice are also counted apart.
   std::optional<Box3> within;
   bool measure_quality = false;    ///< about 0.1 us a tet
   bool measure_shape = false;      ///< volumes, area and bends; about 1 us a tet
   bool measure_edges = false;      ///< the longest of each label, and their ratios
-  std::vector<double> edge_sizes;  ///< by dense label; 0: none was asked
+  std::vector<double> edge_sizes;  ///< by dense label; 0 where none was asked for
   HoldMemory hold;                 ///< optional
   CellValues* values = nullptr;    ///< optional; what tets have beside labels; outlives the run
-  std::optional<io::MeshPromises> promises;  ///< to be told in the file; set by mesh_volume()
-  Index3 layers{1, 1, 1};  ///< that the volume's voxels were cut into; set by mesh_volume()
-  WorkInOrder work;        ///< on blocks; set by mesh_volume()
+  std::optional<io::MeshPromises> promises;  ///< written into the file; set by mesh_volume()
+  Index3 layers{1, 1, 1};  ///< what the volume's voxels were cut into; set by mesh_volume()
+  WorkInOrder work;        ///< how blocks are worked on; set by mesh_volume()
 };
 
-/// How many edges of tets are how long, as shares of the sizes that are asked of their labels.  An
-/// edge counts for each tet that has it.
+/// Counts edges of tets by length, as a share of the size that is asked for their label.  An edge
+/// counts for each tet that has it.
 struct EdgeRatios {
   static constexpr std::array<double, 7> kBounds{0.2, 0.4, 0.6, 0.8, 1.0, 1.25, 1.5};
   std::vector<std::uint64_t> counts = std::vector<std::uint64_t>(kBounds.size() + 1);
 
-  /// A ratio that is a bound counts below it.
+  /// A ratio that equals a bound counts below that bound.
   void add(double ratio) {
     const auto bound = std::lower_bound(kBounds.begin(), kBounds.end(), ratio);
     ++counts[static_cast<std::size_t>(bound - kBounds.begin())];
@@ -76,10 +76,10 @@ struct FinishedMesh {
   std::uint64_t tets_within = 0;  ///< see OutputOptions::within
   std::optional<audit::QualityReport> quality;
   std::optional<audit::ShapeReport> shape;
-  /// With measure_shape, by dense label, else empty: six times the volume that is written, exact,
+  /// By dense label with measure_shape, else empty: exactly six times the volume that is written,
   /// in cubic units of the lattice.
   std::vector<Int128> label_volumes6;
-  /// With measure_edges, by dense label; physical units, 0 where nothing is written.
+  /// By dense label with measure_edges: in physical units, 0 where nothing is written.
   std::vector<double> longest_edges;
   EdgeRatios edge_ratios;             ///< with measure_edges
   std::size_t max_remembered = 0;     ///< see VertexRows; 16 bytes each
@@ -87,11 +87,12 @@ struct FinishedMesh {
 };
 
 /// Reads every block twice, first for counts and uses of vertices, then to write them in raster
-/// order.  What can be made of a block alone is made on several threads.
-/// Vertices ascend by the first block that references them, then by id; tets by block and canonical
-/// order inside it.  Coordinates are those of the volume's space (to_world), on corners of its
-/// voxels whatever the layers; tets are positive in them.  Memory: the blocks of `work`, what
-/// VertexRows and InterfaceShape remember, 16 bytes a label and the sink's buffers.
+/// order.  What can be made from a block alone is made on several threads.
+/// Vertices ascend by the first block that references them, then by id; tets ascend by block and
+/// canonical order inside it.  Coordinates are those of the volume's space (to_world); layers do
+/// not move corners of the volume's voxels.  Tets are positive in these coordinates.  Memory: the
+/// blocks of `work`, what VertexRows and InterfaceShape remember, 16 bytes a label and the sink's
+/// buffers.
 FinishedMesh finish(const FinalMesh& mesh, io::MeshSink& sink, const OutputOptions& options = {});
 
 }  // namespace mw::engine

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The mwmesh authors
 // SPDX-License-Identifier: Apache-2.0
-// Sorted lists of what a block has, merged with those of what waits.
+// Merges the sorted lists of a block's triangles and edges with those that wait.
 #include "engine/output/interface_shape.h"
 
 #include <algorithm>
@@ -47,11 +47,11 @@ void InterfaceShape::add(BlockTriangles&& block) {
   sort_news(own);
   for_each_piece(std::span<const EdgeNews>(news_), home_of,
                  [&](std::span<const EdgeNews> piece) { settle_edges(home_of(piece[0]), piece); });
-  news_ = {};  // what is written next needs the memory
+  news_ = {};  // frees memory for what is written next
   max_remembered_ = std::max(max_remembered_, remembered());
 }
 
-/// The first are sorted already.
+/// Sorts news_, of which the first `sorted` entries are sorted already.
 void InterfaceShape::sort_news(std::ptrdiff_t sorted) {
   const auto before = [&](const EdgeNews& a, const EdgeNews& b) {
     return block_->comes_before(a, b);
@@ -109,7 +109,7 @@ void InterfaceShape::settle_edges(std::size_t home, std::span<const EdgeNews> ne
   if (front.edges.empty()) fronts_.erase(home);  // no face is open where no edge is
 }
 
-/// A triangle whose other tet has that label.
+/// Measures a triangle whose other tet has the label `other`.
 void InterfaceShape::meet(const LoneTriangle& face, Label other) {
   const Label here = face.label;
   if (here == other || !selection_.keeps(here) || !selection_.keeps(other)) return;
@@ -150,7 +150,7 @@ io::Vector3 InterfaceShape::position(Point p) const {
   return physical(p, info_.space);
 }
 
-/// Before the triangles of one tet and their edges wait as well; those that close one will not.
+/// Holds memory for all lone triangles and their edges, although those that close one do not wait.
 void InterfaceShape::hold_lone() {
   const std::uint64_t each = sizeof(OpenFace) + 3 * sizeof(OpenEdge);
   if (hold_) hold_(remembered() + each * block_->lone.size());

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The mwmesh authors
 // SPDX-License-Identifier: Apache-2.0
-// Area and bends of the interfaces of a mesh that comes block by block, without a list of it.
+// Area and bends of the interfaces of a mesh that comes block by block and is never held whole.
 #pragma once
 
 #include <span>
@@ -17,16 +17,16 @@
 namespace mw::engine {
 
 // The two tets of a triangle may come with two blocks, and the triangles at an edge with several.
-// A triangle waits for its second tet, which every one has that is not on the box; it is open
-// until then.  An edge waits as long as an open triangle is at it: the tets around an edge are a
-// ring, or a fan between two triangles on the box, so while some of them are still to come, those
-// that came end in a triangle that is open.  What waits is therefore no more than the front between
-// the blocks that came and the others, and nobody has to be told when to forget it.
+// A triangle that is not on the box has two tets; it is open until its second tet comes.  An edge
+// waits as long as an open triangle is at it: the tets around an edge are a ring, or a fan between
+// two triangles on the box, so while some of them are still to come, those that came end in a
+// triangle that is open.  So only the front between the blocks that came and the others waits, and
+// each part of it is forgotten when it is complete.
 
 /// Measures the audit::ShapeReport of the triangles between two labels that are written.
-/// Memory: 32 bytes an open triangle, of which a front has about as many as a plane and a row of
-/// blocks have on one side, and 56 for each of its edges, some 1.5 a triangle; both sorted by the
-/// block in which their first vertex lies.
+/// Memory: 32 bytes for each open triangle, of which a front has about as many as a plane and a row
+/// of blocks have on one side, and 56 for each of their edges, some 1.5 a triangle; both sorted by
+/// the block in which their first vertex lies.
 /// Cost: about 1 us a tet, 1 % of a run.  The figures are a function of the blocks.
 class InterfaceShape {
  public:
@@ -53,25 +53,25 @@ class InterfaceShape {
   /// A triangle that has shown one of its tets.
   struct OpenFace {
     std::array<VertexId, 3> ids{};  ///< ascending
-    Label label = 0;                ///< of that tet
+    Label label = 0;                ///< label of that tet
   };
   /// An edge at which a triangle is open, and the interface triangles at it so far.
   struct OpenEdge {
     std::array<VertexId, 2> ids{};  ///< ascending
-    LabelPair labels{};             ///< of the first triangle
-    std::array<Point, 2> apexes{};  ///< of the first two
+    LabelPair labels{};             ///< labels of the first triangle
+    std::array<Point, 2> apexes{};  ///< apexes of the first two triangles
     std::array<bool, 2> turned{};   ///< see audit::Wing
     std::uint16_t open = 0;         ///< triangles that are open
-    std::uint8_t triangles = 0;     ///< kMany: edges of no bend
+    std::uint8_t triangles = 0;     ///< their number; kMany if the edge has no bend
   };
   static constexpr std::uint8_t kMany = 3;
 
-  /// What waits, by the block in which the first vertex lies.
+  /// Open triangles and edges whose first vertex lies in one block.
   struct Front {
     std::vector<OpenFace> faces;  ///< ascending by ids
     std::vector<OpenEdge> edges;
   };
-  /// A node of the map, and slack of the allocator's for two lists.
+  /// A node of the map, and the allocator's slack for two lists.
   static constexpr std::uint64_t kBytesPerFront = 160;
 
   void settle_faces(std::size_t home, std::span<const LoneTriangle> faces);
@@ -84,7 +84,7 @@ class InterfaceShape {
 
   [[nodiscard]] VertexId id(std::uint32_t row) const { return block_->vertices[row].id; }
   [[nodiscard]] Point point(std::uint32_t row) const { return block_->vertices[row].position; }
-  /// In the array's own axes: turned and mirrored shapes measure the same.
+  /// Returns the position along the axes of the array: turned and mirrored shapes measure the same.
   [[nodiscard]] io::Vector3 position(Point p) const;
   void hold_lone();
 
@@ -97,7 +97,7 @@ class InterfaceShape {
   std::uint64_t list_bytes_ = 0;
   std::uint64_t max_remembered_ = 0;
 
-  // Of the block that is being added.
+  // These belong to the block that is being added.
   const BlockTriangles* block_ = nullptr;
   std::vector<EdgeNews> news_;
 };

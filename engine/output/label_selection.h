@@ -19,7 +19,7 @@ class LabelSelection {
  public:
   LabelSelection(const WantedLabel& wanted, const io::LabelTable& table);
 
-  /// Whether a label is written.
+  /// True if a label is written.
   [[nodiscard]] bool keeps(Label label) const { return wanted_.empty() || wanted_[label]; }
 
   /// Drops the tets of other labels, and the vertices that no tet references any more.  Samples
@@ -27,18 +27,18 @@ class LabelSelection {
   void apply(BlockMesh& block) const;
 
  private:
-  std::vector<bool> wanted_;  ///< by dense label; empty: all
+  std::vector<bool> wanted_;  ///< by dense label; empty if all are written
 };
 
 struct LabelChoice {
   std::optional<std::vector<RawLabel>> labels;  ///< the only ones that are kept
-  std::optional<RawLabel> background;           ///< the one that is not
+  std::optional<RawLabel> background;           ///< the only one that is left out
 };
 
 /// ERRORS: mw::Error(kUsage) when both are given.
 void check_choice(const LabelChoice& choice);
 
-/// Empty when all labels are kept.
+/// Returns which labels are kept; empty when all are.
 /// ERRORS: mw::Error(kUsage) for a label that the volume does not have, and when none is kept.
 [[nodiscard]] WantedLabel wanted_labels(const LabelChoice& choice, const io::LabelTable& table);
 

@@ -10,18 +10,18 @@
 
 namespace mw::engine {
 
-/// Is told how many bytes are held, before they grow beyond what it was last told; may throw.
+/// Called with the number of bytes held, before it grows beyond that of the last call; may throw.
 using HoldMemory = std::function<void(std::uint64_t bytes)>;
 
-/// Tells a memory budget in steps how much is held, so that it is not asked for each block.
+/// Tells a memory budget how much is held, in steps, so that it is not asked for every block.
 class Remembered {
  public:
-  /// Entries of VertexRows, and a second list while one is merged.
+  /// An entry of VertexRows, twice, because lists are copied when they are merged.
   static constexpr std::uint64_t kBytesPerRow = 32;
 
   explicit Remembered(HoldMemory hold) : hold_(std::move(hold)) {}
 
-  /// These three are called before a part of what is held grows to `bytes`; here rows of vertices.
+  /// Each of these is called before its part of what is held grows to `bytes`: rows of vertices.
   void rows(std::uint64_t bytes) {
     rows_ = bytes;
     tell();
@@ -30,7 +30,7 @@ class Remembered {
     shape_ = bytes;
     tell();
   }
-  /// What CellValues hold for a block.
+  /// What CellValues holds for a block.
   void values(std::uint64_t bytes) {
     values_ = bytes;
     tell();

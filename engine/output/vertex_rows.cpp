@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The mwmesh authors
 // SPDX-License-Identifier: Apache-2.0
-// Rows by home blocks that live as long as they are asked for.
+// Lists of rows by home block, which live as long as they are asked for.
 #include "engine/output/vertex_rows.h"
 
 #include <algorithm>

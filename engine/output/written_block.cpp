@@ -24,7 +24,7 @@ io::MeshBox box_of(const io::VolumeInfo& info) {
   return box;
 }
 
-/// The shorter of the two lists.
+/// Records the written or the left-out labels, whichever list is shorter.
 void tell_choice(const LabelSelection& selection, const io::LabelTable& table,
                  io::MeshRecord& record) {
   std::vector<RawLabel> only, without;

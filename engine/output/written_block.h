@@ -16,8 +16,8 @@
 
 namespace mw::engine {
 
-/// Where a point of a lattice that cuts a volume's voxels into layers is in the volume's space. One
-/// division a coordinate, so that corners of the volume's voxels stay whole numbers.
+/// Returns the place in the volume's space of a point of the lattice that cuts its voxels into
+/// layers.  Each coordinate is divided once, so that corners of voxels stay whole numbers.
 [[nodiscard]] inline io::Position physical(Point p, const io::VolumeSpace& space,
                                            Index3 layers = {1, 1, 1}) {
   const auto in_voxels = [](std::int32_t units, std::int64_t of_voxel) {
@@ -29,23 +29,23 @@ namespace mw::engine {
 
 /// A final block as sinks take it, except that tets name vertices by their rows in the block.
 struct WrittenBlock {
-  BlockMesh block;                      ///< what is written of it
-  std::vector<io::Position> positions;  ///< of its vertices, in the volume's space
+  BlockMesh block;                      ///< the part that is written
+  std::vector<io::Position> positions;  ///< places of its vertices in the volume's space
   std::vector<io::TetRows> tets;        ///< positively oriented in the world, by rows of the block
   std::vector<RawLabel> labels;         ///< by tet
 };
 
-/// layers: of each voxel of the volume.
+/// layers are those that each voxel of the volume was cut into.
 [[nodiscard]] WrittenBlock written_block(BlockMesh block, const io::DenseVolume& volume,
                                          Index3 layers);
 
-/// The shape of the tets, by their numbers in the block.
+/// Returns the quality of the tets, by their numbers in the block.
 [[nodiscard]] audit::QualityMeter quality_of(const WrittenBlock& block);
 
 /// Replaces rows of the block by those of the mesh.
 void give_rows(std::vector<io::TetRows>& tets, std::span<const std::uint64_t> rows);
 
-/// What is known of the mesh before its first row.
+/// Returns what is known of the mesh before its first row is written.
 [[nodiscard]] io::MeshHeader header_of(const io::DenseVolume& volume,
                                        const LabelSelection& selection, std::uint64_t tets,
                                        const std::optional<io::MeshPromises>& promises);

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The mwmesh authors
 // SPDX-License-Identifier: Apache-2.0
-// Bands of rows through the rasteriser.
+// Draws bands of rows, one after the other, with the rasteriser.
 #include "engine/picture/draw.h"
 
 #include <algorithm>
@@ -39,7 +39,7 @@ Measured measure(MeshScene& scene, const View& view) {
   return out;
 }
 
-/// Returns how dark edges are, 0 to 1, by the average number of pixels that a triangle covers.
+/// Returns how dark edges are, 0 to 1, from the average number of pixels of a triangle.
 double line_share(const Measured& measured, const PictureStyle& style) {
   constexpr double kFaint = 3, kPlain = 14;  // pixels across
   constexpr double kDarkest = 0.5;

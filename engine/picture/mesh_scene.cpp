@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The mwmesh authors
 // SPDX-License-Identifier: Apache-2.0
-// What of a mesh is seen: the surface of some labels, and a cut through them.
+// What is seen of a mesh: the surface of some labels, and a cut through them.
 #include "engine/picture/mesh_scene.h"
 
 #include <algorithm>
@@ -15,7 +15,7 @@ Vec3 vec(const io::Position& p) {
   return {p[0], p[1], p[2]};
 }
 
-/// A polygon as triangles around its first corner; its own sides are edges of the mesh.
+/// Visits a polygon as triangles around its first corner; its own sides are edges of the mesh.
 void fan(const Piece& piece, SceneTriangle triangle, const MeshScene::Visit& visit) {
   for (std::size_t i = 1; i + 1 < piece.count; ++i) {
     triangle.corners = {piece.corners[0], piece.corners[i], piece.corners[i + 1]};

@@ -17,7 +17,7 @@ namespace py = pybind11;
 namespace mwmesh::python {
 namespace {
 
-/// An object that may be let go by any thread.
+/// Returns an object that any thread may let go of.
 std::shared_ptr<py::object> shared(py::object object) {
   return {new py::object(std::move(object)), [](py::object* o) {
             const py::gil_scoped_acquire gil;
@@ -57,7 +57,7 @@ HeldVolume volume_of_array(const py::array& array, const Space& space,
   return {Volume::of(told), shared(array)};
 }
 
-/// fetch(x0, y0, z0, x1, y1, z1): the labels of a box as integers of 64 bits, x fastest.
+/// Makes a volume of fetch(x0, y0, z0, x1, y1, z1), which returns 64-bit labels, x fastest.
 HeldVolume volume_of_region(const py::object& fetch, const py::dtype& type, const Index& shape,
                             const Index& chunk, const Space& space,
                             const std::vector<LabelName>& names) {
@@ -77,7 +77,7 @@ HeldVolume volume_of_region(const py::object& fetch, const py::dtype& type, cons
   return {Volume::of(told), held};
 }
 
-/// A view of one of the lists of a mesh, not to be written to; the mesh lives as long as it.
+/// Returns a read-only view of one of the lists of a mesh, which lives as long as the view.
 template <class T>
 py::array_t<T> view(const py::object& owner, const void* data, std::vector<py::ssize_t> shape) {
   py::array_t<T> array(std::move(shape), static_cast<const T*>(data), owner);
@@ -90,7 +90,7 @@ py::array_t<T> column(const py::object& owner, const Mesh& mesh) {
   return view<T>(owner, mesh.labels.data(), {static_cast<py::ssize_t>(mesh.labels.size())});
 }
 
-/// {name: view of its numbers by tet}.
+/// Returns {name: view of its numbers by tet}.
 py::dict values_of(const py::object& self) {
   py::dict out;
   for (const auto& [name, numbers] : self.cast<const Mesh&>().values) {
@@ -358,7 +358,7 @@ py::array_t<std::uint64_t> synth_array(const std::string& kind, const Index& sha
   return py::array_t<std::uint64_t>({shape[2], shape[1], shape[0]}, list.data(), owner);
 }
 
-/// Errors become mwmesh.Error of the kind.
+/// Makes errors of the library mwmesh.Error of the same kind.
 void translate_errors(const py::module_& module) {
   static const py::object raise = module.attr("_error_of");
   py::register_exception_translator([](std::exception_ptr thrown) {

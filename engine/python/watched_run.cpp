@@ -19,7 +19,7 @@ namespace {
 
 constexpr std::chrono::milliseconds kLook{100};
 
-/// A run in its thread.
+/// Work that runs in a thread of its own.
 class Watched {
  public:
   explicit Watched(const std::function<void(const Hooks&)>& work)
@@ -33,13 +33,13 @@ class Watched {
     thread_.join();
   }
 
-  /// Waits a moment; whether the work has ended.
+  /// Waits a moment.  Returns whether the work has ended.
   [[nodiscard]] bool has_ended() {
     std::unique_lock lock(mutex_);
     return ended_.wait_for(lock, kLook, [this] { return is_over_; });
   }
 
-  /// The latest, once.
+  /// Returns the latest progress, once.
   [[nodiscard]] std::optional<Progress> news() {
     const std::lock_guard lock(mutex_);
     return std::exchange(news_, std::nullopt);

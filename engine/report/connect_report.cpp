@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The mwmesh authors
 // SPDX-License-Identifier: Apache-2.0
-// Words and rows.
+// What hangs together in a mesh, as JSON and in words.
 #include "engine/report/connect_report.h"
 
 #include "engine/report/mesh_facts.h"

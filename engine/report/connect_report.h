@@ -10,14 +10,14 @@
 
 namespace mw::report {
 
-/// "parts" of a report.
+/// Returns "parts" of a report.
 [[nodiscard]] io::Json connect_json(const engine::ConnectFacts& facts, bool labels_signed);
 
-/// Parts and hinges in a line; empty where there is one part without hinges that is all of the
-/// mesh.
+/// Returns a line about parts, hinges and doubled vertices; empty where the mesh is one part and
+/// has none of these.
 [[nodiscard]] std::string connect_text(const engine::ConnectFacts& facts);
 
-/// How many labels have no vertex inside; empty where all have one.
+/// Says how many labels have no vertex inside; empty where all have one.
 [[nodiscard]] std::string stiff_text(const engine::ConnectFacts& facts);
 /// Says which labels were to come apart and do not meet; empty where there are none.
 [[nodiscard]] std::string apart_text(const engine::ConnectFacts& facts, bool labels_signed);

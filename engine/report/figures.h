@@ -11,14 +11,14 @@
 namespace mw::report {
 
 [[nodiscard]] std::string format_label(RawLabel label, bool is_signed);
-/// "12.3 MiB".
+/// Returns a size as "12.3 MiB".
 [[nodiscard]] std::string format_bytes(std::uint64_t bytes);
 /// Returns four significant digits, as audit::number() does.
 [[nodiscard]] std::string format_figure(double value);
-/// A volume in cubes of the unit, as format_figure(): "490 mm3", "17.18 mL" from 1,000 mm3 on, and
-/// the number alone where the unit is not known.
+/// Returns a volume in cubes of the unit, with the digits of format_figure(): "490 mm3", "17.18 mL"
+/// from 1,000 mm3 on, and the number alone where the unit is not known.
 [[nodiscard]] std::string format_volume(double volume, const std::string& unit);
-/// With the given number of digits after the point.  What is all zeros then has no sign.
+/// Returns the value with this many digits after the point; a result of zeros alone has no sign.
 [[nodiscard]] std::string format_fixed(double value, int digits);
 
 }  // namespace mw::report

@@ -170,7 +170,7 @@ Json finite_json(double voxels) {
   return nullptr;
 }
 
-/// {"label": 3}, and its name if it has one.
+/// Returns {"label": 3}, with its name if it has one.
 Json label_row(Label label, const io::LabelTable& table, const io::LabelNames& names) {
   if (label == audit::kUnknown) return {{"label", nullptr}};
   if (label == audit::kLeftOut) return {{"label", "left out"}};
@@ -183,8 +183,8 @@ std::string name_text(Label label, const io::LabelTable& table, const io::LabelN
   return label_text(table.raw(label), table.is_signed(), names);
 }
 
-/// "infinite for 2 labels with an interface on one side only (the first: 7)"; empty when all is
-/// finite.
+/// Returns "infinite for 2 labels with an interface on one side only (the first: 7)", or nothing
+/// when all is finite.
 std::string infinite_text(const audit::DistanceReport& distance, const io::LabelTable& table,
                           const io::LabelNames& names) {
   const std::size_t count = distance.only_in_volume.size() + distance.only_in_mesh.size();

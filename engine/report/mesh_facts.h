@@ -27,83 +27,83 @@
 
 namespace mw::report {
 
-/// Stands for the rows as the value of the key "per_label": as JSON values they would take some 500
-/// bytes each, which no budget has set aside.
+/// Stands for the rows as the value of the key "per_label".  As JSON values, rows would take some
+/// 500 bytes each, which no budget has set aside.
 inline constexpr const char* kRows = "@rows";
 
 using AppendText = std::function<void(std::string_view)>;
 using TakeRow = std::function<void(const io::Json&)>;
 
-/// Appends value, indented, and a line end; in place of kRows a list of what for_each_row() passes
-/// on. REQUIRES: value has kRows once, in an object of its outermost one.
+/// Appends value, indented, and a line end; a list of what for_each_row() passes on takes the place
+/// of kRows.  REQUIRES: value has kRows once, in an object that is one of its members.
 void append_with_rows(const io::Json& value,
                       const std::function<void(const TakeRow&)>& for_each_row,
                       const AppendText& append);
 
-/// "quality" of a report.
+/// Returns "quality" of a report.
 [[nodiscard]] io::Json quality_json(const audit::QualityReport& quality);
 
-/// Quality in two plain lines.
+/// Prints quality in two lines.
 void print_quality(const audit::QualityReport& quality);
 
-/// A label as a JSON number.
+/// Returns a label as a JSON number.
 [[nodiscard]] io::Json label_json(RawLabel label, bool is_signed);
 
-/// [b0, b1, b2].
+/// Returns [b0, b1, b2].
 [[nodiscard]] io::Json betti_json(const audit::Betti& betti);
 
-/// [x, y, z].
+/// Returns [x, y, z].
 [[nodiscard]] io::Json index_json(Index3 at);
 
 /// Writes the value, indented, and gives the file its name.
 void write_json(io::AtomicFile& file, const io::Json& value);
 
-/// `7`, or `7 "liver"`.
+/// Returns `7`, or `7 "liver"`.
 [[nodiscard]] std::string label_text(RawLabel label, bool is_signed, const io::LabelNames& names);
 
-/// `label 7 "liver"` of a dense label, for audits.  REQUIRES: table outlives it.
+/// Returns `label 7 "liver"` for dense labels, for audits.  REQUIRES: table outlives the result.
 [[nodiscard]] audit::LabelText label_texts(const io::LabelTable& table, io::LabelNames names);
 
-/// {"label": 7, "name": "liver"}, the name where there is one: what a row about a label begins
-/// with.
+/// Returns {"label": 7, "name": "liver"}, the beginning of a row about a label; the name is there
+/// only if the label has one.
 [[nodiscard]] io::Json named_row_json(RawLabel label, bool is_signed, const io::LabelNames& names);
 
 /// Adds "colour": [r, g, b, a], 0 to 255, where it is known.
 void add_colour(io::Json& row, RawLabel label, const io::LabelNames& names);
 
-/// "volume_error_..." and "labels_measured" of a report.
+/// Returns "volume_error_..." and "labels_measured" of a report.
 [[nodiscard]] io::Json volume_summary_json(const audit::VolumeSummary& volumes,
                                            const io::LabelTable& table);
-/// A row of its "per_label".
+/// Returns a row of its "per_label".
 [[nodiscard]] io::Json volume_row_json(const audit::VolumeRow& row, const io::LabelTable& table,
                                        const io::LabelNames& names);
-/// Area and bends.
+/// Returns area and bends of interfaces.
 [[nodiscard]] io::Json interfaces_json(const audit::ShapeReport& shape);
 
-/// A line each.
+/// Print a line each.
 void print_volumes(const audit::VolumeReport& volumes, const io::LabelTable& table,
                    const io::LabelNames& names);
 void print_interfaces(const audit::ShapeReport& shape);
 
-/// "distance" of a report, in voxels.  Infinite figures are null, and so is the label of tets whose
-/// label is not in the volume.
+/// Returns "distance" of a report, in voxels.  Infinite figures are null, and so is the label of
+/// tets whose label is not in the volume.
 [[nodiscard]] io::Json distance_json(const audit::DistanceReport& distance,
                                      const io::LabelTable& table, const io::LabelNames& names);
 
-/// Distance in one plain line.
+/// Prints distance in one line.
 void print_distance(const audit::DistanceReport& distance, const io::LabelTable& table,
                     const io::LabelNames& names);
 
-/// "specks" of a report; null when none were to be dropped.
+/// Returns "specks" of a report; null when none were to be dropped.
 [[nodiscard]] io::Json specks_json(const std::optional<io::SpeckFacts>& specks);
 
-/// One line; nothing when none were to be dropped.
+/// Prints one line, or nothing when no specks were to be dropped.
 void print_specks(const std::optional<io::SpeckFacts>& specks);
 
-/// "welds" of a report; null when nothing was to be welded.
+/// Returns "welds" of a report; null when nothing was to be welded.
 [[nodiscard]] io::Json welds_json(const std::optional<io::WeldFacts>& welds);
 
-/// In a line, if something was to be welded.
+/// Prints one line, or nothing when nothing was to be welded.
 void print_welds(const std::optional<io::WeldFacts>& welds);
 
 }  // namespace mw::report

@@ -12,7 +12,7 @@
 namespace mw::report {
 namespace {
 
-/// who: RUSAGE_SELF or RUSAGE_CHILDREN, those that have ended and been waited for.
+/// Returns what RUSAGE_SELF or RUSAGE_CHILDREN used: children that ended and were waited for.
 rusage usage(int who) {
   rusage out{};
   getrusage(who, &out);
@@ -23,8 +23,8 @@ double seconds(const timeval& time) {
   return static_cast<double>(time.tv_sec) + static_cast<double>(time.tv_usec) * 1e-6;
 }
 
-/// The kernel's high-water mark of this program's resident memory.  Not getrusage's, which begins
-/// with that of the program that started this one.
+/// Returns the kernel's high-water mark of this program's resident memory.  That of getrusage would
+/// begin with the one of the program that started this one.
 std::uint64_t high_water_bytes() {
   std::ifstream status("/proc/self/status");
   const auto bytes = engine::proc_bytes(status, "VmHWM");

@@ -16,7 +16,7 @@ struct Resources {
 
 class ResourceMeter {
  public:
-  /// Time since construction; peak memory since the start of the process.
+  /// Returns time since construction, and peak memory since the start of the process.
   [[nodiscard]] Resources read() const;
 
  private:

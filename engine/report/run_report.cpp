@@ -30,14 +30,14 @@ Json input_json(const FinishedRun& run) {
           {"voxels", info.shape.product()}};
 }
 
-/// What --window, --max-distance and --target-reduction count in.
+/// Returns the lattice, in which --window, --max-distance and --target-reduction count.
 Json lattice_json(const engine::LatticeFacts& lattice) {
   return {{"shape_xyz", index_json(lattice.shape)},
           {"spacing_xyz", lattice.spacing},
           {"layers_xyz", index_json(lattice.layers)}};
 }
 
-/// NaN is null.
+/// Returns the samples; least and most are null if no tet has a value.
 Json samples_json(const std::vector<engine::SampleFacts>& samples) {
   Json out = Json::array();
   for (const engine::SampleFacts& sample : samples) {
@@ -178,7 +178,7 @@ Json count_json(const FinishedRun& run) {
           {"is_least", count.is_least}, {"is_most", count.is_most}, {"pilot", std::move(pilot)}};
 }
 
-/// Thicknesses in physical units.
+/// Returns the thin parts that --across found, with thicknesses in physical units.
 Json across_json(const FinishedRun& run) {
   if (run.sizes.across == 0) return nullptr;
   const engine::ThinParts& parts = run.engine.thin_parts;
@@ -190,7 +190,7 @@ Json across_json(const FinishedRun& run) {
           {"least_thickness", parts.least * voxel}};
 }
 
-/// What was asked of sizes; each label's own and its longest edge are in the rows of labels.
+/// Returns what was asked of sizes; the rows of labels have each label's own and its longest edge.
 Json size_json(const FinishedRun& run) {
   Json out{{"labels", run.sizes.rules.labels.size()},
            {"halvings", run.engine.halvings},
@@ -203,7 +203,7 @@ Json size_json(const FinishedRun& run) {
   return out;
 }
 
-/// Adds to the row of a label that has a limit on its edges.
+/// Adds size and longest edge to the row of a label that has a limit on its edges.
 void add_size(Label label, const FinishedRun& run, Json& row) {
   const std::optional<double> size = run.sizes.rules.of_label(run.labels.raw(label));
   if (!size) return;
@@ -211,7 +211,7 @@ void add_size(Label label, const FinishedRun& run, Json& row) {
   row["longest_edge"] = run.engine.longest_edges[label];
 }
 
-/// Rows of labels have theirs.
+/// Returns the distances over all labels; there are none of single labels.
 Json run_distance_json(const FinishedRun& run) {
   Json out{{"max_voxels", nullptr}, {"mean_voxels", nullptr}, {"per_label", nullptr}};
   if (!run.certificate || !run.certificate->distance) return out;

@@ -23,20 +23,20 @@ namespace mw::report {
 /// What was done for SizeSettings::count.
 struct CountFacts {
   std::uint64_t asked = 0;
-  double scale = 1.0;          ///< of all sizes
+  double scale = 1.0;          ///< the factor on all sizes
   std::uint64_t expected = 0;  ///< tets that the pilot found at that scale; 0: an earlier run did
   bool is_least = false;       ///< fewer cannot be had
   bool is_most = false;        ///< more cannot be had
-  int trials = 0;              ///< meshes that the pilot made; 0: an earlier run made them
-  std::int64_t voxels = 0;     ///< that they had in all
-  double seconds = 0.0;        ///< wall
+  int trials = 0;              ///< meshes that the pilot made; 0 if an earlier run made them
+  std::int64_t voxels = 0;     ///< voxels of these meshes in all
+  double seconds = 0.0;        ///< on the clock
 };
 
 /// What a run knows when its mesh has been written.
 struct FinishedRun {
   io::VolumeInfo volume;
   io::LabelTable labels;
-  engine::SizeSettings sizes;  ///< as they were kept to, after scaling
+  engine::SizeSettings sizes;  ///< those that the run kept to, after scaling
   std::optional<CountFacts> count;
   std::optional<io::SpeckFacts> specks;
   std::optional<io::WeldFacts> welds;
@@ -44,20 +44,20 @@ struct FinishedRun {
   engine::RunReport engine;
   double labels_seconds = 0;  ///< reading the volume once for its labels
   Resources resources;        ///< times until the mesh was written, memory until its digest
-  std::string digest;         ///< empty: it was not made
+  std::string digest;         ///< empty if it was not made
   std::string fingerprint;    ///< of the labels
-  std::optional<audit::AuditReport> certificate;  ///< empty: none was made
+  std::optional<audit::AuditReport> certificate;  ///< empty if none was made
   std::optional<io::Json> delta;                  ///< delta_json() (engine/job/volume_delta.h)
-  std::optional<engine::ConnectFacts> connected;  ///< empty: nobody counted, or nobody could
+  std::optional<engine::ConnectFacts> connected;  ///< empty if not counted
   double radius_ratio_floor = 0;                  ///< of the tets that were written
   std::string why_no_certificate;
-  std::string why_no_volumes;  ///< empty: the run promises volumes of labels (P8)
+  std::string why_no_volumes;  ///< empty if the run promises volumes of labels (P8)
 };
 
-/// Vertices of a mesh per corner of the volume's voxels.
+/// Returns the vertices of a mesh per corner of the volume's voxels.
 [[nodiscard]] double vertex_fraction(std::uint64_t vertices, Index3 shape);
 
-/// The report without its rows of labels (kRows stands for them).
+/// Returns the report without its rows of labels (kRows stands for them).
 /// REQUIRES: run.engine.quality and volumes.
 [[nodiscard]] io::Json run_report(const FinishedRun& run, const std::filesystem::path& mesh,
                                   io::Json settings);
@@ -66,7 +66,7 @@ struct FinishedRun {
 void for_each_volume(const FinishedRun& run,
                      const std::function<void(const audit::VolumeRow&)>& visit);
 
-/// Figures that were not measured are null.  Memory: it does not grow with the labels.
+/// Appends the report; figures that were not measured are null.  Memory does not grow with labels.
 /// REQUIRES: run.engine.quality and volumes.
 void append_run_report(const FinishedRun& run, const std::filesystem::path& mesh, io::Json settings,
                        const AppendText& append);

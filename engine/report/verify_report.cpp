@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The mwmesh authors
 // SPDX-License-Identifier: Apache-2.0
-// Words and rows.
+// What `mwmesh verify` found, in words and as JSON.
 #include "engine/report/verify_report.h"
 
 #include "engine/version.h"
@@ -44,7 +44,7 @@ std::string changed_text(Label label, const Verdict& verdict) {
   return label_text(verdict.table.raw(label), verdict.table.is_signed(), verdict.names);
 }
 
-/// Whose word it is, and what it leaves out.
+/// Says whether the bounds are a recorded promise, and what they leave out.
 std::string told_text(const Bounds& bounds) {
   return (bounds.of_run ? "recorded promise: " : "no recorded promise: ") + bounds.told;
 }

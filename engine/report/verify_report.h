@@ -15,7 +15,7 @@ namespace mw::report {
 struct Bounds {
   io::MeshPromises promises;
   bool of_run = false;  ///< the mesh's file told what its run promised
-  /// What the file says that makes this less than what is asked by default; empty: nothing.
+  /// What the file says that makes this less than what is asked by default; empty if nothing.
   std::string told = {};
   std::optional<double> max_volume_error = {};
 };
@@ -39,16 +39,16 @@ struct Verdict {
 
 void print_verdict(const Verdict& verdict);
 
-/// Name, verdict and detail of each.
+/// Returns name, verdict and detail of each check.
 [[nodiscard]] io::Json checks_json(const audit::AuditReport& audit);
 
 /// Adds to the row of a label its Betti numbers on both sides.  REQUIRES: both were counted.
 void add_topology(Label label, const audit::AuditReport& report, io::Json& row);
 
-/// What was checked and found, without settings and performance.
+/// Returns what was checked and found, without settings and performance.
 [[nodiscard]] io::Json verdict_json(const Verdict& verdict);
 
-/// The whole file.  settings: of the command.
+/// Returns the whole report, with the settings of the command.
 [[nodiscard]] io::Json verify_report(const io::Json& settings, const Verdict& verdict,
                                      const Resources& resources);
 

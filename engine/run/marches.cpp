@@ -27,7 +27,7 @@ std::uint64_t Marches::own_windows() const {
   return count;
 }
 
-/// Whether an earlier run has left what a visit of the window would.
+/// Returns whether an earlier run has left what a visit of the window would.
 bool Marches::recalls(const WindowKey& key) const {
   return run_.keep != nullptr && run_.keep->recalls(key);
 }

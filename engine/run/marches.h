@@ -10,10 +10,10 @@
 
 namespace mw::engine {
 
-/// Marches one after the other.  The references outlive it.
+/// Does the marches of a run one after the other.  The references outlive it.
 class Marches {
  public:
-  /// REQUIRES: RunPart::begin_marches().
+  /// REQUIRES: RunPart::begin_marches() was called.
   Marches(RunContext& run, RunForecast& forecast)
       : run_(run), forecast_(forecast), done_(run.store.facts().resumed_windows) {}
 
@@ -28,7 +28,7 @@ class Marches {
   [[nodiscard]] AdmitWindow admission(const WindowOrder& order, BlockStore& store,
                                       const WindowVisitor& visitor) const;
   [[nodiscard]] bool recalls(const WindowKey& key) const;
-  /// True when the window is done by what an earlier run has left.
+  /// Returns true when the window is done by what an earlier run has left.
   [[nodiscard]] bool adopt(const WindowKey& key) const;
   void add(const VisitStats& visit);
   void note(std::uint32_t march, const Visited& v);

@@ -37,8 +37,8 @@ struct ProcessFacts {
 
 /// The labels that the windows of this process need.
 struct LabelPlan {
-  std::optional<LabelNeed> need;      ///< none: all of them
-  std::optional<LabelCounts> counts;  ///< of the whole volume; none: known once all are prepared
+  std::optional<LabelNeed> need;      ///< empty if all of them
+  std::optional<LabelCounts> counts;  ///< of the whole volume; if empty, of the prepared labels
 };
 
 /// Opens what a process keeps for later runs (kept_part()).
@@ -53,16 +53,16 @@ class RunPart {
  public:
   virtual ~RunPart() = default;
 
-  /// Null when there is no work folder.
+  /// Returns null when there is no work folder.
   [[nodiscard]] virtual WorkFiles* work_files() = 0;
   /// Returns the folder of temporary files; empty when there is none.
   [[nodiscard]] virtual std::filesystem::path work_folder() const = 0;
-  /// Null when all blocks stay here.
+  /// Returns null when all blocks stay here.
   [[nodiscard]] virtual BlockRouter* router() = 0;
   /// Calls `open` with the number of this process; that of the one that speaks is 0, and its turn
   /// comes first.
   [[nodiscard]] virtual std::unique_ptr<WindowKeep> open_keep(const OpenKeep& open) = 0;
-  /// Lets blocks come into the store from now on, until the result is destroyed.
+  /// Lets blocks come into the store until the result is destroyed.
   [[nodiscard]] virtual std::shared_ptr<void> attach(RunStore& store) = 0;
 
   /// Decides which labels are prepared here.  Memory: that of preparation (LabelReaders).
@@ -121,7 +121,7 @@ class Processes {
   [[nodiscard]] virtual std::uint64_t least_bytes(const RunLayout& layout,
                                                   const io::DenseVolume& volume,
                                                   const MeshSettings& settings) const = 0;
-  /// Begins a run.  identity: lines "name = value" of what its result depends on.  All arguments
+  /// Begins a run.  identity holds lines "name = value" of what its result depends on.  Arguments
   /// outlive the result.  ERRORS: those of Workdir; mw::Error(kUsage) when processes differ.
   [[nodiscard]] virtual std::unique_ptr<RunPart> take_part(const RunLayout& layout,
                                                            const RunHooks& hooks,
@@ -130,7 +130,7 @@ class Processes {
   virtual void fail(const std::exception_ptr& error) = 0;
 };
 
-/// A run of one process.
+/// Returns the one process of a run that is not divided.
 [[nodiscard]] Processes& one_process();
 
 }  // namespace mw::engine

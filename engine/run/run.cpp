@@ -43,7 +43,7 @@ class FinishedBlocks : public FinalBlocks {
 
  private:
   const BlockStore& store_;
-  std::mutex mutex_;  ///< of the next two
+  std::mutex mutex_;  ///< guards the next two
   const OnProgress& progress_;
   RunForecast& forecast_;
   std::uint64_t windows_;
@@ -53,7 +53,7 @@ class FinishedBlocks : public FinalBlocks {
 struct ReadyLabels {
   MemoryBudget::Reservation room;
   LabelPlan plan;
-  std::optional<io::PeriodicVolume> copies;  ///< a cell that repeats itself, and around it
+  std::optional<io::PeriodicVolume> copies;  ///< a cell that repeats itself, with copies around it
   std::optional<PreparedLabels> prepared;
 
   [[nodiscard]] const LabelCounts& counts() const {
@@ -116,13 +116,13 @@ std::uint64_t march(RunContext& run, const ReadyLabels& labels, RunForecast& for
   return marches.stats().windows;
 }
 
-/// The work on the blocks of the output, and what it takes beside the rows that it remembers.
+/// How output blocks are worked on, and the memory for that beside the rows that it remembers.
 struct OutputRoom {
   WorkInOrder work;
   MemoryBudget::Reservation reserved;
 };
 
-/// Blocks are spilled to make room for one; those beside it take no more than an eighth of memory.
+/// Spills blocks to make room for one; those beside it take no more than an eighth of memory.
 OutputRoom reserve_output(RunContext& run, const BlockStore& blocks, const WindowGrid& grid) {
   std::uint64_t largest = 0;
   for_each_index(grid.blocks(),
@@ -219,8 +219,8 @@ bool is_damage(const std::exception_ptr& error) {
   }
 }
 
-/// Saves what can be saved after an error; the user is told of the first error only.  Nobody is
-/// told to go on from damage, which stays for those who want to know what happened.
+/// Saves what can be saved after an error; the user is told of the first error only.  Damaged work
+/// stays, to show what happened, but nobody is told to go on from it.
 void keep_work(RunContext& run, const std::exception_ptr& error) {
   if (run.hooks.store.is_scratch) return;
   const bool damaged = is_damage(error);
@@ -235,7 +235,7 @@ void keep_work(RunContext& run, const std::exception_ptr& error) {
   if (can_go_on && run.hooks.store.kept && !damaged) run.hooks.store.kept();
 }
 
-/// The error with the way out of damaged work.
+/// Throws the error with the way out of damaged work.
 [[noreturn]] void explain(const DamagedWork& damage, const RunHooks& hooks) {
   const auto& folder = hooks.keep.folder.empty() ? hooks.store.workdir : hooks.keep.folder;
   throw Error(damage.kind(), io::text(damage.what(), "; the disk or ", folder.string(),

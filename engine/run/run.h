@@ -27,25 +27,25 @@ class SizeImage;
 struct LatticeFacts {
   Index3 shape;
   std::array<double, 3> spacing{1, 1, 1};
-  Index3 layers{1, 1, 1};  ///< of each voxel of the volume
+  Index3 layers{1, 1, 1};  ///< into which each voxel of the volume is cut
 };
 
-/// What a run did; windows without those done before a resume.  Times of windows are summed over
-/// threads, that of the output is wall seconds.
+/// What a run did, without windows that were done before a resume.  Times of windows are summed
+/// over threads; that of the output is wall seconds.
 struct RunReport : VisitStats {
   LatticeFacts lattice;
   std::uint64_t vertices = 0;
   std::uint64_t tets = 0;
   std::uint64_t tets_within = 0;  ///< see OutputOptions::within
   int halvings = 0;               ///< how often tets were cut into eight when they were written
-  ThinParts thin_parts;           ///< of SizeSettings::across
+  ThinParts thin_parts;           ///< what SizeSettings::across found
   int threads = 1;
   double inner_quality = 0.0;    ///< the value that was used, see MeshSettings
   double prepare_seconds = 0.0;  ///< labels: reading, coarsening, large cells
   double output_seconds = 0.0;
   std::optional<audit::QualityReport> quality;  ///< when the hooks ask for it
-  std::optional<audit::ShapeReport> shape;      ///< as quality; empty if written together
-  std::vector<std::uint64_t> label_voxels;      ///< as quality; by dense label; 0: not written
+  std::optional<audit::ShapeReport> shape;      ///< like quality; empty if written together
+  std::vector<std::uint64_t> label_voxels;      ///< like quality; by dense label; 0 if not written
   std::vector<Int128> label_volumes6;           ///< see FinishedMesh
   std::vector<double> longest_edges;            ///< see FinishedMesh; with sizes only
   EdgeRatios edge_ratios;                       ///< see FinishedMesh; with sizes only
@@ -54,9 +54,9 @@ struct RunReport : VisitStats {
   std::array<std::uint64_t, kPurposes> peak_bytes_by_purpose{};  ///< not at the same time
   StoreFacts store;
   std::optional<KeepFacts> keep;           ///< where something is kept
-  std::shared_ptr<Workdir> work;           ///< as StoreOptions::stays asks for; null: none is kept
-  std::vector<ProcessFacts> processes;     ///< empty: there is only one
-  bool written_together = false;           ///< by all of them, not by one alone
+  std::shared_ptr<Workdir> work;           ///< for StoreOptions::stays; null if none is kept
+  std::vector<ProcessFacts> processes;     ///< empty if there is only one
+  bool written_together = false;           ///< whether all processes wrote the mesh
   std::optional<codt::PoolFacts> workers;  ///< with Optimizer::kTetgen
 };
 
@@ -85,38 +85,38 @@ struct TraceEvent {
 /// How a run goes, and callbacks that watch it.  Nothing here changes the result.
 struct RunHooks {
   OnProgress progress;  ///< optional
-  PickReady pick;       ///< sequential, in this order among ready windows; empty: by threads
-  int threads = 1;      ///< 1: the sequential reference; 0: all cores
+  PickReady pick;       ///< optional; one thread visits ready windows in this order
+  int threads = 1;      ///< 1 is the sequential reference; 0 stands for all cores
   std::function<void(const TraceEvent&)> trace;  ///< optional, never called by two threads at once
   /// Optional; called by the visiting thread before each visit, by many threads at once.
   std::function<void(Index3 window)> before_visit;
   OutputOptions output;
   const SizeImage* sizes = nullptr;  ///< of SizeRules::image; outlives the run
   StoreOptions store;                ///< memory and disk
-  /// With a folder there is no work folder: what memory does not hold, and what a later run can go
-  /// on from, is there.  See check_keep().
+  /// If it names a folder, that takes the place of the work folder: what memory does not hold, and
+  /// what a later run can go on from, is there.  See check_keep().
   KeepOptions keep;
   codt::PoolOptions workers;  ///< of Optimizer::kTetgen
   /// The processes that the run is divided among; null if it is this one alone.  All of them call
   /// mesh_volume() with the same volume and settings; only the one that speaks uses its sink, and
   /// the others return when its output is complete.  Store options and threads are each one's own.
   Processes* processes = nullptr;
-  /// With several processes: the file that all of them write the mesh into, instead of the sink.
-  /// The process that speaks decides: if it has null, its sink is used, else the others join what
-  /// they have.  REQUIRES: the process that speaks has created the file, and nothing of the output
-  /// is measured.
+  /// With several processes, the file that all of them write the mesh into, instead of the sink.
+  /// The process that speaks decides: if this is null there, its sink is used, else the others
+  /// write into the files that they have.  REQUIRES: the process that speaks has created the file,
+  /// and nothing of the output is measured.
   io::SharedMesh* together = nullptr;
-  /// Optional, with several processes, on the one that speaks: is asked often, by a thread of its
-  /// own, whether to save and end the run, which throws StoppedAfterSave.
+  /// Optional, with several processes, on the one that speaks.  A thread of its own often asks it
+  /// whether to save and end the run, which then throws StoppedAfterSave.
   std::function<bool()> stop_after_save;
-  /// True: under a tight budget the allocator gives large pieces back at once (mallopt).
+  /// If true, the allocator gives large pieces back at once under a tight budget (mallopt).
   bool owns_process = false;
 };
 
 /// Says where a run that ended early left its work, and how to go on with it.
 [[nodiscard]] std::string way_on(const RunHooks& hooks);
 
-/// For those who want to know before any work whether a run can keep what KeepOptions ask for.
+/// Checks before any work that a run can keep what KeepOptions ask for.
 /// ERRORS: mw::Error(kUsage) where it cannot.
 void check_keep(const RunHooks& hooks, const MeshSettings& settings);
 

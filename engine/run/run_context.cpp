@@ -37,8 +37,8 @@ RunHooks settled(RunHooks hooks, const MeshSettings& settings, Index3 layers) {
   return hooks;
 }
 
-/// One grid a march.  A vertex near a block plane is free in half as many windows, so it stays
-/// denser there; the next march has other planes and heals that.
+/// Returns one grid for each march.  A vertex near a block plane is free in half as many windows,
+/// so it stays denser there; the next march has other planes and heals that.
 std::vector<WindowGrid> march_grids(Index3 shape, const MeshSettings& settings) {
   std::vector<WindowGrid> grids;
   int window = settings.window;
@@ -48,15 +48,15 @@ std::vector<WindowGrid> march_grids(Index3 shape, const MeshSettings& settings) 
   return grids;
 }
 
-/// program_bytes(), and the names of labels: all, those that are written, and a sink's text of
-/// them.
+/// Returns program_bytes() and what names of labels take: all names, those that are written, and a
+/// sink's text of them.
 std::uint64_t always_bytes(const io::DenseVolume& volume, int threads) {
   constexpr std::uint64_t kCopies = 8;
   return program_bytes(volume.table().size(), threads) + kCopies * volume.info().names.bytes();
 }
 
-/// Tells at once, before any work, the least that the parts take whose size is known by then.
-/// What windows take depends on the labels, and on what earlier windows leave.
+/// Reserves what the program takes.  Fails before any work if the budget is below what the parts of
+/// known size take.  What windows take depends on the labels and on earlier windows.
 MemoryBudget::Reservation reserve_program(RunContext& run) {
   const io::DenseVolume& labels = run.lattice.labels();
   const std::uint64_t program = always_bytes(labels, run.hooks.threads);

@@ -11,12 +11,12 @@
 
 namespace mw::engine {
 
-/// What prepared labels hold.  need: null: the labels of the whole volume.
+/// Returns the bytes that prepared labels hold; need is null for the labels of the whole volume.
 [[nodiscard]] std::uint64_t prepared_bytes(const io::DenseVolume& volume,
                                            const MeshSettings& settings, const LabelNeed* need);
 
-/// Threads that read labels, and what these hold meanwhile, beside what the volume keeps of its
-/// file.  Their number keeps this below a quarter of the budget.
+/// Threads that read labels, and the memory that they hold meanwhile.  Their number keeps
+/// preparation below a quarter of the budget, and below half with what the volume itself holds.
 struct LabelReaders {
   LabelReaders(const io::DenseVolume& volume, const MeshSettings& settings, const RunHooks& hooks,
                RunStore& store);
@@ -25,9 +25,8 @@ struct LabelReaders {
   MemoryBudget::Reservation scratch;
 };
 
-/// Everything that lives from before the first label is read until the mesh is written.
-/// The arguments outlive it.  Labels and marches belong to the steps that make
-/// them.
+/// Everything that lives from before the first label is read until the mesh is written.  The
+/// arguments outlive it.  Labels and marches belong to the steps that make them.
 struct RunContext {
   /// ERRORS: those of check(volume, settings), RunPart, RunStore; mw::Error(kResource) with the
   /// least budget that works, as far as that is known before any work.

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The mwmesh authors
 // SPDX-License-Identifier: Apache-2.0
-// Tiles of an image, and what each tet gets from them.
+// Reads images tile by tile, and adds up what each tet gets from a tile.
 #include "engine/sample/image_sampler.h"
 
 #include <tbb/parallel_for.h>
@@ -17,23 +17,23 @@
 namespace mw::engine {
 namespace {
 
-/// A smaller share of a tet, or of a voxel if that is smaller, counts as nothing: corners are
+/// A smaller share of a tet, or of a voxel if that is smaller, counts as nothing, since corners are
 /// rounded.
 constexpr double kLeastShare = 1e-6;
-/// Tiles begin at multiples of it, so that sums are the same whatever is read at once.
+/// Tiles begin at multiples of this, so that sums do not depend on what is read at once.
 constexpr std::int64_t kTile = 64;
-/// Tets that are looked at before memory is told.
+/// How many tets are looked at before memory is reported.
 constexpr std::size_t kBatch = 1024;
-/// Different values of one tet that Statistic::kMode tells apart.
+/// The most different values of one tet for Statistic::kMode.
 constexpr std::size_t kMostValues = 4096;
 
-/// Volume by value, ascending.
+/// Values and their volumes, ascending by value.
 using Shares = std::vector<std::pair<double, double>>;
 
 /// What is known of a tet so far.
 struct Tally {
-  double volume = 0;  ///< of what counts
-  double first = 0;   ///< a value: others are summed as differences, so that equal ones stay exact
+  double volume = 0;  ///< volume of the voxels that count
+  double first = 0;   ///< a value; others are summed as differences, so that equal ones stay exact
   double sum = 0;
   double least = std::numeric_limits<double>::infinity();
   double most = -std::numeric_limits<double>::infinity();
@@ -72,8 +72,8 @@ double value_of(const Tally& tally, Statistic statistic) {
   return tally.first + tally.sum / tally.volume;
 }
 
-/// Where the image is in the world of the labels.  One that cannot say so has the voxels of the
-/// labels' file.
+/// Returns where the image is in the world of the labels.  An image without a place has the voxels
+/// of the labels' file.
 io::VolumeSpace space_in(const SampleImage& sample, const io::VolumeInfo& labels) {
   const io::VolumeInfo& image = sample.image->info();
   if (!image.is_placed) return moved_to(labels.space, Index3{} - labels.first);
@@ -86,7 +86,7 @@ io::VolumeSpace space_in(const SampleImage& sample, const io::VolumeInfo& labels
   return in_frame(image.space, labels.space.frame);
 }
 
-/// Numbers of a box.
+/// Reads the numbers of a box.
 void read_numbers(const io::LabelVolume& image, const Box3& box, std::vector<double>& out) {
   out.resize(static_cast<std::size_t>(box.voxels()));
   if (const auto* const numbers = dynamic_cast<const io::NumberVolume*>(&image)) {
@@ -104,7 +104,7 @@ void read_numbers(const io::LabelVolume& image, const Box3& box, std::vector<dou
 
 }  // namespace
 
-/// Tets of one block in one image.
+/// The tets of one block in one image.
 class ImageSampler::Sampling {
  public:
   Sampling(const SampleImage& sample, const io::VolumeSpace& space,
@@ -130,7 +130,7 @@ class ImageSampler::Sampling {
     });
   }
 
-  /// Puts a column into rows.
+  /// Writes the values into a column of the rows, and counts.
   void put(std::span<double> rows, std::size_t column, SampleFacts& facts) const {
     const std::size_t columns = rows.size() / std::max<std::size_t>(1, tets_.size());
     for (std::size_t t = 0; t < tets_.size(); ++t) {
@@ -167,7 +167,7 @@ class ImageSampler::Sampling {
     return TetOverlap({points_[a], points_[b], points_[c], points_[d]});
   }
 
-  /// In batches, between which it is told how much the shares take.
+  /// Looks at all tets in batches, and reports memory after each, since shares grow.
   void look_at_all(const Box3& tile, const std::vector<double>& numbers, Crew& crew,
                    const HoldMemory& hold) {
     const std::size_t batch = sample_.statistic == Statistic::kMode ? kBatch : tets_.size();

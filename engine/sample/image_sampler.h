@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The mwmesh authors
 // SPDX-License-Identifier: Apache-2.0
-// What images beside the labels say of each tet.
+// Values of tets from images beside the labels.
 #pragma once
 
 #include <memory>
@@ -19,45 +19,43 @@ enum class Statistic {
   kMean,  ///< weighted by volume
   kMin,
   kMax,
-  kMode,  ///< the value of most of the volume, the smaller of two
+  kMode,  ///< the value with the largest volume, the smaller of two equals
 };
 
-/// Numbers for each tet from an image of any grid.
+/// An image of any grid, from which each tet gets a number.
 struct SampleImage {
   std::string name;
   std::string file;       ///< what errors call the image
-  std::string dataset{};  ///< within a file that holds several
+  std::string dataset{};  ///< the data set in a file that holds several
   Statistic statistic = Statistic::kMean;
-  std::shared_ptr<const io::LabelVolume> image{};  ///< once it is opened
+  std::shared_ptr<const io::LabelVolume> image{};  ///< set when it is opened
 };
 
-/// What was found for all tets that were written.
+/// What was found for the tets that were written.
 struct SampleFacts {
   std::string name;
   std::string file;
   Statistic statistic = Statistic::kMean;
-  double least = 0;  ///< of tets with a value, as the next
-  double most = 0;
+  double least = 0;  ///< the least value of a tet
+  double most = 0;   ///< the largest value of a tet
   std::uint64_t tets = 0;
   std::uint64_t partly_outside = 0;
-  std::uint64_t outside = 0;  ///< without a value
+  std::uint64_t outside = 0;  ///< tets without a value
 };
 
 /// Cuts tets by the voxels of images, tile by tile, so that an image of any size takes the memory
-/// of a tile.  A voxel that is no finite number is outside of the image.  Of a tet that is partly
-/// outside the part inside counts, if that is a millionth of the tet or more; else it has no value.
+/// of a tile.  A voxel that is no finite number is outside of the image.  Only the part of a tet
+/// inside counts; a tet of which less than a millionth is inside has no value.
 /// For kMin and kMax a voxel counts if a millionth of the tet, or of the voxel, is in both.
 /// Thread safety: none; it has threads of its own.
 class ImageSampler : public CellValues {
  public:
-  /// labels: of the volume that is meshed, which tells the world that positions are in.
-  /// ERRORS: mw::Error(kUsage) when an image lies in a world that has nothing to do with it: other
-  ///         units.
+  /// labels describes the volume that is meshed, and so the world that positions are in.
+  /// ERRORS: mw::Error(kUsage) when an image has other units of length.
   ImageSampler(std::vector<SampleImage> images, const io::VolumeInfo& labels, int threads);
 
   [[nodiscard]] const std::vector<std::string>& names() const override { return names_; }
-  /// ERRORS: those of the images; kInput when too many values of an image are in one tet to find
-  /// that of the most.
+  /// ERRORS: those of the images; kInput when a tet has too many values of an image for kMode.
   [[nodiscard]] std::vector<double> of(std::span<const io::Position> positions,
                                        std::span<const io::TetRows> tets,
                                        const HoldMemory& hold) override;
@@ -69,7 +67,7 @@ class ImageSampler : public CellValues {
 
   std::vector<SampleImage> images_;
   std::vector<std::string> names_;
-  std::vector<io::VolumeSpace> spaces_;  ///< of the images, in the world of the labels
+  std::vector<io::VolumeSpace> spaces_;  ///< spaces of the images in the world of the labels
   std::vector<SampleFacts> facts_;
   int threads_;
   std::optional<Crew> crew_;

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The mwmesh authors
 // SPDX-License-Identifier: Apache-2.0
-// How users ask for values of images.
+// The text by which users ask for values of images.
 #include "engine/sample/sample_text.h"
 
 #include <algorithm>

@@ -9,8 +9,8 @@
 
 namespace mw::engine {
 
-/// "NAME=N" or "NAME=N:LO:HI".  ERRORS: mw::Error(kUsage) for another form, fewer than 1 or more
-/// than io::kMostMaterials materials, and a range that is none.
+/// Parses "NAME=N" or "NAME=N:LO:HI".  ERRORS: mw::Error(kUsage) for another form, for fewer than 1
+/// or more than io::kMostMaterials materials, and unless LO is below HI.
 [[nodiscard]] io::MaterialRule parse_materials(std::string_view text);
 
 }  // namespace mw::engine

@@ -28,14 +28,14 @@ bool is_name(std::string_view token) {
          !(begins_like_a_number(token) && read_all(token, number));
 }
 
-/// Where what begins there ends.
+/// Returns where the part of the text that begins at `at` ends.
 std::size_t end_of(std::string_view text, std::size_t at) {
   const char* const separators = text[at] == '@' ? "," : ",;=";
   if (text[at] == '"') at = std::min(text.find('"', at + 1), text.size());
   return std::min(text.find_first_of(separators, at), text.size());
 }
 
-/// The text, with what `number` says in the place of each name.
+/// Returns the text with what `number` returns in the place of each name.
 std::string replaced(std::string_view text,
                      const std::function<std::string(std::string_view)>& number) {
   std::string out;
@@ -88,7 +88,7 @@ bool is_same_letter(char a, char b) {
   return std::tolower(static_cast<unsigned char>(a)) == std::tolower(static_cast<unsigned char>(b));
 }
 
-/// The labels of exactly that name; if there are none, those whose names differ in capitals alone.
+/// Returns the labels of just that name; if there are none, those that differ in capitals alone.
 std::vector<RawLabel> labels_called(const std::string& name, const io::LabelNames& names) {
   std::vector<RawLabel> exact, alike;
   for (const io::LabelName& row : names.rows()) {
@@ -107,7 +107,7 @@ std::string name_in(std::string_view token) {
   return io::clean_name(is_quoted(token) ? token.substr(1, token.size() - 2) : token);
 }
 
-/// The label of that name.  is_signed: how messages write numbers.
+/// Returns the label of that name; is_signed says how messages write numbers.
 RawLabel label_called(std::string_view token, const io::LabelNames& names, bool is_signed) {
   const std::string name = name_in(token);
   const std::vector<RawLabel> found = labels_called(name, names);

@@ -16,7 +16,7 @@ std::string lower(std::string_view word) {
   return out;
 }
 
-/// Letters that are added, left out or replaced on the shortest way from one to the other.
+/// Returns how many letters are added, left out or replaced on the shortest way from a to b.
 std::size_t distance(const std::string& a, const std::string& b) {
   std::vector<std::size_t> row(b.size() + 1);
   std::iota(row.begin(), row.end(), std::size_t{0});
@@ -42,7 +42,7 @@ std::vector<std::string> near_words(std::string_view word, const std::vector<std
     const bool begins = std::min(meant.size(), other.size()) >= kLeastBeginning &&
                         (other.starts_with(meant) || meant.starts_with(other));
     const std::size_t off = distance(meant, other);
-    // Two letters that changed places are two that are replaced.
+    // Two letters that changed places count as two that are replaced.
     if (begins || off <= std::max<std::size_t>(meant.size() / 3, 2)) near.emplace_back(off, known);
   }
   std::stable_sort(near.begin(), near.end(),

@@ -9,13 +9,13 @@
 
 namespace mw::engine {
 
-/// Those of the words that differ from this one by a third of its letters at most, or that one of
-/// the two begins with, the nearest first; capitals do not count.
+/// Returns words that differ from this one by at most a third of its letters or two, or of which
+/// one begins with the other (3 letters or more), the nearest first.  Capitals do not count.
 /// Cost: letters of all words times letters of this one.
 [[nodiscard]] std::vector<std::string> near_words(std::string_view word,
                                                   const std::vector<std::string>& words);
 
-/// "; did you mean mesh?" of the nearest; empty: none is near.
+/// Returns "; did you mean mesh?" about the nearest word, or nothing if none is near.
 [[nodiscard]] std::string did_you_mean(std::string_view word,
                                        const std::vector<std::string>& words);
 

@@ -30,7 +30,7 @@ std::optional<std::uint64_t> bytes_of_unit(std::string_view unit) {
   return bytes;
 }
 
-/// number: digits, with a point between them or not.
+/// Returns the bytes of this many units; number is digits, with a point between them or not.
 std::optional<std::uint64_t> bytes_of(std::string_view number, std::uint64_t unit) {
   const std::size_t point = std::min(number.find('.'), number.size());
   std::uint64_t whole = 0;

@@ -26,15 +26,15 @@ template <class T>
 [[nodiscard]] double parse_number(std::string_view text);   ///< finite
 [[nodiscard]] RawLabel parse_label(std::string_view text);  ///< negative: two's complement
 [[nodiscard]] bool parse_switch(std::string_view text);     ///< "true", "false", "1", "0"
-/// Bytes: "4096", "512M", "1.5G", "4GiB", "1gb"; K M G T alone or with iB are powers of 1024, with
-/// B of 1000.  A fraction of a byte is left off.
+/// Returns the bytes of "4096", "512M", "1.5G", "4GiB" or "1gb".  K, M, G and T are powers of 1024,
+/// alone or with iB, and of 1000 with B.  A fraction of a byte is left off.
 [[nodiscard]] std::uint64_t parse_bytes(std::string_view text);
 
-/// "DIR", or "DIR,SIZE" with the most bytes that it may have.  A part behind the last comma that
-/// begins with a digit is a size.
+/// Parses "DIR", or "DIR,SIZE" with the most bytes that it may have.  A part behind the last comma
+/// that begins with a digit is a size.
 [[nodiscard]] io::CacheFolder parse_cache_folder(std::string_view text);
 
-/// Shortest decimal that reads back as the same double.
+/// Returns the shortest decimal that reads back as the same double.
 [[nodiscard]] std::string format_number(double value);
 
 /// Throws mw::Error(kUsage): "expected EXPECTED, got 'TEXT'".

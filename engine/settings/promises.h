@@ -21,11 +21,11 @@ namespace mw::engine {
 inline constexpr const char* kVolumesOfScores =
     "--values: interfaces are where the values say, not at voxel faces";
 
-/// Why the volumes of labels are not promised (P8); empty when they are.
+/// Returns why the volumes of labels are not promised (P8); empty when they are.
 [[nodiscard]] std::string why_no_volumes(const io::MeshPromises& promises);
 
-/// What of distances and shapes is promised less than by default, in a few words each; empty when
-/// nothing is.
+/// Returns which promises about distances and shapes are weaker than by default, in a few words
+/// each; empty when none is.
 [[nodiscard]] std::string less_than_default(const io::MeshPromises& promises);
 
 /// ERRORS: mw::Error(kInput) when no run can have promised this, by the ranges of its settings.

@@ -70,7 +70,7 @@ T value_of(const Names<T, N>& names, const Text& text) {
   fail_expected(expected, text);
 }
 
-/// What an int cannot hold becomes its nearest, which no setting allows.
+/// Parses an integer; one that no int holds becomes the nearest int, which no setting allows.
 int parse_int(const Text& text) {
   using Limits = std::numeric_limits<int>;
   return static_cast<int>(
@@ -89,12 +89,12 @@ Text range_text(double min, double max) {
   return "from " + format_number(min) + " to " + format_number(max);
 }
 
-/// False for no number.
+/// Returns false if the value is not a number.
 bool is_within(double value, double min, double max) {
   return value >= min && value <= max;
 }
 
-/// Positive, and ascending: given once for a place.
+/// Returns whether sizes are positive, and ascending, so that each place has one.
 bool are_sizes(const SizeRules& rules) {
   const auto is_size = [](double size) { return size > 0.0 && std::isfinite(size); };
   const auto has_size = [&](const auto& s) { return is_size(s.edge); };

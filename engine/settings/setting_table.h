@@ -26,19 +26,19 @@ enum class SettingKind {
 /// A field of MeshSettings.  Flag, config key, environment variable, default, help, check() and
 /// the identity of a run all come from here.
 struct Setting {
-  std::string name;   ///< of the flag without dashes, and in the identity
+  std::string name;   ///< the flag without dashes; its name in the identity, too
   std::string value;  ///< what help calls the value; nothing for choices and switches
   std::string help;   ///< one line
   SettingKind kind = SettingKind::kInteger;
   std::vector<std::string> choices;  ///< of kChoice
   bool expert = false;               ///< only --help-all lists it
-  std::string allowed;               ///< after "must be"
-  /// ENSURES: read() makes the same value of it, and different values have different texts; empty
-  /// only for kSizes without any.
+  std::string allowed;               ///< what messages say after "must be"
+  /// Returns the value as text.  ENSURES: read() makes the same value of it, and different values
+  /// have different texts; empty only for kSizes without any.
   std::string (*text)(const MeshSettings&) = nullptr;
   /// ERRORS: mw::Error(kUsage) saying what was expected, for text that is not of the kind.
   void (*read)(MeshSettings&, const std::string&) = nullptr;
-  /// Whether the value, which is of the kind, is in its range; null: all are.
+  /// Returns whether the value, which is of the kind, is in its range; null if all values are.
   bool (*is_allowed)(const MeshSettings&) = nullptr;
 };
 
@@ -54,7 +54,7 @@ void set(const Setting& setting, MeshSettings& settings, const std::string& text
 /// What has to hold between settings that are allowed one by one.
 struct SettingRule {
   bool (*is_kept)(const MeshSettings&) = nullptr;
-  std::string told;  ///< when it is not kept: what contradicts what, and the way out
+  std::string told;  ///< the message when it is broken: what contradicts what, and the way out
 };
 
 /// Thread-safe.
@@ -76,7 +76,7 @@ inline constexpr const char* kDefaultPreset = "default";
 /// Thread-safe.
 [[nodiscard]] const std::vector<Preset>& presets();
 
-/// Null where there is none of that name.
+/// Returns null where there is none of that name.
 [[nodiscard]] const Preset* find_preset(const std::string& name);
 
 }  // namespace mw::engine

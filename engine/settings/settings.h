@@ -15,7 +15,7 @@
 
 namespace mw::engine {
 
-/// Largest window edge: keeps every tetrahedron within the range of exact arithmetic.
+/// The largest window edge, which keeps every tetrahedron within the range of exact arithmetic.
 inline constexpr int kMaxWindow = 256;
 
 enum class StartMesh {
@@ -63,16 +63,16 @@ struct InterfaceSize {
   friend bool operator==(const InterfaceSize&, const InterfaceSize&) = default;
 };
 
-/// Sizes that edges should have.  Most are 0.6 of the size or longer; none exceeds kLongest of it,
-/// and contraction makes none longer than kContracted.
+/// Sizes that edges should have.  Most edges are 0.6 of the size or longer; none is longer than
+/// kLongest times the size, and contraction makes none longer than kContracted times the size.
 struct SizeRules {
   static constexpr double kContracted = 1.25;
   static constexpr double kLongest = kContracted * SizeField::kStretch;
 
   std::vector<LabelSize> labels;          ///< each label once, ascending
-  std::optional<double> others;           ///< of all labels that are not listed
+  std::optional<double> others;           ///< for all labels that are not listed
   std::vector<InterfaceSize> interfaces;  ///< each pair once, ascending; low < high
-  std::string image;                      ///< file with a size for each voxel; empty: none
+  std::string image;                      ///< file with a size for each voxel, or empty
 
   [[nodiscard]] bool any() const {
     return !labels.empty() || others.has_value() || !interfaces.empty() || !image.empty();
@@ -90,17 +90,18 @@ struct SizeRules {
 /// Limits on the edges of labels, and of what is around them (kernels/size/size_field.h).
 struct SizeSettings {
   SizeRules rules;
-  double gradation = 0.3;  ///< by how much limits grow with the distance to where they are asked
-  /// Tets of these labels, of all when there are none, get an inner vertex where shapes allow it.
+  double gradation = 0.3;  ///< how much limits grow with the distance to where they are asked
+  /// Whether tets with all corners on interfaces or the box get a vertex inside their label, where
+  /// shapes allow it: in labels that have a size, or in all when none is listed.
   bool inner_vertices = false;
-  /// How many tets the mesh that is written should have: rules are weights then, scaled until it
-  /// has them (engine/job/count_pilot.h); 0: as many as the sizes give.
+  /// How many tets the mesh that is written should have; 0 leaves that to the sizes.  Sizes are
+  /// weights then, scaled until the mesh has that many (engine/job/count_pilot.h).
   std::int64_t count = 0;
-  /// How many edges lie one behind the other across thin parts of labels, at least, as far as the
-  /// voxels allow (kernels/size/thickness.h); 0: nothing is asked.
+  /// The least number of edges that lie one behind the other across thin parts of labels, as far as
+  /// the voxels allow (kernels/size/thickness.h); 0 asks for none.
   int across = 0;
 
-  /// Whether some edge has a limit.
+  /// Returns whether some edge has a limit.
   [[nodiscard]] bool limits_edges() const { return rules.any() || across > 0; }
 };
 
@@ -111,14 +112,14 @@ struct MeshSettings {
   int marches = 2;  ///< each over the whole volume, with windows twice as large
   Order order = Order::kRaster;
   StartMesh start = StartMesh::kCoarse;
-  std::optional<double> edge_variance;  ///< bound on Eq (3), none: unbounded
-  /// No tet has a radius ratio below this.  0: nothing is asked of shapes, as in the paper.
+  std::optional<double> edge_variance;  ///< bound on Eq (3); empty if unbounded
+  /// No tet has a radius ratio below this; 0 asks nothing of shapes, as in the paper.
   double quality_floor = 0.2;
   /// The floor around inner vertices that contractions move (SimplifyOptions::inner_quality).  It
-  /// counts only above a quality_floor that is not 0.  None: inner_quality_for() chooses it.
+  /// counts only above a quality_floor that is not 0.  If empty, inner_quality_for() chooses it.
   std::optional<double> inner_quality;
-  std::optional<double> max_distance = 1.5;  ///< hard bound in voxels, two-sided; none: unbounded
-  /// Each window stops collapsing at this many vertices a voxel; none: only the bounds stop it.
+  std::optional<double> max_distance = 1.5;  ///< hard bound in voxels, two-sided, or empty
+  /// Each window stops collapsing at this many vertices a voxel; if empty, only the bounds stop it.
   std::optional<double> target_reduction;
   KeptTopology topology = KeptTopology::kLabels;
   Surface surface = Surface::kSmooth;
@@ -129,7 +130,8 @@ struct MeshSettings {
   int odt_iterations = 10;  ///< at most, in each window, by kTetgen; the paper's number (Sec 6)
 };
 
-/// Cells of the start mesh have at most 2^this voxels an axis: blocks begin at multiples of that.
+/// Returns a level: cells of the start mesh have at most 2^level voxels an axis, and blocks begin
+/// at multiples of that.
 [[nodiscard]] int largest_cell_level(const MeshSettings& settings);
 
 /// ERRORS: mw::Error(kUsage) naming the setting, its value and what is allowed, or the settings

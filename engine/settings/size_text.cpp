@@ -13,7 +13,7 @@
 namespace mw::engine {
 namespace {
 
-/// Largest table, unpacked.
+/// The largest table, in unpacked bytes.
 constexpr std::uint64_t kMaxTableBytes = 64 << 20;
 constexpr const char* kAdvice = "write label,size in each line";
 
@@ -46,7 +46,7 @@ double parse_size(std::string_view text) {
   throw Error(ErrorKind::kUsage, io::text(where, " has two sizes"));
 }
 
-/// where: "7", "3|5" or "*".
+/// Adds the rule of a place, which is "7", "3|5" or "*".
 void add_rule(SizeRules& rules, std::string_view where, std::string_view size_text) {
   const std::size_t bar = where.find('|');
   if (where == "*") {
@@ -72,7 +72,7 @@ SizeRules read_size_table(std::string_view file) {
                  kAdvice);
 }
 
-/// ENSURES: ascending.  ERRORS: kUsage for what is there twice.
+/// Sorts the rules, ascending.  ERRORS: kUsage for a place that is there twice.
 void sort_rules(SizeRules& rules) {
   const auto by_label = [](const LabelSize& s) { return s.label; };
   const auto by_pair = [](const InterfaceSize& s) { return std::pair(s.low, s.high); };
@@ -84,7 +84,7 @@ void sort_rules(SizeRules& rules) {
   if (pair != rules.interfaces.end()) fail_twice(io::text(pair->low, "|", pair->high));
 }
 
-/// Rules of a table to those beside it.
+/// Adds the rules of a table to those beside it.
 void join(SizeRules& rules, const SizeRules& more) {
   if (rules.others && more.others) fail_twice("*");
   if (more.others) rules.others = more.others;

@@ -11,25 +11,25 @@
 
 namespace mw::engine {
 
-/// Whether a part of such a text is a file of numbers on the grid of the labels, by its ending.
+/// Returns whether a part of such a text names an image of sizes, by its ending.
 [[nodiscard]] bool names_image(std::string_view part);
 
-/// "7=4,3|5=1,*=2.5": of a label, of the faces between two, of all other labels; "2.5" is "*=2.5".
-/// "@FILE", alone or between those, is a table of such sizes.  Nothing of an empty text.
-/// ENSURES: ascending.
+/// Parses "7=4,3|5=1,*=2.5": sizes of a label, of the faces between two, and of all other labels;
+/// "2.5" is "*=2.5".  "@FILE", alone or between those, is a table of such sizes, or an image.  An
+/// empty text gives no sizes.  ENSURES: labels and pairs are ascending.
 /// ERRORS: mw::Error(kUsage) saying what was expected, and for what has two sizes; those of reading
 ///         the file, and of parse_size_table().
 [[nodiscard]] SizeRules parse_sizes(std::string_view text);
 
-/// The files that are named in it.
+/// Returns the tables that the text names.
 [[nodiscard]] std::vector<std::string> size_tables(std::string_view text);
 
-/// Lines "label,size" of a table (CsvRecords), where a label is what stands before "=" in the text
-/// above; the first may be a header.
+/// Parses lines "label,size" of a table (CsvRecords), where a label is what stands before "=" in
+/// the text above; the first line may be a header.
 /// ERRORS: mw::Error(kInput) naming file and line.
 [[nodiscard]] SizeRules parse_size_table(std::string_view text, std::string_view file);
 
-/// What parse_sizes() reads back as the same, without any file.
+/// Returns what parse_sizes() reads back as the same, without any table.
 [[nodiscard]] std::string format_sizes(const SizeRules& rules);
 
 }  // namespace mw::engine

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The mwmesh authors
 // SPDX-License-Identifier: Apache-2.0
-// Who keeps what windows leave for later runs, as the store sees it.
+// The interface by which the store keeps what windows leave for later runs.
 #pragma once
 
 #include <cstddef>
@@ -17,37 +17,37 @@ namespace mw::engine {
 /// Where a kept version of a block is.
 struct KeptPlace {
   std::uint64_t offset = 0;
-  /// The bytes of all that the window left together; 0: it is nowhere, since the visit is made
-  /// again where this version is needed.
+  /// The size in bytes of all that the window left together.  It is 0 for a version that is not
+  /// kept, because the visit is made again where this version is needed.
   std::uint32_t size = 0;
-  std::uint32_t sum = 0;  ///< of what is there
+  std::uint32_t sum = 0;  ///< checksum of the block's kept bytes
   std::uint32_t memory_kib = 0;
-  std::uint8_t part = 0;  ///< which of the window's blocks it is
+  std::uint8_t part = 0;  ///< which of the window's kept blocks it is
 };
 
 /// A block as a window left it.
 struct LeftBlock {
-  std::span<const std::byte> bytes;  ///< as encode_block() has them
+  std::span<const std::byte> bytes;  ///< made by encode_block()
   std::uint64_t memory_bytes = 0;
-  Box3 voxels;  ///< that its vertices touch; empty where there are none
+  Box3 voxels;  ///< the voxels that its vertices touch; empty without vertices
 };
 
-/// Thread safety: as BlockStore's members that call it.
+/// Thread safety: that of the members of BlockStore that call it.
 class BlockKeeper {
  public:
   virtual ~BlockKeeper() = default;
-  /// Writes down what a window left, in the order of its blocks.  Returns where it is; the store
-  /// has to hold what is nowhere until no window of this run needs it.
+  /// Writes the blocks that a window left, and returns the place of each, in the same order.  The
+  /// store must hold versions that are not kept (size 0) until no window of this run needs them.
   /// ERRORS: mw::Error(kResource) when the disk is full.
   [[nodiscard]] virtual std::vector<KeptPlace> keep(const WindowKey& window,
                                                     std::span<const LeftBlock> blocks) = 0;
-  /// A block that a window of another process left, and that one of this process takes next.
+  /// Notes a block that a window of another process left and that one of this process takes next.
   virtual void receive(const BlockKey& key, const LeftBlock& block) = 0;
-  /// The bytes of a kept block, as encode_block() has them.
+  /// Returns the bytes of a kept block, as encode_block() made them.
   /// ERRORS: DamagedWork when they are not those that were kept.
   [[nodiscard]] virtual std::vector<std::byte> read(const BlockKey& key,
                                                     const KeptPlace& place) const = 0;
-  /// A file for blocks of this run that are nowhere and do not fit in memory.
+  /// Opens a file for blocks of this run that are not kept and do not fit in memory.
   [[nodiscard]] virtual std::unique_ptr<WorkFile> open_spill() = 0;
 };
 

@@ -50,7 +50,7 @@ class MemoryBudget {
     std::uint64_t bytes_ = 0;
   };
 
-  /// sharers: processes that --memory was divided by.
+  /// sharers is the number of processes that --memory was divided by.
   explicit MemoryBudget(std::uint64_t limit = kUnlimited, int sharers = 1)
       : limit_(limit), sharers_(sharers) {}
   MemoryBudget(const MemoryBudget&) = delete;

@@ -15,7 +15,7 @@ std::uint64_t count(Index3 shape) {
   return static_cast<std::uint64_t>(shape.product());
 }
 
-/// The march that has a number, by the first one of each march.
+/// Returns the march of a slot or a window, from the first number of each march.
 std::uint32_t march_of(const std::vector<std::uint64_t>& firsts, std::uint64_t number) {
   const auto next = std::upper_bound(firsts.begin(), firsts.end(), number);
   return static_cast<std::uint32_t>(next - firsts.begin() - 1);

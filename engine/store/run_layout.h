@@ -65,16 +65,16 @@ class RunLayout {
   [[nodiscard]] std::uint64_t window(const WindowKey& key) const;
   [[nodiscard]] WindowKey window_key(std::uint64_t window) const;
 
-  /// REQUIRES: key.march > 0.
+  /// Returns the blocks of the march before that make up a block.  REQUIRES: key.march > 0.
   [[nodiscard]] std::vector<BlockKey> parts(const BlockKey& key) const;
 
   /// The march's windows in their sequence.
   [[nodiscard]] WindowOrder order(std::uint32_t march) const { return {grids_[march], order_}; }
-  /// The windows of its march that cover a block: a box of them.
+  /// Returns the box of the windows that cover a block in its march.
   [[nodiscard]] Box3 windows_over(const BlockKey& key) const;
 
-  /// A point on the run's time line: the first window that is not done and covers the block or
-  /// what it becomes a part of; past all marches, its turn in the output.
+  /// Returns a point on the run's time line: that of the first window that is not done and covers
+  /// the block or what it becomes a part of, or of its turn in the output if there is none.
   [[nodiscard]] std::uint64_t next_use(const BlockKey& key, const DoneWindows& done) const;
 
  private:
@@ -83,8 +83,8 @@ class RunLayout {
 
   std::vector<WindowGrid> grids_;
   Order order_;
-  std::vector<std::uint64_t> first_slot_;    ///< of each march, then their number
-  std::vector<std::uint64_t> first_window_;  ///< of each march, then their number
+  std::vector<std::uint64_t> first_slot_;    ///< the first of each march, then the number of all
+  std::vector<std::uint64_t> first_window_;  ///< the first of each march, then the number of all
 };
 
 }  // namespace mw::engine

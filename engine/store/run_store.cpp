@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The mwmesh authors
 // SPDX-License-Identifier: Apache-2.0
-// Windows take and commit; memory makes room.
+// Windows take and commit blocks, and blocks leave memory to make room.
 #include "engine/store/run_store.h"
 
 #include <algorithm>
@@ -15,10 +15,10 @@
 namespace mw::engine {
 namespace {
 
-/// Beside its bytes: the block, its place in the table, and the allocator's heads of these.
+/// What a block takes beside its bytes: EncodedBlock, its place in the table, allocator's overhead.
 constexpr std::uint64_t kBytesPerBlock = sizeof(EncodedBlock) + 144;
 
-/// The voxels that a block's vertices touch.
+/// Returns the box of the voxels that a block's vertices touch.
 Box3 voxels_of(const BlockMesh& mesh) {
   Box3 out;
   for (const BlockVertex& v : mesh.vertices) {
@@ -47,10 +47,10 @@ struct RunStore::Source {
   BlockPin cached;
   Extent extent;
   std::uint32_t sum = 0;
-  std::optional<KeptPlace> kept = std::nullopt;  ///< in the place of the extent
+  std::optional<KeptPlace> kept = std::nullopt;  ///< used instead of the extent where it is there
 };
 
-/// What one march sees.
+/// The store as the windows of one march see it.
 class RunStore::March : public BlockStore {
  public:
   March(RunStore& run, std::uint32_t march) : run_(run), march_(march) {}
@@ -59,7 +59,7 @@ class RunStore::March : public BlockStore {
     return run_.admit({march_, window}, bytes);
   }
   [[nodiscard]] std::vector<std::optional<BlockMesh>> take(Index3 window) override {
-    // The next of its row cannot start before this one has ended, and will right then.
+    // The next window of its row cannot start before this one ends, and may start right then.
     run_.prefetch({march_, window + Index3{1, 0, 0}});
     return run_.take({march_, window});
   }
@@ -243,8 +243,8 @@ TableRoom RunStore::room_for_index() {
   };
 }
 
-/// An eighth is for the holes between blocks of all sizes that come and go: without it a gigavoxel
-/// (280,000 windows) held 198 MiB under a budget of 192.
+/// An eighth is added for the holes that blocks of all sizes leave in the heap as they come and go:
+/// without it a run of a gigavoxel (280,000 windows) held 198 MiB under a budget of 192.
 std::uint64_t RunStore::cost_of(std::uint64_t encoded_bytes) {
   return encoded_bytes + encoded_bytes / 8 + kBytesPerBlock;
 }
@@ -266,7 +266,7 @@ BlockPin RunStore::hold(std::vector<std::byte> encoded, std::uint64_t memory_byt
 }
 
 bool RunStore::admit(const WindowKey& key, std::uint64_t bytes) {
-  // Asked first: when it leaves or is here afterwards, the march is told and asks again.
+  // This is asked first: if such a block leaves or arrives afterwards, the march asks again.
   const bool is_carrying = router_ != nullptr && router_->is_carrying();
   auto room = try_reserve(Purpose::kWindows, bytes);
   const std::lock_guard lock(mutex_);
@@ -303,12 +303,12 @@ void RunStore::commit(const WindowKey& key, std::vector<BlockMesh> blocks) {
   {
     const std::lock_guard lock(mutex_);
     replace(key, keys, pins, places);
-    in_flight_.erase(layout_.window(key));  // now all that it held can be spilled
+    in_flight_.erase(layout_.window(key));  // all that it held can be spilled from here on
     full = router_ == nullptr && group_is_full();
   }
   if (router_ != nullptr) send_away(key, keys, std::move(pins));
   if (!full) return;
-  const std::unique_lock turn(saving_, std::try_to_lock);  // else another thread is at it
+  const std::unique_lock turn(saving_, std::try_to_lock);  // if it fails, another thread saves
   if (turn.owns_lock()) write_group();
 }
 
@@ -349,7 +349,7 @@ void RunStore::adopt(const WindowKey& key, std::span<const KeptPlace> places) {
   replace(key, keys, none, places);
 }
 
-/// pins: null of those that are in the table.
+/// A pin is null if its block is in the table.
 void RunStore::send_away(const WindowKey& key, std::span<const BlockKey> blocks,
                          std::vector<BlockPin> pins) {
   std::vector<BlockVersion> here;
@@ -366,8 +366,8 @@ void RunStore::send_away(const WindowKey& key, std::span<const BlockKey> blocks,
   --visiting_;
 }
 
-/// The windows over the block that came before are done, wherever they were: the block's turn is
-/// that of the window that waits for it.
+/// The windows over the block up to the one that left it count as done, whichever process visited
+/// them, so that the block's turn is that of the window that waits for it.
 void RunStore::receive(const BlockVersion& version, std::vector<std::byte> bytes,
                        std::uint64_t memory_bytes, MemoryBudget::Reservation room) {
   BlockPin pin = hold(std::move(bytes), memory_bytes, room);

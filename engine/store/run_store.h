@@ -19,10 +19,11 @@
 
 namespace mw::engine {
 
-/// When finished windows become durable: a group at a time.  The result does not depend on it.
+/// Finished windows become durable a group at a time.  This says when a group is full; the result
+/// does not depend on it.
 struct GroupCommit {
-  std::uint64_t windows = 1 << 12;        ///< most windows of a group; its record is in memory
-  std::chrono::milliseconds age{10'000};  ///< the longest time after the group before
+  std::uint64_t windows = 1 << 12;  ///< the most windows of a group, whose record is in memory
+  std::chrono::milliseconds age{10'000};  ///< the longest time between two groups
 };
 
 /// Takes blocks to the processes that need them next.
@@ -34,7 +35,7 @@ class BlockRouter {
   [[nodiscard]] virtual bool stays(const BlockVersion& version) const = 0;
   /// Takes over a version whose next user is elsewhere.
   virtual void send(const BlockVersion& version, BlockPin block) = 0;
-  /// Is told of versions that stay and can be taken from now on.
+  /// Called with versions that stay and can be taken from then on.
   virtual void committed(std::span<const BlockVersion> versions) = 0;
   /// True if blocks that are being sent or received hold memory.
   [[nodiscard]] virtual bool is_carrying() const = 0;
@@ -47,23 +48,23 @@ struct StoreFacts {
   std::uint64_t resumed_windows = 0;  ///< done when the run began
 };
 
-/// Keeps encoded blocks in memory as long as the budget allows, those that are needed last leave
+/// Keeps encoded blocks in memory as long as the budget allows; those that are needed last leave
 /// first.  With a work folder they go to disk, and groups of finished windows become durable
-/// together: first the blocks, then the one record that names them.  Without, everything stays in
-/// memory.
+/// together: first the blocks, then the one record that names them.  Without work folder and keeper
+/// everything stays in memory.
 ///
 /// A block of a later march that no window has committed yet is made of its parts when it is taken;
 /// they are forgotten when its first window commits.
 ///
-/// Thread safety: as BlockStore.  Encoding, decoding and syncing happen outside the lock.
+/// Thread safety: that of BlockStore.  Encoding, decoding and syncing happen outside the lock.
 class RunStore {
  public:
   /// Goes on from what the journal among `files` holds.
-  /// router: null where all windows are visited here.  With one, work becomes
-  /// durable by checkpoint() alone.
-  /// keeper: null: nothing is kept.  With one there are no files: what memory does not hold is read
-  /// again from what is kept, or was spilled where it is not.
-  /// REQUIRES: layout, budget, files (null: none), router and keeper outlive it.
+  /// router is null where all windows are visited here.  With one, work becomes durable by
+  /// checkpoint() alone.
+  /// keeper is null where nothing is kept.  With one, `files` is null: blocks that leave memory are
+  /// read again from what is kept, and those that are not kept are spilled.
+  /// REQUIRES: layout, budget, files (null: no work folder), router and keeper outlive it.
   /// ERRORS: mw::Error(kResource) when the index alone exceeds the budget; kInput when the journal
   /// is damaged.
   RunStore(const RunLayout& layout, MemoryBudget& budget, WorkFiles* files,
@@ -82,25 +83,25 @@ class RunStore {
 
   /// Returns what a block of this encoded size takes of the budget.
   [[nodiscard]] static std::uint64_t cost_of(std::uint64_t encoded_bytes);
-  /// Takes in a version that was left elsewhere: `bytes` as its pin had them.
-  /// room: what was reserved for it, cost_of(bytes) of blocks, or nothing.
+  /// Takes in a version that another process left; `bytes` are those of its pin there.
+  /// room is what was reserved for it: cost_of(bytes) for blocks, or nothing.
   /// ERRORS: mw::Error(kResource) when there is no room for it.
   void receive(const BlockVersion& version, std::vector<std::byte> bytes,
                std::uint64_t memory_bytes, MemoryBudget::Reservation room = {});
 
-  /// With a router: no window starts from pause() until go_on().  Once none runs (is_quiet()) and
-  /// no block is on its way, checkpoint() makes what is here durable as one record; what older
-  /// records point to is let go by go_on().
+  /// These are for a store with a router.  No window starts from pause() until go_on().  Once none
+  /// runs (is_quiet()) and no block is on its way, checkpoint() makes what is here durable as one
+  /// record; go_on() then frees the bytes that only older records point to.
   void pause();
   [[nodiscard]] bool is_quiet() const;
   void checkpoint();
   void go_on();
-  /// Notes a window that an earlier run has done.  is_own: it is visited here, so the next record
-  /// names it.  REQUIRES: nothing was committed.
+  /// Notes a window that an earlier run has done.  is_own says that this process is the one that
+  /// visits it, so that the next record names it.  REQUIRES: nothing was committed.
   void note_done(const WindowKey& key, bool is_own);
 
-  /// The window is done without a visit: its blocks, in their order, are those at these places.
-  /// REQUIRES: a keeper and no router; as for a visit of the window.
+  /// Marks the window as done without a visit: its blocks, in their order, are those at these
+  /// places.  REQUIRES: a keeper and no router; what a visit of the window requires.
   void adopt(const WindowKey& key, std::span<const KeptPlace> places);
 
   /// Makes durable what is finished.  Does nothing without a work folder, or after an error in an
@@ -138,7 +139,7 @@ class RunStore {
   /// Encodes a block, whose memory comes out of `room` if it fits there.
   [[nodiscard]] BlockPin encode(const BlockKey& key, const BlockMesh& mesh,
                                 MemoryBudget::Reservation& room);
-  /// places: empty: nothing is kept.  pins: empty: nothing is in memory.
+  /// places is empty where nothing is kept, pins where nothing is in memory.
   void replace(const WindowKey& key, std::span<const BlockKey> blocks, std::vector<BlockPin>& pins,
                std::span<const KeptPlace> places);
   [[nodiscard]] BlockPin hold(std::vector<std::byte> bytes, std::uint64_t memory_bytes,
@@ -167,9 +168,9 @@ class RunStore {
   std::unique_ptr<SegmentFile> disk_;
   BlockTable table_;
   std::map<std::uint64_t, MemoryBudget::Reservation> in_flight_;  ///< by window
-  std::uint64_t visiting_ = 0;  ///< windows whose blocks have not all gone where they go
+  std::uint64_t visiting_ = 0;  ///< windows that are visited or whose blocks are not all handed on
   bool paused_ = false;
-  std::vector<Extent> retired_;  ///< until go_on()
+  std::vector<Extent> retired_;  ///< the extents that go_on() releases
   Group group_;
   Clock::time_point group_since_ = Clock::now();
 
@@ -182,13 +183,13 @@ class RunStore {
 
 struct StoreOptions {
   std::uint64_t memory = MemoryBudget::kUnlimited;  ///< bytes, for the whole process
-  std::filesystem::path workdir;                    ///< empty: everything stays in memory
+  std::filesystem::path workdir;                    ///< if empty, everything stays in memory
   bool resume = false;                              ///< go on from what workdir holds
-  /// The folder stays when the mesh is complete, for who has more to write.
+  /// The folder stays when the mesh is complete, for a caller that has more to write.
   bool stays = false;
   bool is_scratch = false;  ///< nothing stays when the run ends early
-  /// What else a run must have in common with the one that it goes on from: lines "name = value".
-  /// The engine adds shape, spacing and settings.
+  /// Lines "name = value" that a run must have in common with the one that it goes on from.  The
+  /// engine adds those of the volume and of the settings: identity_text().
   std::string identity;
   GroupCommit group;
   /// Called when a run that ends early leaves work in the folder.

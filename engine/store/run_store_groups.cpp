@@ -21,11 +21,11 @@ JournalRecord RunStore::close_group(std::vector<Extent>& retired) {
   group.slots.erase(std::unique(group.slots.begin(), group.slots.end()), group.slots.end());
   JournalRecord record;
   for (std::uint64_t slot : group.slots) {
-    // Empty: it has become a part of a later march's block, which is in this group as well.
+    // An empty one has become a part of a later march's block, which is in this group as well.
     if (!table_.at(slot).empty()) {
       record.blocks.push_back(table_.record(slot));
     } else if (router_ != nullptr) {
-      record.blocks.push_back({.slot = slot, .extent = {}});  // or it has gone elsewhere
+      record.blocks.push_back({.slot = slot, .extent = {}});  // or it has gone to another process
     }
   }
   std::sort(group.windows.begin(), group.windows.end());

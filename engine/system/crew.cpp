@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The mwmesh authors
 // SPDX-License-Identifier: Apache-2.0
-// Helpers wait in the arena for something that never comes, and work meanwhile.
+// Helpers wait in the arena for a task that does not come until they end, and work meanwhile.
 #include "engine/system/crew.h"
 
 #include <oneapi/tbb/task_group.h>
@@ -14,7 +14,7 @@ constexpr std::size_t kStackBytes = std::size_t{4} << 20U;
 
 }  // namespace
 
-/// A thread that takes part until this goes.
+/// A thread that takes part in the arena's work until this is destroyed.
 class Crew::Helper {
  public:
   explicit Helper(oneapi::tbb::task_arena& arena) : arena_(arena), leave_(group_.defer([] {})) {}
@@ -25,7 +25,7 @@ class Crew::Helper {
     if (started_) ::pthread_join(thread_, nullptr);
   }
 
-  /// Whether the system gave a thread.
+  /// Returns true if the system gave a thread.
   [[nodiscard]] bool start() {
     pthread_attr_t attributes;
     if (::pthread_attr_init(&attributes) != 0) return false;
@@ -41,7 +41,7 @@ class Crew::Helper {
     try {
       helper.arena_.execute([&] { helper.group_.wait(); });
     } catch (...) {
-      // No memory to take part: the others do the work.
+      // There is no memory to take part: the other threads do the work.
     }
     return nullptr;
   }
@@ -53,7 +53,7 @@ class Crew::Helper {
   bool started_ = false;
 };
 
-// All slots are for threads that come by themselves, so there is none that oneTBB would man.
+// All slots are reserved for threads that enter the arena themselves, so oneTBB fills none.
 Crew::Crew(int threads) : arena_(threads, static_cast<unsigned>(threads)) {
   arena_.initialize();
   for (int i = 1; i < threads; ++i) {

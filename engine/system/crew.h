@@ -11,8 +11,8 @@
 
 namespace mw::engine {
 
-/// The caller's thread and helpers in an arena of oneTBB.  The helpers are threads of ours: where
-/// the system refuses one of oneTBB's own, oneTBB ends the process.
+/// The caller's thread and helpers in an arena of oneTBB.  This class starts the helpers itself,
+/// because oneTBB ends the process where the system refuses it a thread.
 /// ENSURES: oneTBB starts no thread for the work.
 /// Thread safety: one thread at a time.  Cost: tens of microseconds a helper.
 class Crew {
@@ -24,10 +24,10 @@ class Crew {
   Crew(const Crew&) = delete;
   Crew& operator=(const Crew&) = delete;
 
-  /// The threads that there are, the caller's among them.
+  /// Returns the number of threads, the caller's among them.
   [[nodiscard]] int size() const { return 1 + static_cast<int>(helpers_.size()); }
 
-  /// Runs work here; the helpers take part in its tasks.  ERRORS: what work throws.
+  /// Runs work on this thread; helpers take part in its tasks.  ERRORS: what work throws.
   void run(const std::function<void()>& work) { arena_.execute(work); }
 
  private:

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The mwmesh authors
 // SPDX-License-Identifier: Apache-2.0
-// Work on many threads whose results are taken in one after the other.
+// Work on many threads, whose results are taken one after the other.
 #pragma once
 
 #include <tbb/parallel_pipeline.h>
@@ -15,16 +15,16 @@
 
 namespace mw::engine {
 
-/// How many threads work, and how many results there may be that are not taken in yet.
+/// How many threads work, and how many results may be made or wait to be merged at a time.
 struct WorkInOrder {
   int threads = 1;
   std::size_t at_once = 2 * static_cast<std::size_t>(threads);
 };
 
-/// Calls merge(i, work(i)) for i from 0 to count: work on several threads, merge on one at a time
-/// and in the order of i, whatever the threads.
+/// Calls merge(i, work(i)) for i from 0 to count - 1.  Several threads call work; merge is called
+/// by one thread at a time and in the order of i, whatever the number of threads.
 /// REQUIRES: how.threads and how.at_once are positive.
-/// Memory: how.at_once results.  ERRORS: what they throw; the others may then not have happened.
+/// Memory: how.at_once results.  ERRORS: what they throw; other calls may then be left out.
 template <typename Result, typename Index>
 void each_in_order(WorkInOrder how, Index count,
                    const std::type_identity_t<std::function<Result(Index)>>& work,

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The mwmesh authors
 // SPDX-License-Identifier: Apache-2.0
-// Files of /proc and of control groups, and the allocator.
+// Reads files of /proc and of control groups, and sets options of the allocator.
 #include "engine/system/memory.h"
 
 #include <malloc.h>
@@ -22,13 +22,13 @@ constexpr const char* kLimitFile = "memory.max";
 constexpr const char* kLimitFileOfVersion1 = "memory.limit_in_bytes";
 constexpr std::uint64_t kNone = std::numeric_limits<std::uint64_t>::max();
 
-/// The number in a file; no file, or "max", is no limit.
+/// Returns the number in a file, or kNone if there is no file or it says "max".
 std::uint64_t limit_in(const fs::path& path) {
   std::uint64_t bytes = kNone;
   return std::ifstream(path) >> bytes ? bytes : kNone;
 }
 
-/// The least limit of a group and those around it.
+/// Returns the least limit of the groups on the path `below` a group.
 std::uint64_t min_of_path(fs::path group, const fs::path& below, const char* file) {
   std::uint64_t min = kNone;
   for (const fs::path& part : below) {

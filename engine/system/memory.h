@@ -11,31 +11,32 @@
 
 namespace mw::engine {
 
-/// In bytes, the amount in the line "NAME: N kB" of a file like /proc/meminfo or
-/// /proc/self/status; empty when there is no such line.
+/// Returns the bytes in the line "NAME: N kB" of a file like /proc/meminfo or /proc/self/status;
+/// empty when there is no such line.
 [[nodiscard]] std::optional<std::uint64_t> proc_bytes(std::istream& file, std::string_view name);
 
-/// The budget when none is given: half of the memory that is available, or of the control group's
-/// limit if that is less.  It may differ from run to run; no result depends on it.
+/// Returns the budget when none is given: half of the memory that is available, or of the control
+/// group's limit if that is less.  It may differ from run to run; no result depends on it.
 [[nodiscard]] std::uint64_t default_memory_budget();
 
-/// The least limit of the control groups that a process is in, version 2 or 1; none is a number too
-/// large.  `own_groups` as /proc/self/cgroup, `root` as /sys/fs/cgroup.
+/// Returns the least limit of the control groups that a process is in, of version 2 or 1; the
+/// largest number if there is none.  `own_groups` is like /proc/self/cgroup, `root` like
+/// /sys/fs/cgroup.
 [[nodiscard]] std::uint64_t cgroup_limit(const std::filesystem::path& root,
                                          std::istream& own_groups);
 
-/// Pages of the process in memory now; 0 where the kernel does not tell.
+/// Returns the bytes of the process that are in memory; 0 where the kernel does not tell.
 [[nodiscard]] std::uint64_t resident_bytes();
 
-/// The allocator keeps what is given back to it, for each thread apart; a budget that counts what
-/// is in use can therefore be exceeded.  This returns such memory to the kernel when the process
-/// holds more than `max`.  No result depends on it.
-/// Cost: 10 us; milliseconds when there is much to return.  Thread safety: yes.
+/// Returns freed memory to the kernel when the process holds more than `max`.  The allocator keeps
+/// what is given back to it, for each thread apart, so without this the process could exceed a
+/// budget that counts what is in use.  No result depends on it.
+/// Cost: 10 us; milliseconds when there is much to return.  Thread-safe.
 void return_free_memory_above(std::uint64_t max);
 
-/// From now on large pieces of memory go back to the kernel when they are freed, so that they never
-/// count twice against a budget.  (glibc would keep larger and larger ones as they come and go,
-/// which saves the time of getting them anew.)
+/// Makes large pieces of memory go back to the kernel when they are freed, so that they never count
+/// twice against a budget.  (glibc would keep larger and larger pieces as they come and go, which
+/// saves the time of getting them anew.)
 void return_large_pieces_at_once();
 
 /// Where address space is limited (`ulimit -v`), lets threads share the pools of the allocator, of

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The mwmesh authors
 // SPDX-License-Identifier: Apache-2.0
-// Wall time for reports; nothing that decides about a result may look at it.
+// Wall time for reports; no result may depend on it.
 #pragma once
 
 #include <chrono>
@@ -22,7 +22,7 @@ class Stopwatch {
   std::chrono::steady_clock::time_point last_ = std::chrono::steady_clock::now();
 };
 
-/// Processor time of the calling thread, in seconds from some fixed moment.
+/// Returns the processor time of the calling thread, in seconds.
 [[nodiscard]] inline double thread_cpu_seconds() {
   timespec now{};
   clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The mwmesh authors
 // SPDX-License-Identifier: Apache-2.0
-// Ranges of a given size, and rows of an array, as tasks.
+// Makes tasks of ranges of a given size, and of rows of an array.
 #include "engine/system/tbb_for.h"
 
 #include <tbb/blocked_range.h>

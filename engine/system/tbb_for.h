@@ -10,16 +10,16 @@
 
 namespace mw::engine {
 
-/// A ParallelFor on the threads of the arena that it is called in: a few ranges a thread, none
-/// shorter than what a body's scratch is worth.  A thread that waits for the others takes no other
-/// tasks of the arena meanwhile, so a window does not start inside another one.
-/// ERRORS: what a body throws; the others may then not have run.
+/// A ParallelFor on the threads of the arena that it is called in.  There are a few ranges a
+/// thread, none so short that a body's scratch would cost more than its work.  A thread that waits
+/// for the others takes no other tasks of the arena, so a window does not start inside another one.
+/// ERRORS: what a body throws; other bodies may then be left out.
 void tbb_for(std::size_t n, const RangeBody& body);
 
-/// Calls visit for every index of an array of the given shape, once, on that many threads, or as
-/// many as there can be; with one in order, x fastest, otherwise in any order.
+/// Calls visit once for every index of an array of the given shape, on `threads` threads or as many
+/// as the system gives.  One thread goes in order, x fastest; several go in any order.
 /// REQUIRES: threads > 0.
-/// ERRORS: what a visit throws; the others may then not have happened.
+/// ERRORS: what a visit throws; other visits may then be left out.
 void tbb_for_each_index(int threads, Index3 shape, const std::function<void(Index3)>& visit);
 
 }  // namespace mw::engine

@@ -14,12 +14,12 @@ namespace mw::engine {
 struct SwapOptions {
   /// The largest size of a message; REQUIRES: it is the same on all ranks.
   std::size_t max_bytes = std::size_t{1} << 22U;
-  /// Optional: is told how many numbers will come before they do, and may throw.
+  /// Optional; called with how many elements will come, before they do, and may throw.
   std::function<void(std::uint64_t count)> expect;
 };
 
-/// Returns the list that each rank has for this one, by rank; `mine` are this rank's for each.
-/// Memory: beside the lists two messages from and to each rank.  ERRORS: as Team::gather().
+/// Returns the list that each rank has for this one, by rank; `mine` has this rank's list for each.
+/// Memory: beside the lists two messages from and to each rank.  ERRORS: those of Team::gather().
 template <typename T>
 [[nodiscard]] std::vector<std::vector<T>> swap_lists(Team& team,
                                                      const std::vector<std::vector<T>>& mine,
@@ -61,7 +61,7 @@ template <typename T>
 
 /// Replaces each element of rank 0's list by fold(fold(its own, rank 1's), rank 2's) and so on.
 /// Memory: max_bytes a rank, on rank 0.  REQUIRES: all lists are of one size, all ranks have the
-/// same max_bytes.  ERRORS: as Team::gather().
+/// same max_bytes.  ERRORS: those of Team::gather().
 template <typename T, typename Fold>
 void fold_lists(Team& team, std::vector<T>& mine, Fold fold,
                 std::size_t max_bytes = std::size_t{1} << 22U) {

@@ -173,7 +173,7 @@ void Team::note_failure(const Error& error) {
 }
 
 std::shared_ptr<void> Team::take_room(std::uint64_t kind, std::uint64_t bytes) {
-  if (kind != kParcel) return nullptr;  // what is gathered has its room from who asks
+  if (kind != kParcel) return nullptr;  // the caller of gather() has room for what it gathers
   const std::lock_guard turn(listening_);
   return listener_.room ? listener_.room(bytes) : nullptr;
 }

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The mwmesh authors
 // SPDX-License-Identifier: Apache-2.0
-// The processes of a run: what they tell one another beside blocks.
+// The processes of a run, and the messages that they send one another beside blocks.
 #pragma once
 
 #include <condition_variable>
@@ -20,7 +20,8 @@
 namespace mw::engine {
 
 /// Sorts messages: parcels go to the listener, the others are for the team itself.
-/// Thread safety: send(), signal(), fail() and failure() from any thread; the others from one.
+/// Thread safety: send(), signal(), fail(), failure() and has_failed() from any thread; the others
+/// from one, or from one for each Channel.
 class Team {
  public:
   /// exchange outlives it.
@@ -37,8 +38,8 @@ class Team {
   /// Two threads of a rank may gather at the same time, each on a channel of its own.
   enum class Channel : std::uint8_t { kRun, kEpochs };
 
-  /// Returns what every rank gave it, by rank.  On each channel all ranks must call it equally
-  /// often. ERRORS: that of the rank that failed, which may be this one.
+  /// Returns what every rank passed to it, by rank.  On each channel all ranks must call it equally
+  /// often.  ERRORS: that of the rank that failed, which may be this one.
   [[nodiscard]] std::vector<std::vector<std::byte>> gather(std::vector<std::byte> mine,
                                                            Channel channel = Channel::kRun);
   /// Sends mine[r] to each rank r, and returns what every rank sent to this one, by rank.  Counts
@@ -48,9 +49,9 @@ class Team {
   /// Gathers texts.
   [[nodiscard]] std::vector<std::string> gather(const std::string& mine);
 
-  /// Numbers of the sender's choice; parcels for a rank that has no listener wait.
+  /// Numbers that the sender chooses.
   using Head = std::array<std::uint64_t, 3>;
-  /// room: what Listener::room returned for these bytes.
+  /// room is what Listener::room returned for these bytes.
   using OnParcel = std::function<void(const Head& head, std::vector<std::byte> bytes,
                                       std::shared_ptr<void> room)>;
   void send(int to, const Head& head, SharedBytes bytes);
@@ -62,8 +63,8 @@ class Team {
   /// Callbacks for parcels (one at a time), for bytes that have left, and for a rank's failure.
   struct Listener {
     OnParcel parcel;
-    /// Optional, see TakeRoom: is called before a parcel's bytes are in memory, but not for parcels
-    /// that came before there was a listener.
+    /// Optional, see TakeRoom.  It is called before a parcel's bytes are in memory, except for
+    /// parcels that came before there was a listener.
     std::function<std::shared_ptr<void>(std::uint64_t bytes)> room;
     std::function<void(std::uint64_t number)> signalled;
     std::function<void()> sent;
@@ -72,8 +73,8 @@ class Team {
   /// Sets the listener, and gives it the parcels that wait.  ENSURES: the former one is not called.
   void listen(Listener listener);
 
-  /// Tells all ranks that this one cannot go on, and its rank; only the first failure of a run is
-  /// told.
+  /// Tells all ranks that this one cannot go on, and which rank it is.  Does nothing when a rank is
+  /// known to have failed already.
   void fail(const Error& error);
   void fail(const std::exception_ptr& error);
   /// Returns the failure of another rank, if that is why this one ends.
@@ -86,18 +87,18 @@ class Team {
 
   [[nodiscard]] Gathering next_gathering(Channel channel);
   void say(int to, const Gathering& gathering, SharedBytes bytes);
-  /// What the others say; nothing in the place of this rank.
+  /// Returns what the other ranks say, by rank; the entry of this rank is empty.
   [[nodiscard]] std::vector<std::vector<std::byte>> hear(const Gathering& gathering);
   void receive(Message message);
   [[nodiscard]] std::shared_ptr<void> take_room(std::uint64_t kind, std::uint64_t bytes);
   void note_failure(const Error& error);
 
   Exchange& exchange_;
-  mutable std::mutex mutex_;  ///< guards the rest but listener_
+  mutable std::mutex mutex_;  ///< guards the rest except waiting_ and listener_
   std::condition_variable changed_;
   std::map<Gathering, std::map<int, std::vector<std::byte>>> said_;  ///< by rank
   std::map<Channel, std::uint64_t> gatherings_;
-  std::vector<Message> waiting_;  ///< parcels for a listener to come
+  std::vector<Message> waiting_;  ///< for a listener to come; guarded by listening_
   std::optional<Error> failure_;
   std::optional<Error> own_failure_;
 

@@ -13,7 +13,7 @@
 namespace mw::engine {
 namespace {
 
-/// An error as text, its kind first.
+/// Returns an error as text that begins with its kind.
 std::string text_of(const Error& error) {
   return static_cast<char>('0' + static_cast<int>(error.kind())) + std::string(error.what());
 }
@@ -29,7 +29,7 @@ std::uint64_t of_first_tile(const FingerprintVolume& volume, const SequencePart&
   return tiles.empty() ? 0 : volume.of(tiles.front());
 }
 
-/// Each rank looks at the beginning of its part and of the next rank's.
+/// Each rank compares the first tile of the next rank's part with what that rank read.
 void refuse_other_volumes(Team& team, const FingerprintVolume& volume) {
   const int ranks = team.ranks();
   if (ranks == 1) return;
@@ -47,7 +47,7 @@ void refuse_other_volumes(Team& team, const FingerprintVolume& volume) {
   }
 }
 
-/// Counts of faces without the bricks before and after all that have some: a part is a slab.
+/// Counts of faces from the first brick that has some to the last: a rank's part is a slab.
 struct SomeFaces {
   std::uint64_t first = 0;
   std::vector<std::uint16_t> counts;
@@ -125,7 +125,7 @@ LabelNeed labels_needed(const RunLayout& layout, const Partition& partition, int
       const Index3 last{windows.x - 1, w.y, w.z};  // rows stay whole
       boxes = hull(boxes, hull(grid.window_box(w), grid.window_box(last)));
     });
-    // Later marches take blocks that were stored.
+    // Only the first march makes blocks from labels; later ones take stored blocks.
     if (march == 0) need.starts = boxes;
     if (boxes == Box3{} || !settings.max_distance) continue;
     const std::int64_t halo = content_halo(grid, *settings.max_distance);

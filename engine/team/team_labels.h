@@ -13,20 +13,19 @@
 
 namespace mw::engine {
 
-/// collect_labels() by all ranks, each its part; the volume then has the fingerprint of all of it.
-/// No rank sees all labels, so two of them look at a piece of each part: the volumes of a run must
-/// be one.  It guards against mistakes.
-/// ERRORS: kUsage when they differ there; what the volume throws; of several ranks every one tells
-/// that of the first, so that of
-///         voxels that are no labels it is the first in the file.
+/// Does what collect_labels() does by all ranks, each of which reads its part; the volume then has
+/// the fingerprint of all of it.  All ranks must read the same volume.  To guard against mistakes,
+/// two of them compare a piece of each part.
+/// ERRORS: kUsage when the pieces differ; what the volume throws.  If several ranks fail, all throw
+/// the error of the first of them, so of voxels that are no labels the first in the file is named.
 [[nodiscard]] io::LabelTable collect_together(Team& team, FingerprintVolume& volume, int threads);
 
-/// The counts of the whole volume, of which every rank reads its part.
-/// ERRORS: those of the volume; of another rank.
+/// Returns the counts of the whole volume, of which every rank reads its part.
+/// ERRORS: those of the volume, and those of another rank.
 [[nodiscard]] LabelCounts count_together(Team& team, const io::DenseVolume& volume, int threads);
 
-/// What the windows of a rank need: start meshes for blocks of the first march, and, where
-/// distances are bounded, labels around the windows of all marches.
+/// Returns the labels that the windows of a rank need: those for start meshes of blocks of the
+/// first march, and, where distances are bounded, those around the windows of all marches.
 [[nodiscard]] LabelNeed labels_needed(const RunLayout& layout, const Partition& partition, int rank,
                                       const MeshSettings& settings);
 

@@ -77,7 +77,7 @@ void TeamPart::begin_marches(RunStore& store) {
   epochs_->start();
 }
 
-/// Copies the blocks that are needed next here, and notes which windows are done.
+/// Notes which windows are done, and copies the blocks whose next user is this rank.
 void TeamPart::take_up(RunStore& store) {
   const auto folders = work_->folders_before();
   if (folders.empty()) return;

@@ -13,19 +13,19 @@
 
 namespace mw::engine {
 
-/// All ranks make one, with the same layout.
+/// A rank's part in a run.  All ranks make one, with the same layout.
 class TeamPart : public RunPart {
  public:
-  /// Makes sure that all ranks mean the same run, and opens the work folder, if there is to be one.
+  /// Makes sure that all ranks have the same run, and opens the work folder, if one is named.
   /// The references outlive it.  ERRORS: those of agree() and TeamWork.
   TeamPart(Team& team, const RunLayout& layout, const RunHooks& hooks, const std::string& identity);
 
-  /// The Workdir of this rank.
+  /// Returns the Workdir of this rank.
   [[nodiscard]] WorkFiles* work_files() override { return work_ ? &work_->own() : nullptr; }
   [[nodiscard]] std::filesystem::path work_folder() const override;
   [[nodiscard]] BlockRouter* router() override { return &traffic_; }
-  /// Every rank has a folder of its own; those that an earlier run has left in the first one's are
-  /// gone before the others open theirs.
+  /// Every rank has a folder of its own.  Rank 0 opens its folder first, and takes over the folders
+  /// of other ranks that an earlier run has left in it.
   /// ERRORS: mw::Error(kUsage) when an earlier run has kept something there.
   [[nodiscard]] std::unique_ptr<WindowKeep> open_keep(const OpenKeep& open) override;
   [[nodiscard]] std::shared_ptr<void> attach(RunStore& store) override;
@@ -34,8 +34,8 @@ class TeamPart : public RunPart {
   /// reads its part.
   [[nodiscard]] LabelPlan plan_labels(const io::DenseVolume& volume, const MeshSettings& settings,
                                       const RunHooks& hooks, RunStore& store) override;
-  /// Every rank has the room that its labels take, so blocks may come in: takes up what an earlier
-  /// run left.  From now on there are epochs, and all know who writes the mesh.
+  /// Settles who writes the mesh, takes up what an earlier run left, and starts epochs.  Every rank
+  /// has reserved the room that its labels take, so blocks may come in.
   void begin_marches(RunStore& store) override;
   [[nodiscard]] bool visits(const WindowKey& key) const override { return traffic_.is_mine(key); }
   [[nodiscard]] std::optional<PartialMarch> part_of_march(std::uint32_t march) override;
@@ -47,14 +47,14 @@ class TeamPart : public RunPart {
                                    const OutputOptions& options) override;
   /// Rank 0 takes over the folders of all.
   void finish_keep(WindowKeep& keep) override;
-  /// Epochs are over by then, so nothing more is saved.
+  /// Returns null: epochs are over by then, so nothing more can be saved.
   [[nodiscard]] std::shared_ptr<Workdir> keep_for_rest(RunStore& /*store*/) override {
     return nullptr;
   }
-  /// Every rank gets what all did.
+  /// Returns on every rank what all did.
   [[nodiscard]] std::vector<ProcessFacts> end(const ProcessFacts& own) override;
 
-  /// Tells all ranks.  Returns the first error of this one.
+  /// Tells all ranks that this one cannot go on.  Returns this rank's first error.
   [[nodiscard]] std::exception_ptr fail(const std::exception_ptr& error) override;
   [[nodiscard]] bool keep_work(const RunStore& store) override;
 
@@ -65,13 +65,13 @@ class TeamPart : public RunPart {
   const RunLayout& layout_;
   const RunHooks& hooks_;
   Partition partition_;
-  std::optional<LineShare> own_lines_;  ///< what this rank writes; none: rank 0 writes alone
+  std::optional<LineShare> own_lines_;  ///< what this rank writes; nothing if rank 0 writes alone
   BlockTraffic traffic_;
   std::optional<TeamWork> work_;
   std::optional<Epochs> epochs_;
 };
 
-/// One rank's view.  Rank 0 speaks.
+/// The processes of a run as one rank sees them.  Rank 0 speaks to the user.
 class TeamProcesses : public Processes {
  public:
   /// team outlives it.
@@ -82,7 +82,7 @@ class TeamProcesses : public Processes {
   [[nodiscard]] bool speaks() const override { return team_.is_first(); }
   /// ERRORS: those of collect_together().
   [[nodiscard]] io::LabelTable collect_labels(FingerprintVolume& volume, int threads) override;
-  /// No rank knows yet what it will visit, so this is what any of them takes.
+  /// No rank knows yet which windows it will visit, so this returns what every rank takes at least.
   [[nodiscard]] std::uint64_t least_bytes(const RunLayout& layout, const io::DenseVolume& volume,
                                           const MeshSettings& settings) const override;
   [[nodiscard]] std::unique_ptr<RunPart> take_part(const RunLayout& layout, const RunHooks& hooks,

@@ -18,7 +18,7 @@ std::vector<T> of_all(Team& team, const T& mine) {
   return out;
 }
 
-/// "name = a, rank 2 has b" of the first line that differs.
+/// Returns "rank 0 has 'name = a', rank 2 has 'name = b'" for the first line that differs.
 std::string difference(const std::string& first, const std::string& other, int rank) {
   std::istringstream a(first), b(other);
   std::string line, differing;

@@ -10,22 +10,22 @@
 
 namespace mw::engine {
 
-/// identity: lines "name = value" of what all must have in common.
+/// Checks that all ranks have the same identity: lines "name = value".
 /// ERRORS: mw::Error(kUsage) on every rank, naming what differs and where.
 void agree(Team& team, const std::string& identity);
 
 /// Returns when all ranks have called it.
 void wait_for_all(Team& team);
 
-/// Who visits what, so that work is shared evenly: as rank 0 says, since sums of doubles could
-/// differ between machines.
+/// Returns which rank visits which window, so that work is shared evenly.  Rank 0 decides, since
+/// sums of doubles could differ between machines.
 [[nodiscard]] Partition deal_windows(Team& team, const RunLayout& layout,
                                      const MeshSettings& settings, const BoundaryFaces& faces);
 
-/// What all ranks did.  Every rank gets the sum.
+/// Returns the sum of what all ranks did, on every rank.
 [[nodiscard]] VisitStats sum_of_all(Team& team, const VisitStats& mine);
 
-/// What every rank did, by rank; returns when every rank has come here.
+/// Returns what every rank did, by rank, once every rank has called it.
 [[nodiscard]] std::vector<ProcessFacts> facts_of_all(Team& team, const ProcessFacts& mine);
 
 }  // namespace mw::engine

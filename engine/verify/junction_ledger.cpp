@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The mwmesh authors
 // SPDX-License-Identifier: Apache-2.0
-// Sorted by junction, what tiles counted adds up; sets that are one count one less.
+// Adds up what tiles counted, sorted by junction; two sets that are joined count one less.
 #include "engine/verify/junction_ledger.h"
 
 #include <limits>
@@ -14,7 +14,7 @@ namespace {
 using audit::JunctionKind;
 using audit::JunctionLabels;
 
-// Two labels a word: words are in the order of the labels.
+// Two labels make a word, so that words are in the order of the labels.
 std::array<std::uint64_t, 2> words_of(const JunctionLabels& l) {
   return {std::uint64_t{l[0]} << 32 | l[1], std::uint64_t{l[2]} << 32 | l[3]};
 }

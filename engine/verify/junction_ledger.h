@@ -11,21 +11,21 @@
 namespace mw::engine {
 
 /// Takes what tiles tell of their junctions: first those of one side, then those of the other.
-/// Memory: `memory_bytes`, 4 bytes a set that goes on in other tiles, and junctions that differ.
-/// Disk: 40 bytes a junction in each tile that has it, 32 a vertex of it between tiles.
-/// ERRORS: see io::ScratchFile; kResource above 2^32 such sets.
+/// Memory: `memory_bytes`, 4 bytes for each set that goes on in other tiles, and the junctions that
+/// differ.  Disk: 40 bytes for each junction in each tile that has it, 32 for each vertex of it
+/// between tiles.  ERRORS: see io::ScratchFile; kResource from 2^32 - 1 such sets on.
 class JunctionLedger {
  public:
   enum class Side : std::uint8_t { kVolume, kMesh };
 
   JunctionLedger(std::filesystem::path folder, std::size_t memory_bytes);
 
-  /// Labels are those of the whole.
+  /// Adds a tile's piece, whose labels are those of the whole volume.
   void add(Side side, const audit::JunctionsPiece& piece);
-  /// Joins its sets over tiles.  REQUIRES: all of its tiles were added, and no set of the other
-  /// side is open.
+  /// Joins the sets of a side over tiles.  REQUIRES: all of its tiles were added, and no set of the
+  /// other side is open.
   void close(Side side, audit::Cavities cavities);
-  /// REQUIRES: called once, both sides are closed.
+  /// Compares the two sides.  REQUIRES: called once, both sides are closed.
   [[nodiscard]] audit::JunctionReport compare();
 
  private:
@@ -50,7 +50,7 @@ class JunctionLedger {
   std::filesystem::path folder_;
   std::size_t share_;
   std::optional<Nodes> nodes_;  ///< of the side that is being added
-  std::uint64_t sets_ = 0;      ///< of it
+  std::uint64_t sets_ = 0;      ///< its sets so far that go on in other tiles
   io::ExternalSort<5> cells_;   ///< junction, side, sums
   std::array<audit::Cavities, 2> cavities_;
 };

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The mwmesh authors
 // SPDX-License-Identifier: Apache-2.0
-// Each tile on its own, then what becomes of them together.
+// Looks at each tile of the mesh on its own, then puts together what they tell.
 #include "engine/verify/mesh_stage.h"
 
 #include <bit>
@@ -22,7 +22,7 @@ struct SharedTet {
   std::uint32_t part = 0;
 };
 
-/// One tile.  Labels of pieces and triangles are those of the whole, of the others its own.
+/// What one tile tells.  Labels of pieces and triangles are those of the whole, others its own.
 struct TileFindings {
   TileLabels names{{}, 0};
   audit::ValidityTally validity;
@@ -39,7 +39,7 @@ struct TileFindings {
   std::vector<audit::LineCrossing> crossings;
 };
 
-/// Doubles in an order that words have too.
+/// Turns doubles into words that are in the same order.
 std::uint64_t ordered_bits(double value) {
   const auto bits = std::bit_cast<std::uint64_t>(value);
   return bits >> 63U != 0 ? ~bits : bits | std::uint64_t{1} << 63U;

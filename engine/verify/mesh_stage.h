@@ -13,7 +13,7 @@ namespace mw::engine {
 /// What the mesh's tiles told.
 struct MeshFindings {
   audit::ValidityTally validity;
-  std::optional<audit::Check> overlap;  ///< where labels were left out
+  std::optional<audit::Check> overlap;  ///< only where labels were left out
   audit::Offenders turned{"tets"};      ///< see audit::changed_orientations()
   std::vector<audit::RegionBetti> betti;
   audit::QualityMeter quality;
@@ -25,11 +25,11 @@ struct MeshFindings {
 /// Where interfaces go, if they are asked for.
 struct InterfaceSinks {
   PieceBuckets* pieces = nullptr;       ///< for distances
-  JunctionLedger* junctions = nullptr;  ///< not of a mesh with gaps
+  JunctionLedger* junctions = nullptr;  ///< null for a mesh with gaps
 };
 
-/// validity: what is asked.  ENSURES: the mesh's side of sinks.junctions is closed.
-/// REQUIRES: mesh.input_check() passed.
+/// Looks at each tile of the mesh; validity says what is asked.  ENSURES: the mesh's side of
+/// sinks.junctions is closed.  REQUIRES: mesh.input_check() passed.
 [[nodiscard]] MeshFindings look_at_mesh(const MeshTiles& mesh, std::size_t label_count,
                                         const audit::ValidityTask& validity, const VerifyTask& task,
                                         const InterfaceSinks& sinks);

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The mwmesh authors
 // SPDX-License-Identifier: Apache-2.0
-// Vertices by place, tets by their vertices.
+// Sorts vertices into tiles by where they lie, and tets by their vertices.
 #include "engine/verify/mesh_tiles.h"
 
 #include <algorithm>
@@ -103,7 +103,7 @@ void MeshTiles::add(const io::TetRows& tet, RawLabel label) {
   for (auto tile = tiles.begin(); tile != end; ++tile) tets_.add(*tile, record);
 }
 
-/// A part at a corner has that corner and the middles of the edges there.
+/// Collects the nodes of a curved tet.  A part at a corner has it and the middles of its edges.
 void MeshTiles::keep_nodes(const io::TetRows& part, RawLabel label) {
   const std::size_t number = tet_count_ % kTetParts.size();
   for (std::size_t i = 0; i < part.size(); ++i) next_.rows[kTetParts[number][i]] = part[i];
@@ -149,7 +149,7 @@ audit::Check MeshTiles::input_check() const {
   return audit::input_check(tile_of_vertex_.size(), tet_count_, endless_);
 }
 
-/// Neighbours in the file are read at once.
+/// Reads the positions of ascending vertices; neighbours in the file are read at once.
 void MeshTiles::read_positions(std::span<const std::uint64_t> ids,
                                std::vector<audit::Position>& out) const {
   constexpr std::uint64_t kWorthReading = 64;

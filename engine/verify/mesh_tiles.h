@@ -22,13 +22,13 @@ namespace mw::engine {
 /// One tile in memory, as audit::MeshTile wants it.
 struct LoadedMesh {
   std::vector<audit::Position> vertices;  ///< in the array's axes
-  std::vector<audit::Position> written;   ///< as they came, where that is another direction
+  std::vector<audit::Position> written;   ///< as written, where axes are turned; else empty
   std::vector<audit::TetRow> tets;
   std::vector<Label> labels;  ///< of the tile
   std::vector<std::uint64_t> vertex_ids;
   std::vector<std::uint64_t> tet_ids;
   std::vector<std::uint8_t> owned;
-  std::vector<bool> is_shared;  ///< by tet: another tile has it too
+  std::vector<bool> is_shared;  ///< by tet: whether another tile has it, too
   TileLabels names{{}, 0};
 
   [[nodiscard]] audit::MeshTile view() const {
@@ -38,9 +38,9 @@ struct LoadedMesh {
 
 /// Takes a mesh in and gives it back in tiles: each vertex is owned by the tile that it lies in,
 /// and a tile has every tet with a vertex that it owns.  A mesh whose rows or numbers make no sense
-/// is taken note of, not kept. Memory: `memory_bytes` while it is taken in, and 4 bytes and a bit a
-/// vertex. Disk: 24 bytes a vertex, some 60 a tet.  ERRORS: see io::ScratchFile; kResource above
-/// 2^32 - 1 vertices.
+/// is taken note of, not kept.  Memory: `memory_bytes` while it is taken in, and for each vertex 4
+/// bytes and a bit.  Disk: 24 bytes a vertex, some 60 a tet.  ERRORS: see io::ScratchFile;
+/// kResource from 2^32 - 1 vertices on.
 class MeshTiles : public io::MeshSink {
  public:
   struct Place {
@@ -62,24 +62,24 @@ class MeshTiles : public io::MeshSink {
   [[nodiscard]] const TileGrid& grid() const { return grid_; }
   /// "P2 input": only a mesh that passes has tiles.
   [[nodiscard]] audit::Check input_check() const;
-  /// Vertices in no tet.
+  /// Returns the vertices in no tet.
   [[nodiscard]] const audit::Offenders& unused() const { return unused_; }
-  /// What tets of ten nodes are like, where the mesh came in their parts.  The tets in the tiles
-  /// are the parts.
+  /// Returns what tets of ten nodes are like, where the mesh came in their straight parts, which
+  /// are the tets in the tiles.
   [[nodiscard]] const std::optional<audit::CurvedMeter>& curved() const { return curved_; }
-  /// What curved tets have beyond their parts, by dense label, in voxels of the lattice.
+  /// Returns the volume of curved tets beyond their parts, by dense label, in lattice voxels.
   [[nodiscard]] const std::vector<audit::CompensatedSum>& beyond_parts() const {
     return beyond_parts_;
   }
-  /// Which labels of the volume it has, by dense label.
+  /// Returns which labels of the volume the mesh has, by dense label.
   [[nodiscard]] const audit::KeptLabels& labels() const { return labels_; }
-  /// Whether the mesh lies in other axes than the array's, and whether in a mirror.
+  /// Return whether the mesh's axes are not the array's, and whether they are a mirror image.
   [[nodiscard]] bool is_turned() const { return !is_upright_; }
   [[nodiscard]] bool is_mirrored() const { return is_mirrored_; }
-  /// Where the array's axes lie, for the audit.
+  /// Returns where the array's axes lie, for the audit.
   [[nodiscard]] audit::Frame frame() const;
 
-  /// REQUIRES: finished, and input_check() passed.  Thread-safe.
+  /// Loads a tile.  REQUIRES: finished, and input_check() passed.  Thread-safe.
   [[nodiscard]] LoadedMesh load(std::uint32_t tile) const;
 
  private:
@@ -90,7 +90,7 @@ class MeshTiles : public io::MeshSink {
     std::uint32_t is_shared = 0;
   };
 
-  /// Whether all vertices of these tets have been written; takes note of the first that is not.
+  /// Returns whether all vertices of a tet have been written, and notes the first that is not.
   [[nodiscard]] bool in_range(const io::TetRows& tet);
   void add(const io::TetRows& tet, RawLabel label);
   void keep_nodes(const io::TetRows& part, RawLabel label);

@@ -11,14 +11,14 @@
 
 namespace mw::engine {
 
-/// Items (tets, voxels) by number, in runs, each in a part of a tile.
+/// Runs of items (tets or voxels, by number), each of which lies in a part of a tile.
 /// Memory: see io::ExternalSort.
 class PartLinks {
  public:
   PartLinks(const std::filesystem::path& folder, std::size_t memory_bytes)
       : runs_(folder, memory_bytes) {}
 
-  /// part: numbered through all tiles.
+  /// Adds a run of items in a part; parts are numbered through all tiles.
   void add(std::uint64_t first, std::uint64_t count, std::uint32_t part) {
     runs_.add({first, count, part});
   }
@@ -44,7 +44,8 @@ class PartLinks {
   io::ExternalSort<3> runs_;
 };
 
-/// Memory: `memory_bytes`, and see audit::RegionsUnion.  ERRORS: see io::ScratchFile.
+/// Puts together the regions of a mesh with gaps.  Memory: `memory_bytes`, and see
+/// audit::RegionsUnion.  ERRORS: see io::ScratchFile.
 class RegionLinks {
  public:
   RegionLinks(std::size_t label_count, const std::filesystem::path& folder,
@@ -53,7 +54,7 @@ class RegionLinks {
         links_(folder, memory_bytes / 2),
         meetings_(folder, memory_bytes / 2) {}
 
-  /// Labels are those of the whole.
+  /// Adds a tile's piece, whose labels are those of the whole volume.
   void add(const audit::RegionsPiece& piece) {
     const std::uint32_t first = regions_.add(piece);
     for (const auto& [item, set] : piece.shared) links_.add(item, 1, first + set);
@@ -62,7 +63,7 @@ class RegionLinks {
     }
   }
 
-  /// By label.  REQUIRES: called once, after all tiles.
+  /// Returns the Betti numbers by label.  REQUIRES: called once, after all tiles.
   [[nodiscard]] std::vector<audit::RegionBetti> betti() {
     links_.unite(regions_);
     std::vector<audit::RegionsPiece::Meeting> here;  // at one vertex

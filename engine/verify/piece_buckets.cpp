@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The mwmesh authors
 // SPDX-License-Identifier: Apache-2.0
-// From triangles to pieces, tile by tile.
+// Makes pieces of triangles, tile by tile.
 #include "engine/verify/piece_buckets.h"
 
 #include "kernels/core/index.h"

@@ -9,8 +9,8 @@
 
 namespace mw::engine {
 
-/// Triangles come first, with dense labels of the whole, in voxels of the lattice; then pieces are
-/// made of all of them.
+/// Triangles are added first, with dense labels of the whole volume, in voxels of the lattice; then
+/// pieces are made of all of them.
 class PieceBuckets {
  public:
   PieceBuckets(const std::filesystem::path& folder, const TileGrid& grid, Index3 layers,
@@ -27,10 +27,10 @@ class PieceBuckets {
   /// REQUIRES: called once, after the last triangle.
   void make_pieces();
 
-  /// The radius of the largest piece.
+  /// Returns the radius that no piece exceeds.
   [[nodiscard]] double radius() const { return radius_; }
-  /// All pieces whose centroid lies in a tile that meets this box of voxels of the volume; those
-  /// outside of the volume lie in the nearest.  Thread-safe.
+  /// Returns all pieces whose centroid lies in a tile that meets this box of voxels of the volume;
+  /// centroids outside of the volume count for the nearest tile.  Thread-safe.
   [[nodiscard]] std::vector<audit::InterfaceTriangle> near(const Box3& voxels) const;
 
  private:

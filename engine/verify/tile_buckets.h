@@ -13,9 +13,10 @@
 
 namespace mw::engine {
 
-/// For each tile a list of records, in the order in which they were added.
-/// Memory: `memory_bytes`, and 16 bytes for each time a tile's share of that has been full.
-/// Thread safety: one adds or several load.  ERRORS: see io::ScratchFile.
+/// Holds a list of records for each tile, in the order in which they were added.
+/// Memory: `memory_bytes` or 32 records a tile, and 16 bytes each time that a tile's share fills
+/// up.
+/// Thread safety: one thread adds, or several load.  ERRORS: see io::ScratchFile.
 template <typename Record>
 class TileBuckets {
   static_assert(std::is_trivially_copyable_v<Record>);

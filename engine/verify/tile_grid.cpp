@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The mwmesh authors
 // SPDX-License-Identifier: Apache-2.0
-// Edges, and where a point lies.
+// How long the edges of tiles are, and in which tile a point lies.
 #include "engine/verify/tile_grid.h"
 
 #include <algorithm>

@@ -14,11 +14,11 @@
 
 namespace mw::engine {
 
-/// Dense labels of the whole that a tile has, ascending; the tile's own label is the rank.  What is
-/// kept by label in a tile then has the size of the tile, not of the volume's table.
+/// The dense labels of the whole volume that a tile has, ascending; the tile's own label is the
+/// rank.  What a tile keeps by label then has its size, not that of the volume's table.
 class TileLabels {
  public:
-  /// label_count: labels of the whole; larger ones in `seen` are no labels.
+  /// label_count is that of the whole; numbers from there on in `seen` are no labels.
   TileLabels(std::vector<Label> seen, std::size_t label_count) : whole_(std::move(seen)) {
     std::sort(whole_.begin(), whole_.end());
     whole_.erase(std::unique(whole_.begin(), whole_.end()), whole_.end());
@@ -29,13 +29,13 @@ class TileLabels {
   [[nodiscard]] std::size_t size() const { return whole_.size(); }
   [[nodiscard]] const std::vector<Label>& whole() const { return whole_; }
 
-  /// audit::kUnknown for what is no label.  REQUIRES: it was seen.
+  /// Returns the tile's own label; audit::kUnknown for what is no label.  REQUIRES: it was seen.
   [[nodiscard]] Label own(Label label) const {
     if (label >= exterior_) return audit::kUnknown;
     return static_cast<Label>(std::lower_bound(whole_.begin(), whole_.end(), label) -
                               whole_.begin());
   }
-  /// In place; neighbours mostly have the same.
+  /// Makes labels the tile's own, in place; neighbours mostly have the same.
   void make_own(std::span<Label> labels) const {
     Label last = audit::kUnknown, rank = audit::kUnknown;
     for (Label& label : labels) {
@@ -43,7 +43,7 @@ class TileLabels {
       label = rank;
     }
   }
-  /// By own label, what there is by label of the whole; empty stays empty.
+  /// Returns by own label what is given by label of the whole; an empty list stays empty.
   [[nodiscard]] std::vector<bool> own(const std::vector<bool>& by_label) const {
     std::vector<bool> out;
     for (const Label label : whole_) {
@@ -51,7 +51,8 @@ class TileLabels {
     }
     return out;
   }
-  /// The two behind the last label (the exterior, and what is no label) are so in both.
+  /// Returns the label of the whole; the two numbers behind the last label (the exterior, and what
+  /// is no label) become the two behind the last label of the whole.
   [[nodiscard]] Label of_whole(Label own) const {
     return own < whole_.size() ? whole_[own] : exterior_ + (own - static_cast<Label>(size()));
   }
@@ -76,7 +77,7 @@ class TileLabels {
   Label exterior_ = 0;
 };
 
-/// Every label of a list once or more, but not once for each entry.
+/// Appends every label of a list, once for each run of equal entries.
 inline void append_labels(std::span<const Label> labels, std::vector<Label>& seen) {
   for (std::size_t i = 0; i < labels.size(); ++i) {
     if (i == 0 || labels[i] != labels[i - 1]) seen.push_back(labels[i]);

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The mwmesh authors
 // SPDX-License-Identifier: Apache-2.0
-// The two halves, put together.
+// Puts the two halves of a verification together.
 #include "engine/verify/verify_mesh.h"
 
 #include "engine/verify/mesh_stage.h"
@@ -10,7 +10,7 @@
 namespace mw::engine {
 namespace {
 
-/// Every label of the table is that of a voxel.
+/// Returns what is asked of the mesh; every label of the table is that of a voxel.
 audit::ValidityTask validity_task(const io::DenseVolume& volume, const MeshTiles& mesh,
                                   const VerifyTask& task) {
   const audit::KeptLabels& kept = task.options.kept;

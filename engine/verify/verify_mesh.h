@@ -21,10 +21,10 @@ struct VerifyTask {
   std::function<void()> between = [] {};  ///< called after each tile; may throw
 };
 
-/// A tile of the mesh, then a tile of the volume with what is near it, is all that a thread has in
-/// memory.
-/// Memory: besides, 24 bytes a part of a label in a tile, and 8 for each other one that it touches;
-/// where interfaces are counted, 4 a part of one that goes on in another tile.
+/// Checks a mesh against its volume.  A thread has no more in memory than a tile of the mesh, and
+/// then a tile of the volume with what is near it.
+/// Memory: besides, 24 bytes for each part of a label in a tile, and 8 for each other one that it
+/// touches; where interfaces are counted, 4 for each part of one that goes on in another tile.
 /// ENSURES: the report depends on mesh and volume only, except for distances farther than memory
 /// lets it look (DistanceReport::far_samples); sums are rounded in the order of the tiles.
 /// ERRORS: kResource when a temporary file cannot be written.

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The mwmesh authors
 // SPDX-License-Identifier: Apache-2.0
-// A tile's labels with those around them, read once.
+// Reads a tile's labels with those around them, once, and looks at them.
 #include "engine/verify/volume_stage.h"
 
 #include <algorithm>
@@ -90,7 +90,7 @@ class VolumeStage {
   }
 
  private:
-  /// Looking farther than the bound says by how much it is broken.
+  /// Returns how far to look at first: beyond the bound, to say by how much it is broken.
   [[nodiscard]] double first_reach() const {
     constexpr double kMin = 2, kBeyond = 0.5;
     return std::max(kMin, task_.options.max_distance.value_or(4 - kBeyond) + kBeyond);
@@ -154,7 +154,7 @@ class VolumeStage {
     out.places = audit::places_of_voxels(box, voxels.part(box).labels, names.size(), grid_.shape());
   }
 
-  /// Consumes what was loaded.
+  /// Measures the distances of a tile.  Consumes what was loaded.
   [[nodiscard]] TileDistances measure(const Box3& box, double reach, LoadedVoxels loaded) const {
     std::vector<audit::InterfaceTriangle> pieces =
         pieces_->near(around(box, reach + 2 * pieces_->radius()));
@@ -187,7 +187,7 @@ class VolumeStage {
     return out;
   }
 
-  /// Where parts of a label were left out, its voxels may be far from the mesh.
+  /// Forgets how far voxels are from the mesh for labels of which parts were left out.
   void forget_partial(TileDistances& distances) const {
     for (std::size_t i = 0; i < distances.rows.size(); ++i) {
       if (!audit::is_partial(task_.options.partial, distances.labels[i])) continue;
@@ -205,7 +205,7 @@ class VolumeStage {
     return seen;
   }
 
-  /// The two behind the last label are so in the tile as well.
+  /// Returns the tile's label; the two behind the last label are so in the tile as well.
   [[nodiscard]] Label own(const TileLabels& names, Label label) const {
     const auto count = static_cast<Label>(label_count_);
     return label < count ? names.own(label) : static_cast<Label>(names.size()) + (label - count);
@@ -223,7 +223,7 @@ class VolumeStage {
     const audit::Extent extent = audit::extent_of(piece.corners);
     const std::array<std::int64_t, 3> lo{box.lo.x, box.lo.y, box.lo.z};
     const std::array<std::int64_t, 3> hi{box.hi.x, box.hi.y, box.hi.z};
-    // A voxel more on each side than what is measured: pieces outside of the volume are too.
+    // The margin is a voxel wider than the reach.  Tiles at low sides measure pieces outside, too.
     for (std::size_t k = 0; k < 3; ++k) {
       if (extent.hi[k] < static_cast<double>(lo[k]) - reach - 1) return lo[k] > 0;
       if (extent.lo[k] > static_cast<double>(hi[k]) + reach + 1) return true;
@@ -273,7 +273,7 @@ class VolumeStage {
     }
   }
 
-  /// Samples that found nothing of their label near look farther, if there is something at all.
+  /// Lets samples that found nothing of their label look farther, if there is something at all.
   void conclude_distances() {
     double reach = std::numeric_limits<double>::infinity();
     for (std::size_t i = 0; i < far_.size(); ++i) {

@@ -18,13 +18,13 @@ struct VolumeFindings {
   std::optional<audit::DistanceReport> distance;
 };
 
-/// The mesh's interface.
+/// What the volume is compared with, and where what it tells goes.
 struct MeshInterface {
-  const PieceBuckets* pieces = nullptr;  ///< nullptr: no distances are asked for
-  JunctionLedger* junctions = nullptr;   ///< where the volume's go, if they are asked for
+  const PieceBuckets* pieces = nullptr;  ///< null if no distances are asked for
+  JunctionLedger* junctions = nullptr;   ///< takes the volume's; null if not asked for
 };
 
-/// ENSURES: the volume's side of mesh.junctions is closed.
+/// Looks at each tile of the volume.  ENSURES: the volume's side of mesh.junctions is closed.
 [[nodiscard]] VolumeFindings look_at_volume(const io::DenseVolume& volume, const TileGrid& grid,
                                             const VerifyTask& task, const MeshInterface& mesh);
 

@@ -26,25 +26,25 @@ class BlockStore {
   /// ENSURES: false when that does not suffice before other windows have committed.
   /// ERRORS: mw::Error(kResource) with the least that works when there are no others.
   [[nodiscard]] virtual bool admit(Index3 window, std::uint64_t bytes) = 0;
-  /// The blocks of a window, in the order of grid.blocks_of(window), as the last window that
-  /// committed them or the march before left them; empty where there was none: such a block is
+  /// Returns the blocks of a window, in the order of grid.blocks_of(window), as the last window
+  /// that committed them or the march before left them.  A block that none has left is empty; it is
   /// made from voxels.
   [[nodiscard]] virtual std::vector<std::optional<BlockMesh>> take(Index3 window) = 0;
-  /// All of a window's results become visible at once, and the window is done.
+  /// Makes all of a window's results visible at once, and the window done.
   /// Memory for them comes out of what admit() set aside; the rest of that is given back.
-  /// REQUIRES: canonical, one for each block of the window, in the order of take().
+  /// REQUIRES: canonical blocks, one for each block of the window, in the order of take().
   virtual void commit(Index3 window, std::vector<BlockMesh> blocks) = 0;
 
-  /// A block as it is now; it stays in the store.  REQUIRES: it was committed, or the march before
-  /// left it.
+  /// Returns a block as it is at present; it stays in the store.  REQUIRES: it was committed, or
+  /// the march before left it.
   [[nodiscard]] virtual BlockMesh load(Index3 block) const = 0;
 
-  /// Whether the window has been committed, now or in the run that this one goes on from; the set
-  /// of such windows is closed under predecessors.
+  /// True if the window was committed, by this run or by the one that it goes on from; the set of
+  /// these windows is closed under predecessors.
   [[nodiscard]] virtual bool is_done(Index3 window) const = 0;
-  /// Memory that take() of this window will need for its result.
+  /// Returns the memory that take() of this window will need for its result.
   [[nodiscard]] virtual std::uint64_t taken_bytes(Index3 window) const = 0;
-  /// Memory that load() of this block will need for its result.
+  /// Returns the memory that load() of this block will need for its result.
   [[nodiscard]] virtual std::uint64_t loaded_bytes(Index3 block) const = 0;
 };
 

@@ -32,13 +32,13 @@ std::int32_t lattice(std::int64_t voxels) {
   return static_cast<std::int32_t>(voxels * kUnitsPerVoxel);
 }
 
-/// Tets and samples of one block to be, still with rows of the window.
+/// Tets and samples of a block that is being made, with rows of the window.
 struct Share {
   std::vector<BlockTet> tets;
   std::vector<BlockSample> samples;
 };
 
-/// row: scratch of a number for each vertex of the mesh, all 0, and so again afterwards.
+/// Makes the block of a share.  row is scratch: a number for each vertex, 0 before and afterwards.
 BlockMesh pack(const TetMesh& mesh, Share share, std::vector<std::uint32_t>& row) {
   BlockMesh out;
   std::size_t used = 0;
@@ -64,7 +64,7 @@ BlockMesh pack(const TetMesh& mesh, Share share, std::vector<std::uint32_t>& row
   return out;
 }
 
-/// Takes along the samples on the faces of a tet that is on their side.
+/// Adds the samples on the faces of a tet that is on their side.
 void take_samples(const WindowContent& content, const BlockTet& tet, Share& share) {
   if (content.samples.empty()) return;
   const auto& v = tet.vertices;
@@ -82,7 +82,7 @@ void take_samples(const WindowContent& content, const BlockTet& tet, Share& shar
   }
 }
 
-/// Place in `blocks`, those of the window, of the one that owns a tet.
+/// Returns the place in `blocks`, which are those of the window, of the one that owns a tet.
 std::uint8_t owner_index(const TetMesh& mesh, const BlockTet& tet, const WindowGrid& grid,
                          Index3 window, const std::vector<Index3>& blocks) {
   std::array<std::int64_t, 3> sum{};
@@ -125,7 +125,7 @@ std::vector<BlockMesh> scatter(const WindowContent& content, const WindowGrid& g
   for (const BlockTet& t : tets) owners.push_back(owner_index(mesh, t, grid, window, blocks));
   std::vector<std::uint32_t> row(mesh.vertex_count());
   std::vector<BlockMesh> out;
-  // One block after the other, so that only one list at a time is longer than it need be.
+  // Blocks are made one by one, so that only one list at a time has room that it does not need.
   for (std::size_t block = 0; block < blocks.size(); ++block) {
     Share share;
     for (std::size_t i = 0; i < tets.size(); ++i) {

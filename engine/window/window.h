@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The mwmesh authors
 // SPDX-License-Identifier: Apache-2.0
-// One window: blocks in, kernels, blocks out.
+// What a window works on: gathered from blocks, and scattered to blocks again.
 #pragma once
 
 #include <vector>
@@ -21,17 +21,17 @@ struct WindowContent {
 /// The far corner of a volume, in lattice units.
 [[nodiscard]] Point lattice_corner(Index3 volume);
 
-/// Merges blocks into the content of a window; as merge_blocks().  kept: see TetMesh.
+/// Merges blocks into the content of a window, as merge_blocks() does.  For kept see TetMesh.
 [[nodiscard]] WindowContent gather(std::vector<BlockMesh> blocks, Index3 volume,
                                    BoxPlanes kept = 0);
 
-/// Deals the tets of a window to the owner blocks of their barycentres, canonically; samples go
-/// with the tet on the side of their triangle's smaller label.
-/// Result in the order of grid.blocks_of(window).
+/// Deals the tets of a window to the owner blocks of their barycentres; samples go with the tet on
+/// the side of their triangle's smaller label.  Returns canonical blocks in the order of
+/// grid.blocks_of(window).
 [[nodiscard]] std::vector<BlockMesh> scatter(const WindowContent& content, const WindowGrid& grid,
                                              Index3 window);
 
-/// The voxels that the content of a window reaches into, and `halo` around them.
+/// Returns the box of the voxels that the content of a window reaches into, and `halo` around them.
 [[nodiscard]] Box3 voxels_around(const TetMesh& mesh, std::int64_t halo);
 
 }  // namespace mw::engine

@@ -13,8 +13,8 @@ namespace mw::engine {
 
 /// Cuts a volume into cubic blocks and covers it by windows of 2 x 2 x 2 blocks, one block apart.
 ///
-/// Blocks at the far sides may be short.  An axis of a single block has a single window.  Windows
-/// march x fastest, then y, then z.
+/// Blocks at the far sides may be short.  An axis of a single block has a single window.  The order
+/// of windows is x fastest, then y, then z.
 class WindowGrid {
  public:
   /// REQUIRES: every axis of volume >= 1; window even and >= 2.
@@ -32,12 +32,12 @@ class WindowGrid {
   /// The blocks of a window, ascending in raster order: 8, fewer along axes of a single block.
   [[nodiscard]] std::vector<Index3> blocks_of(Index3 window) const;
 
-  /// The block of a window that holds a position, clamped into the window: a tet is owned by the
-  /// block of its barycentre, or by the nearest block of the window that wrote it.
-  /// `sum` is the sum of the positions of a tet's four vertices, exact.
+  /// Returns the block of a window that owns a tet: the block that holds its barycentre, or the
+  /// nearest block of the window if that block lies outside it.
+  /// `sum` is the exact sum of the positions of the tet's four vertices.
   [[nodiscard]] Index3 owner(Index3 window, const std::array<std::int64_t, 3>& sum) const;
 
-  /// The windows that must be finished before this one: the transitive reduction of its 13
+  /// Returns the windows that must be finished before this one: the transitive reduction of its 13
   /// neighbours earlier in march order, which is (-1,0,0), (+1,-1,0), (+1,+1,-1), clamped where a
   /// +1 leaves the grid.
   [[nodiscard]] std::vector<Index3> predecessors(Index3 window) const;
@@ -49,11 +49,11 @@ class WindowGrid {
   Index3 windows_;
 };
 
-/// Position of i in an x-fastest array of shape s.
+/// Returns the position of i in an x-fastest array of shape s.
 [[nodiscard]] inline std::size_t raster(Index3 i, Index3 s) {
   return static_cast<std::size_t>((i.z * s.y + i.y) * s.x + i.x);
 }
-/// The index whose place raster() tells.
+/// Returns the index of which raster() returns this place.
 [[nodiscard]] inline Index3 index_at(std::size_t place, Index3 s) {
   const auto i = static_cast<std::int64_t>(place);
   return {i % s.x, i / s.x % s.y, i / s.x / s.y};

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The mwmesh authors
 // SPDX-License-Identifier: Apache-2.0
-// Bounds by measured factors.
+// Bounds on memory, by measured factors.
 #include "engine/window/window_memory.h"
 
 #include <algorithm>
@@ -18,36 +18,37 @@ constexpr std::uint64_t kMebibyte = 1 << 20;
 // The most that any visit took, from decoding to encoding, was 6.2 times the bytes of the content
 // it began with (a checkerboard whose only block has eight parts); most take 4.
 constexpr double kBytesPerContentByte = 6.5;
-// Labels around blocks that are made from voxels, before and after coarsening.
+// For labels around blocks that are made from voxels, before and after coarsening.
 constexpr std::uint64_t kBytesPerStartVoxel = 2 * sizeof(Label);
 constexpr std::int64_t kStartLabelHalo = 6;
-// Labels for the distance bound.  Content reaches out of its window by up to a block, though not to
-// all sides at once: the most was 0.5 of the window's edge along an axis, and a voxel at each end.
+// For labels that the distance bound reads.  Content reaches out of its window by up to a block,
+// but not on all sides at once: the most was 0.5 of the window's edge along an axis, and a voxel at
+// each end.
 constexpr std::uint64_t kBytesPerLabelVoxel = sizeof(Label);
-// With a source surface: where its planes are, planes of up to three faces, bricks being read.
+// For a source surface: where its planes are, planes of up to three faces, bricks being read.
 constexpr std::uint64_t kSourceBytesPerVoxel = 4 + 3 * sizeof(PackedPlane) + 2;
 constexpr std::uint64_t kBytesPerWindow = 64 * kKibibyte;
 
 // Pages of code and libraries, the allocator's slack, and buffers of the reading of labels.
 constexpr std::uint64_t kProgramBytes = 20 * kMebibyte;
 constexpr std::uint64_t kBytesPerThread = kMebibyte;
-// The label table, and what is counted of each label in voxels and mesh.
+// The label table, and the counts of each label in voxels and mesh.
 constexpr std::uint64_t kBytesPerLabel = 96;
 
 // Places of a brick of the input and of a coarsened one, its large cells.
 constexpr std::uint64_t kBytesPerBrick = 20;
-// Its faces, which every process has of the whole volume.
+// The count of a brick's faces, which every process has for the whole volume.
 constexpr std::uint64_t kBytesPerCountedBrick = 2;
-// A tile and its halo before and after coarsening, or while thin parts are found in it; or a tile
-// that is read, raw and dense.
+// A tile and its halo before and after coarsening, or while thin parts are found in it; and a tile
+// that is read, with raw and dense labels.
 constexpr std::uint64_t kCoarseningBytes = 12 * kMebibyte;
 constexpr std::uint64_t kReadingBytes = 4 * kMebibyte;
-// A tile and its halo, 108^3 voxels with 8 bytes each, whose source surface is found, and 72 a
+// A tile and its halo whose source surface is found: 108^3 voxels with 8 bytes each, and 72 bytes a
 // face.
 constexpr std::uint64_t kSourceBytes = 48 * kMebibyte;
 constexpr std::uint64_t kSourceBytesPerBrick = 8;
 
-// Decoding, positions, tets with global rows; before them triangles, and what they tell of edges.
+// For decoding, positions and tets with global rows; before these for triangles and their edges.
 constexpr std::uint64_t kBytesPerWrittenByte = 4;
 
 std::uint64_t content_bytes(const StartSize& size) {
@@ -55,7 +56,7 @@ std::uint64_t content_bytes(const StartSize& size) {
          size.samples * sizeof(BlockSample);
 }
 
-/// What the distance guard looks at; nothing without a bound.
+/// Returns the bytes of the labels that the distance guard looks at; 0 without a bound.
 std::uint64_t distance_label_bytes(const WindowGrid& grid, Index3 window,
                                    const WindowNeeds& needs) {
   if (!needs.max_distance) return 0;
@@ -84,8 +85,8 @@ std::uint64_t window_bytes(const WindowGrid& grid, Index3 window, const BlockSto
          kBytesPerWindow;
 }
 
-/// Noise: a vertex a voxel corner, six tets a voxel where cells of two voxels fan out to all their
-/// corners, and three faces a voxel, each with all its samples apart.
+/// Noise gives the most: a vertex for each corner of a voxel, six tets a voxel where cells of two
+/// voxels fan out to all their corners, and three faces a voxel, each with all its samples apart.
 StartSize max_start_size(const WindowGrid& grid, Index3 block) {
   const Box3 box = grid.block_box(block);
   const auto voxels = static_cast<std::uint64_t>(box.voxels());
@@ -93,7 +94,7 @@ StartSize max_start_size(const WindowGrid& grid, Index3 block) {
   return {.vertices = corners, .tets = 6 * voxels, .samples = 3 * kSamplesPerFace * corners};
 }
 
-/// Content reaches out as above, here to either side.
+/// Content reaches out as far as for kBytesPerLabelVoxel, here on either side.
 std::int64_t content_halo(const WindowGrid& grid, double max_distance) {
   const Index3 edges = grid.window_box({0, 0, 0}).shape();
   const std::int64_t longest = std::max({edges.x, edges.y, edges.z});

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The mwmesh authors
 // SPDX-License-Identifier: Apache-2.0
-// How much memory each part of a run takes, told before it starts.
+// How much memory each part of a run takes, estimated before the part starts.
 #pragma once
 
 #include <cstdint>
@@ -14,50 +14,51 @@
 
 namespace mw::engine {
 
-/// The size of a block that is made from voxels.
+/// Returns the size of a block that is made from voxels.
 using StartSizeOf = std::function<StartSize(Index3 block)>;
 
 /// What visits of one march need to know beside what is stored.
 struct WindowNeeds {
   StartSizeOf start_size;
-  std::optional<double> max_distance;  ///< in voxels; labels are read so far around the content
-  bool has_source = false;             ///< and a source surface is read as well
+  std::optional<double> max_distance;  ///< in voxels: how far around the content labels are read
+  bool has_source = false;             ///< a source surface is read there, too
 };
 
-/// An upper bound on what a visit allocates, by the content that it begins with: blocks as they are
-/// stored, those that are made from voxels, and the labels around them.  It holds for every kind of
-/// volume, start mesh and bound on the distance (tests/engine/memory).
+/// Returns an upper bound on what a visit allocates, from the content that it begins with: blocks
+/// as they are stored, those that are made from voxels, and the labels around them.  It holds for
+/// every kind of volume, start mesh and bound on the distance (tests/engine/memory).
 [[nodiscard]] std::uint64_t window_bytes(const WindowGrid& grid, Index3 window,
                                          const BlockStore& store, const WindowNeeds& needs);
 
 /// Returns the largest size of a block for any labels.
 [[nodiscard]] StartSize max_start_size(const WindowGrid& grid, Index3 block);
 
-/// Returns how many voxels around a window of the grid the labels for the distance bound are
-/// asked for, with rare exceptions farther out.
+/// Returns how many voxels around a window of the grid the labels for the distance bound are read;
+/// in rare cases they are read farther out.
 [[nodiscard]] std::int64_t content_halo(const WindowGrid& grid, double max_distance);
 
-/// Whether this many windows at a time fit many times over, whatever the labels are: then sizes
-/// need not be exact, and freed memory may stay with the allocator.  (Both cost 10 % of the time
-/// on EM 128^3: 28 instead of 25 s.)
+/// True if twice as many windows as run at a time fit, whatever the labels are.  Then sizes need
+/// not be exact, and freed memory may stay with the allocator.  (Exact sizes and giving memory back
+/// cost 10 % of the time on EM 128^3: 28 instead of 25 s.)
 [[nodiscard]] bool budget_is_ample(std::uint64_t memory, const WindowGrid& grid, int threads);
 
-/// What the program takes all the time: code, libraries, threads, the allocator's slack, the label
-/// table.
+/// Returns what the program takes all the time: code, libraries, threads, the allocator's slack,
+/// the label table.
 [[nodiscard]] std::uint64_t program_bytes(std::size_t labels, int threads);
 
-/// What PreparedLabels holds of a volume of this shape; sized: with limits on edges.
+/// Returns what PreparedLabels holds for a volume of this shape; sized says that edges have limits.
 [[nodiscard]] std::uint64_t prepared_label_bytes(Index3 shape, bool sized = false);
-/// What PreparedLabels holds when it prepares only these bricks of the volume.
+/// Returns what PreparedLabels holds when it prepares only these bricks of the volume.
 [[nodiscard]] std::uint64_t prepared_label_bytes(const NeededBricks& share, Index3 shape,
                                                  bool sized = false);
-/// The places of a source surface in its file, which labels with scores have beside all that.
+/// Returns what the places of a source surface in its file take; labels with scores have one, too.
 [[nodiscard]] std::uint64_t source_place_bytes(Index3 shape);
-/// What it takes in addition while it is made.  has_scores: labels come from scores.
+/// Returns what PreparedLabels takes in addition while it is made.  has_scores says that labels
+/// come from scores.
 [[nodiscard]] std::uint64_t preparation_bytes(const MeshSettings& settings,
                                               bool has_scores = false);
 
-/// What it takes to write a block of the finished mesh.  `loaded`: its bytes in memory.
+/// Returns what it takes to write a block of the finished mesh that has `loaded` bytes in memory.
 [[nodiscard]] std::uint64_t written_block_bytes(std::uint64_t loaded);
 
 }  // namespace mw::engine

@@ -14,7 +14,7 @@
 namespace mw::engine {
 namespace {
 
-/// Without a floor nothing is asked of shapes, not around inner vertices either.
+/// Without a quality floor there is no bound on shapes, around inner vertices neither.
 SimplifyOptions simplify_options(const MeshSettings& settings) {
   SimplifyOptions options{.quality_floor = settings.quality_floor,
                           .inner_quality = settings.inner_quality.value_or(kInnerQuality),
@@ -25,14 +25,14 @@ SimplifyOptions simplify_options(const MeshSettings& settings) {
   return options;
 }
 
-/// Without a floor new vertices still leave no slivers.
+/// The least radius ratio around new inner vertices where the quality floor is lower.
 constexpr double kMinInnerRatio = 0.1;
 
-/// The curvature of threads of a voxel (bench/parameters.md, "Constants").
+/// The curvature of threads one voxel thick (bench/parameters.md, "Constants").
 constexpr double kMaxCurvatureOfSource = 4.0;
 
-/// The fit to crossings, whose places are known and not guessed, and the area beside it
-/// (bench/parameters.md, "Constants").
+/// The weight of the fit to crossings, whose places are known and not estimated, and that of the
+/// area (bench/parameters.md, "Constants").
 constexpr double kFitOfCrossings = 20.0, kAreaOfCrossings = 0.05;
 
 std::optional<SurfaceWeights> surface_weights(const MeshSettings& settings,
@@ -88,7 +88,7 @@ WindowVisitor::WindowVisitor(const PreparedLabels& labels, const Metric& metric,
 }
 
 void WindowVisitor::polish(const WindowOrder& order) {
-  // What no later window sees is worth more sweeps, and flips of tets that are not bad
+  // What no later window sees gets more sweeps, and flips of tets that are not bad, too
   // (bench/parameters.md, "Constants").
   constexpr int kSweeps = 3, kSmoothSweeps = 5;
   constexpr double kFlipBelow = 0.7;
@@ -228,7 +228,7 @@ auto WindowVisitor::with_labels(Index3 block, Use use) const {
   return use(StartLabels{.shape = shape, .original = original}, place);
 }
 
-/// What start meshes are made in: the volume with its margin.
+/// Returns the volume that start meshes are made in: the grid's volume with its margin.
 Index3 WindowVisitor::start_volume() const {
   return grid_.volume() + labels_.margin() + labels_.margin();
 }

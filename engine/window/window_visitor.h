@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The mwmesh authors
 // SPDX-License-Identifier: Apache-2.0
-// What happens at one position of the window: blocks in, kernels, blocks out.
+// A visit takes the blocks of a window, runs the kernels on them, and commits new blocks.
 #pragma once
 
 #include <optional>
@@ -25,7 +25,7 @@ struct VisitStats {
   SimplifyStats simplify;
   OptimiseStats optimise;
   CodtStats codt;
-  std::uint64_t inner_vertices = 0;  ///< added
+  std::uint64_t inner_vertices = 0;  ///< inner vertices added
   double start_seconds = 0.0;
   double simplify_seconds = 0.0;
   double optimise_seconds = 0.0;
@@ -37,12 +37,12 @@ struct VisitStats {
 
 /// What visits of one march do beyond what every march does.
 struct VisitPlan {
-  /// The last march: shape is all that is left to gain, so visits optimise longer and flip more,
-  /// smooth fitted interfaces, and add the inner vertices that labels demand.  The order of its
-  /// windows tells which vertices an earlier window has seen, which wait for changes, and which
+  /// Set in the last march, where only shape is left to improve: visits optimise longer and flip
+  /// more, smooth fitted interfaces, and add the inner vertices that labels demand.  The order of
+  /// its windows tells which vertices an earlier window has seen, which wait for changes, and which
   /// no later window will see: only these get more than one sweep.
   std::optional<WindowOrder> last = std::nullopt;
-  /// Optional: adds constrained ODT with this triangulation, which many threads may ask at once.
+  /// Optional: adds constrained ODT with this triangulation, which many threads may call at once.
   /// Local optimisation stays around it when there is a quality floor: tets of a Delaunay
   /// triangulation are often below one, so patches that are good already come through, and one
   /// sweep more lifts what CODT left.  Without a floor CODT stands alone, as in the paper.
@@ -52,7 +52,7 @@ struct VisitPlan {
 };
 
 /// Visits windows of one march.  Blocks that were never stored are made from voxels.
-/// settings: inner_quality none is kInnerQuality.
+/// Where settings have no inner_quality, it is kInnerQuality.
 /// REQUIRES: windows are visited in an order that respects predecessors; the references outlive it.
 /// Thread safety: windows that share no block may be visited at the same time.
 class WindowVisitor {
@@ -60,11 +60,12 @@ class WindowVisitor {
   WindowVisitor(const PreparedLabels& labels, const Metric& metric, const MeshSettings& settings,
                 const WindowGrid& grid, BlockStore& store, VisitPlan plan = {});
 
-  /// How far around a window's content a visit reads labels, in voxels; none: it does not.
+  /// Returns the bound on distances in voxels, which says how far around a window's content a visit
+  /// reads labels; without one it reads none.
   [[nodiscard]] std::optional<double> max_distance() const { return max_distance_; }
-  /// Does it read a source surface there as well?
+  /// True if it reads a source surface there as well.
   [[nodiscard]] bool has_source() const { return labels_.has_source(); }
-  /// The size of a block that is made from voxels.  Cost: about a hundredth of a visit.
+  /// Returns the size of a block that is made from voxels.  Cost: about a hundredth of a visit.
   [[nodiscard]] StartSize start_size(Index3 block) const;
   /// Makes a block from voxels.
   [[nodiscard]] BlockMesh start(Index3 block) const;
@@ -74,8 +75,8 @@ class WindowVisitor {
  private:
   void polish(const WindowOrder& order);
   [[nodiscard]] std::vector<LatticeBox> boxes_of(const std::vector<Index3>& windows) const;
-  /// The boxes of windows that come before and after this one; none unless it is the last march of
-  /// smooth surfaces.
+  /// Return the boxes of the windows that come before and after this one; none unless this is the
+  /// last march with smooth surfaces.
   [[nodiscard]] std::vector<LatticeBox> earlier_boxes(Index3 window) const;
   [[nodiscard]] std::vector<LatticeBox> later_boxes(Index3 window) const;
   void work_on(Index3 window, WindowContent& content, VisitStats& stats) const;
@@ -83,7 +84,7 @@ class WindowVisitor {
   void add_inner(Index3 window, WindowContent& content, VisitStats& stats) const;
   [[nodiscard]] SteinerIds ids_of(Index3 window) const;
   [[nodiscard]] Index3 start_volume() const;
-  /// use(labels around the block, its box), both in that volume.
+  /// Returns use(labels around the block, box of the block), both placed in start_volume().
   template <typename Use>
   [[nodiscard]] auto with_labels(Index3 block, Use use) const;
 
@@ -97,7 +98,7 @@ class WindowVisitor {
   OptimiseOptions optimise_;
   CodtOptions codt_;
   Triangulate triangulate_;
-  std::optional<WindowOrder> order_;  ///< of the last march, for smooth surfaces
+  std::optional<WindowOrder> order_;  ///< set in the last march with smooth surfaces
   std::optional<double> max_distance_;
   std::optional<double> target_reduction_;
 };

@@ -14,9 +14,9 @@
 namespace mw::io {
 namespace {
 
-/// What a chunk costs beside its voxels: two nodes and a slot.
+/// The bytes that a kept chunk costs beside its voxels, for two nodes and a slot.
 constexpr std::uint64_t kOverhead = 256;
-/// The most files that hold chunks at a time: descriptors are few.
+/// The most files that hold chunks at a time, since a process has few descriptors.
 constexpr std::uint64_t kMaxFiles = 256;
 
 std::uint64_t cost_of(const Chunk& chunk, std::uint64_t max) {
@@ -62,7 +62,8 @@ std::shared_ptr<ChunkCache::Slot> ChunkCache::touch(std::uint64_t number) {
       .first->second.slot;
 }
 
-/// Counts what was loaded, and makes room for it.  The entry may be gone, or be another one by now.
+/// Counts a loaded chunk, and drops the oldest until the bound holds.  The entry may be gone, or
+/// belong to another slot.
 void ChunkCache::account(std::uint64_t number, const std::shared_ptr<Slot>& slot) {
   const std::lock_guard lock(mutex_);
   const auto found = entries_.find(number);
@@ -97,7 +98,7 @@ bool holds(const Chunk& chunk, Index3 shape, VoxelType type) {
   return chunk.first + last < voxels;
 }
 
-/// Chunks up to that are held, however little memory there is.
+/// Chunks of up to this many bytes are held in memory, however small the cache is.
 constexpr std::uint64_t kMinFileBytes = 1 << 20;
 
 ChunkPlace place_of(std::uint64_t chunk, std::uint64_t cache) {
@@ -142,7 +143,7 @@ std::uint64_t ChunkedVolume::chunk_bytes() const {
          static_cast<std::uint64_t>(byte_size(coding_.type));
 }
 
-/// What one that is unpacked takes in memory, all in all.
+/// Returns the memory that a chunk takes while it is unpacked, with its voxels if they are held.
 std::uint64_t ChunkedVolume::unpacking_bytes() const {
   if (place_ == ChunkPlace::kFile) {
     if (const auto streaming = source_->streaming_bytes()) return *streaming;

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: The mwmesh authors
 // SPDX-License-Identifier: Apache-2.0
-// A volume in chunks, read by region: what all chunked stores end in.  Unpacked chunks are kept for
-// a while, within a bound, those that are large against it in files without names.
+// A volume in chunks that is read by region; every chunked store opens as one.  It keeps unpacked
+// chunks for a while, within a bound; those that are large against it go to files without names.
 #pragma once
 
 #include <cstdint>
@@ -19,19 +19,19 @@
 
 namespace mw::io {
 
-/// Keeps what was used last.  Two threads that ask for the same chunk at once unpack it once.
+/// Keeps the chunks that were used last.  Threads that ask for a chunk at once unpack it once.
 /// Thread safety: all members may be called from many threads.
 class ChunkCache {
  public:
-  /// An empty pointer in the result: the store has no such chunk.
+  /// A chunk, or null where the store has no such chunk.
   using Loaded = std::shared_ptr<const Chunk>;
 
-  /// max_bytes: of chunks in memory, or of those in files.
+  /// max_bytes bounds the chunks that are kept, be they in memory or in files.
   explicit ChunkCache(std::uint64_t max_bytes) : max_bytes_(max_bytes) {}
 
-  /// The chunk of that number, from load() unless it is still here.
-  /// Memory: what is kept stays within the bound; one chunk a thread may be in use beyond that.
-  /// ERRORS: what load throws; the next one who asks loads again.
+  /// Returns the chunk of that number, which load() unpacks unless the cache still has it.
+  /// Memory: what is kept stays within the bound; each thread may use one chunk beyond that.
+  /// ERRORS: what load throws; the next caller loads again.
   [[nodiscard]] Loaded get(std::uint64_t number, const std::function<std::optional<Chunk>()>& load);
   /// Forgets everything.
   void clear();
@@ -62,10 +62,10 @@ class ChunkCache {
 class ChunkedVolume : public LabelVolume, public NumberVolume {
  public:
   /// REQUIRES: info.chunk positive on every axis; chunk c holds the voxels from c * info.chunk on.
-  /// fill: the label of voxels whose chunk the store does not have.
-  /// cache_bytes: of unpacked chunks that are kept between reads.  Chunks above an eighth of it
-  /// (and 1 MiB) are kept in files without names in $TMPDIR or /tmp, as far as there is room, and
-  /// read from there by region: each is unpacked once.
+  /// fill is the label of voxels whose chunk the store does not have.
+  /// cache_bytes bounds the unpacked chunks that are kept between reads.  Chunks above an eighth of
+  /// it (and 1 MiB) are unpacked once to files without names in $TMPDIR or /tmp, as far as there is
+  /// room, and read from there by region.
   ChunkedVolume(VolumeInfo info, VoxelCoding coding, RawLabel fill,
                 std::unique_ptr<ChunkSource> source, std::uint64_t cache_bytes);
 
@@ -95,7 +95,7 @@ class ChunkedVolume : public LabelVolume, public NumberVolume {
   std::uint64_t cache_bytes_;
   ChunkPlace place_;
   mutable ChunkCache cache_;
-  mutable std::counting_semaphore<> unpacking_;  ///< as many threads at once as share the bound
+  mutable std::counting_semaphore<> unpacking_;  ///< how many threads may unpack at once
 };
 
 }  // namespace mw::io

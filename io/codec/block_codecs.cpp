@@ -17,7 +17,7 @@
 namespace mw::io {
 namespace {
 
-/// What a packed byte unpacks to at most.
+/// The most bytes that a byte packed by LZ4 unpacks to.
 constexpr std::size_t kMaxRatio = 255;
 
 std::size_t size_at(std::span<const std::byte> bytes, std::size_t at) {
@@ -30,7 +30,7 @@ constexpr std::size_t kTokenAt = 8, kPackedSizeAt = 9, kSizeAt = 13, kChecksumAt
 constexpr std::size_t kJavaHeaderBytes = 21;
 constexpr std::byte kMethodBits{0xf0}, kStored{0x10}, kPacked{0x20};
 constexpr std::uint32_t kSeed = 0x9747b28c;
-constexpr std::uint32_t kChecksumBits = 0x0fffffff;  // its Checksum drops the upper four
+constexpr std::uint32_t kChecksumBits = 0x0fffffff;  // lz4-java drops the upper four
 
 struct JavaBlock {
   std::span<const std::byte> bytes;
@@ -54,8 +54,8 @@ JavaBlock next_block(std::span<const std::byte> packed, const PackedName& name) 
           .is_stored = method == kStored};
 }
 
-/// Appends the `size` bytes of one bare block to out.  Nothing is allocated before the claim is
-/// possible.  ERRORS: mw::Error(kInput) for damage and another size.
+/// Appends the `size` bytes of one bare block to out.  Allocates nothing for a size that the block
+/// cannot have.  ERRORS: mw::Error(kInput) for damage and another size.
 void append_lz4_block(std::vector<std::byte>& out, std::span<const std::byte> block,
                       std::size_t size, const PackedName& name) {
   if (size / kMaxRatio > block.size() || size > LZ4_MAX_INPUT_SIZE ||
@@ -153,8 +153,8 @@ std::vector<std::byte> unpack_lz4_hdf5(std::span<const std::byte> packed, std::s
 
 namespace {
 
-/// The library's header: version, version of the codec, flags, bytes of an element, and three sizes
-/// of 32 bits: unpacked, of a block, packed.
+/// Blosc's header has its version, that of the codec, flags, the bytes of an element, and three
+/// sizes of 32 bits: unpacked, of a block, packed.
 constexpr std::size_t kBlockSizeAt = 8;
 
 }  // namespace
@@ -188,9 +188,9 @@ std::vector<std::byte> unpack_blosc(std::span<const std::byte> packed, std::size
 
 namespace {
 
-/// A first byte below this is the length of a run less 1; otherwise its upper 3 bits are the length
-/// of a copy less 2 (7: another byte adds to it), its lower 5 and the next byte the distance
-/// less 1.
+/// A first byte below this is the length of a run less 1.  Otherwise its upper 3 bits are the
+/// length of a copy less 2 (if they are 7, another byte adds to it), and its lower 5 bits with the
+/// next byte are the distance less 1.
 constexpr std::size_t kFirstCopy = 32;
 constexpr std::size_t kLongCopy = 7;
 
@@ -236,7 +236,7 @@ class Decoder {
     const std::size_t distance = ((first & 31U) << 8U) + next() + 1;
     if (distance > out_.size()) fail_packed(name_, "damaged: a copy begins before the data");
     make_room(length);
-    // Byte by byte: a copy may overlap itself.
+    // It goes byte by byte, since a copy may overlap itself.
     for (std::size_t i = 0; i < length; ++i) out_.push_back(out_[out_.size() - distance]);
   }
 

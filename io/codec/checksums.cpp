@@ -82,7 +82,7 @@ std::uint32_t xxhash32(std::span<const std::byte> bytes, std::uint32_t seed) {
 
 namespace {
 
-/// Returns the sum modulo 65535; never 0 for what is not 0, like the sums of the definition.
+/// Folds a sum to one that is equal modulo 65535, and 0 only if the sum is, as the definition does.
 std::uint32_t folded(std::uint32_t sum) {
   return (sum & 0xffffU) + (sum >> 16U);
 }

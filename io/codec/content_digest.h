@@ -12,7 +12,7 @@
 
 namespace mw::io {
 
-/// The first 128 bits of a SHA-256.  All zero: none.
+/// The first 128 bits of a SHA-256; all zeros stand for no digest.
 struct ContentDigest {
   std::uint64_t first = 0;
   std::uint64_t second = 0;

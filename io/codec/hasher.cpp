@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The mwmesh authors
 // SPDX-License-Identifier: Apache-2.0
-// SHA-256 by OpenSSL: its low-level functions, since the others (EVP) allocate, and crash where an
+// SHA-256 by OpenSSL's low-level functions, since its others (EVP) allocate, and crash where an
 // allocation fails.
 #define OPENSSL_SUPPRESS_DEPRECATED
 #include "io/codec/hasher.h"

@@ -15,7 +15,7 @@
 
 namespace mw::io {
 
-/// Takes contents piece by piece; where one ends and the next begins is not seen.
+/// Takes contents piece by piece; the hash does not depend on where pieces end.
 /// Cost: about 1 ns a byte where the processor has instructions for it.
 class Hasher {
  public:
@@ -26,7 +26,7 @@ class Hasher {
   void add(std::uint64_t word);
   /// REQUIRES: nothing is added afterwards.
   [[nodiscard]] std::array<std::byte, SHA256_DIGEST_LENGTH> finish_bytes();
-  /// 64 hexadecimal digits.  REQUIRES: nothing is added afterwards.
+  /// Returns 64 hexadecimal digits.  REQUIRES: nothing is added afterwards.
   [[nodiscard]] std::string finish();
 
  private:

@@ -49,7 +49,7 @@ class HeldInput {
   std::span<const std::byte> left_;
 };
 
-/// Those of a source, a piece at a time.
+/// Packed bytes of a source, a piece at a time.
 class SourceInput {
  public:
   explicit SourceInput(const ByteSource& packed) : packed_(packed) {}
@@ -80,11 +80,10 @@ class SourceInput {
   const ByteSource& packed_;
   std::uint64_t loaded_ = 0;  ///< where the piece begins
   std::vector<std::byte> piece_;
-  std::size_t at_ = 0;  ///< in the piece
+  std::size_t at_ = 0;  ///< the place in the piece
 };
 
-/// Bytes that come one piece after the other.  One byte more than allowed has a place, so that too
-/// many are seen.
+/// Unpacked bytes in memory.  One byte more than allowed has room, so that too many are seen.
 class HeldOutput {
  public:
   /// The address space is taken at once, so that nothing moves; memory comes as bytes are written.
@@ -107,7 +106,7 @@ class HeldOutput {
   std::vector<std::byte> bytes_;
 };
 
-/// Takes what comes out into a file.
+/// Unpacked bytes in a file.
 class FileOutput {
  public:
   FileOutput() : file_(scratch_folder()), piece_(kPieceBytes) {}
@@ -125,7 +124,7 @@ class FileOutput {
   std::vector<std::byte> piece_;
 };
 
-/// What a call is about, beside where bytes come from and go to.
+/// The arguments of a call beside its input and output.
 struct Unpacking {
   StreamDecoder& decoder;
   std::uint64_t max;

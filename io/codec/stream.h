@@ -15,7 +15,7 @@
 
 namespace mw::io {
 
-/// What errors name: the codec and the file (or the chunk in it) that the packed bytes are from.
+/// The codec, and the file (or the chunk in it) that packed bytes are from, as errors name them.
 struct PackedName {
   std::string_view codec;
   std::string_view file;
@@ -27,32 +27,32 @@ struct PackedName {
 /// Throws the error for bytes that unpack to more than `max`.
 [[noreturn]] void fail_too_much(const PackedName& name, std::size_t max);
 
-/// Throws mw::Error(kResource): the library could not get the memory that it works with.
+/// Throws mw::Error(kResource) for a library that could not get the memory that it works with.
 [[noreturn]] void fail_no_memory(const PackedName& name);
 
-/// A library's decompressor at some place of its stream.
+/// A library's decompressor at some place in its stream.
 class StreamDecoder {
  public:
   /// What a step did.
   struct Step {
-    std::size_t taken = 0;        ///< bytes of the packed ones
+    std::size_t taken = 0;        ///< packed bytes used
     std::size_t given = 0;        ///< bytes unpacked
     bool ended = false;           ///< the stream came to its end
     const char* wrong = nullptr;  ///< why the bytes are damaged
   };
 
   virtual ~StreamDecoder() = default;
-  /// Unpacks from `packed` to `out`, as much as it likes.  A step that does nothing wants more
-  /// input. REQUIRES: out not empty; at most kMaxStreamStep bytes each.
+  /// Unpacks from `packed` to `out`, as much as it likes.  A step that does nothing needs more
+  /// input.  REQUIRES: out is not empty; both have at most kMaxStreamStep bytes.
   [[nodiscard]] virtual Step step(std::span<const std::byte> packed, std::span<std::byte> out) = 0;
-  /// Makes ready for another stream that follows the one that ended.
+  /// Prepares for another stream, which follows the one that ended.
   virtual void restart() = 0;
 };
 
-/// Libraries count bytes in 32 bits.
+/// The most bytes given to a step, since libraries count bytes in 32 bits.
 inline constexpr std::size_t kMaxStreamStep = std::size_t{1} << 30U;
 
-/// Unpacks one or several streams, behind which zeros may fill up.
+/// Unpacks one or several streams, which zeros may follow.
 /// Memory: follows what really comes out, at most max + 1 bytes.
 /// ERRORS: mw::Error(kInput) for damage, truncation and more than `max` bytes.
 [[nodiscard]] std::vector<std::byte> unpack_streams(StreamDecoder& decoder,

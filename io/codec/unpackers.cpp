@@ -20,7 +20,7 @@ namespace mw::io {
 namespace {
 
 constexpr int kZlib = 15;       // zlib's window bits: largest window, its own framing
-constexpr int kGzip = 15 + 16;  // the same, gzip's
+constexpr int kGzip = 15 + 16;  // the same window, gzip's framing
 
 class Inflater : public StreamDecoder {
  public:
@@ -120,7 +120,7 @@ std::vector<std::byte> unpack_bzip2(std::span<const std::byte> packed, std::size
 
 namespace {
 
-/// Empty for a verdict that is no error.
+/// Returns the reason of an error, or null for a verdict that is none.
 const char* why_wrong(lzma_ret verdict) {
   switch (verdict) {
     case LZMA_OK:
@@ -177,7 +177,7 @@ std::vector<std::byte> unpack_xz(std::span<const std::byte> packed, std::size_t 
 
 namespace {
 
-/// A block holds at most that, and takes 4 bytes or more.
+/// The most bytes that a block of Zstandard holds; it takes 4 packed bytes or more.
 constexpr std::size_t kBlockBytes = std::size_t{128} << 10U;
 
 struct FreeContext {
@@ -186,7 +186,7 @@ struct FreeContext {
 
 }  // namespace
 
-// At once into its place, not as a stream: a stream's window is as large as the frame claims.
+// Unpacks at once into place: a stream would take a window as large as the frame claims.
 std::vector<std::byte> unpack_zstd(std::span<const std::byte> packed, std::size_t max,
                                    std::string_view name) {
   const PackedName named{"zstd", name};
@@ -227,7 +227,7 @@ class ZstdDecoder : public StreamDecoder {
             .ended = verdict == 0,
             .wrong = failed ? ZSTD_getErrorName(verdict) : nullptr};
   }
-  void restart() override {}  // the library does by itself
+  void restart() override {}  // the library does so by itself
 
  private:
   void refuse_large(ZSTD_ErrorCode code) const {

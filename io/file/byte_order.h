@@ -24,7 +24,7 @@ template <std::unsigned_integral T>
   return value;
 }
 
-/// The number of type T (integer or floating point) whose bytes begin at `bytes`.
+/// Returns the number of type T (integer or floating point) whose bytes begin at `bytes`.
 template <class T>
 [[nodiscard]] T load(const std::byte* bytes, ByteOrder order) {
   using Bits = std::conditional_t<

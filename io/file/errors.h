@@ -20,13 +20,13 @@ template <std::integral T>
 void append_piece(std::string& out, T number) {
   out.append(std::to_string(number));
 }
-/// The shortest text that reads back as the same number.
+/// Appends the shortest text that reads back as the same number.
 inline void append_piece(std::string& out, double number) {
   std::array<char, 32> text{};
   out.append(text.data(), std::to_chars(text.data(), text.data() + text.size(), number).ptr);
 }
 
-/// The pieces (strings and numbers) one after the other.
+/// Returns the pieces (strings and numbers) joined one after the other.
 template <class... Pieces>
 [[nodiscard]] std::string text(const Pieces&... pieces) {
   std::string out;

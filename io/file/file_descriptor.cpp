@@ -10,7 +10,8 @@
 namespace mw::io {
 namespace {
 
-/// call: of a place in the bytes, as pread(); what it did, 0 at the end, negative with errno.
+/// Repeats call until `size` bytes are done.  call takes a place in the bytes and returns, as
+/// pread() does, how many it did: 0 at the end, a negative number with errno.
 template <class Call>
 Transfer repeat(std::size_t size, Call call) {
   Transfer done;

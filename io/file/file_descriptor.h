@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: The mwmesh authors
 // SPDX-License-Identifier: Apache-2.0
-// An owned file descriptor, and pread and pwrite that go on until all is done: the system may do
-// less, and signals interrupt.
+// An owned file descriptor, and pread and pwrite that go on until all is done, since the system may
+// do less, and signals interrupt it.
 #pragma once
 
 #include <unistd.h>
@@ -33,14 +33,14 @@ class FileDescriptor {
   int fd_ = -1;
 };
 
-/// What came of it.
+/// What a read or write did.
 struct Transfer {
   std::size_t bytes =
       0;          ///< fewer than asked for after an error, and where a file that is read ends
-  int error = 0;  ///< an errno; 0: none
+  int error = 0;  ///< an errno, or 0
 };
 
-/// file: an open descriptor.  Thread safety: any, as far as the bytes are apart.
+/// Read and write an open descriptor.  Thread safety: any, as far as the bytes are apart.
 [[nodiscard]] Transfer read_all(int file, std::uint64_t offset, std::span<std::byte> out);
 [[nodiscard]] Transfer write_all(int file, std::uint64_t offset, std::span<const std::byte> bytes);
 

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The mwmesh authors
 // SPDX-License-Identifier: Apache-2.0
-// Numbers from text and to it, and text that may be damaged, fit for a terminal.
+// Numbers from and to text, and how damaged text is made fit for a terminal.
 #pragma once
 
 #include <cstdint>
@@ -13,23 +13,23 @@
 
 namespace mw::io {
 
-/// The text without blanks (space, tab, carriage return, line feed) at both ends.
+/// Returns the text without blanks (space, tab, carriage return, line feed) at both ends.
 [[nodiscard]] std::string_view trimmed(std::string_view text);
 
-/// The parts of the text between blanks.
+/// Returns the parts of the text between blanks.
 [[nodiscard]] std::vector<std::string_view> words_of(std::string_view text);
 
-/// Returns the decimal number that takes the whole word, with or without a + in front; empty when
-/// it is none or does not fit.  Reals may be "nan" and "inf".
+/// Returns the decimal number that takes the whole word, with or without a + in front; nothing when
+/// the word is no number or the type cannot hold it.  Reals may be "nan" and "inf".
 [[nodiscard]] std::optional<std::int64_t> parse_integer(std::string_view word);
 [[nodiscard]] std::optional<double> parse_real(std::string_view word);
 
-/// Returns the numbers of all words of a text; empty when one word is no number.
+/// Returns the numbers of all words of a text; nothing when one word is no number.
 [[nodiscard]] std::optional<std::vector<std::int64_t>> parse_integers(std::string_view text);
 [[nodiscard]] std::optional<std::vector<double>> parse_reals(std::string_view text);
 
-/// Returns the shortest decimal that a float stands for: 1.2, not 1.2000000476837158, so that a
-/// volume has the spacing that its other files have.
+/// Returns the shortest decimal that a float stands for, as 1.2 and not 1.2000000476837158, so that
+/// a volume has the spacing that its other files have.
 [[nodiscard]] double decimal_of(float value);
 
 /// Returns printable ASCII as it is and other bytes as \xHH; "..." stands for all behind max bytes.
@@ -49,7 +49,7 @@ namespace mw::io {
   return text(bytes / kMebibyte, tenths > 0 ? text(".", tenths) : "", "MiB");
 }
 
-/// Returns "it takes at least --memory 97MiB", where more may turn out to be needed later.
+/// Returns "it takes at least --memory 97MiB", for where more may turn out to be needed later.
 [[nodiscard]] inline std::string min_memory(std::uint64_t bytes) {
   return "it takes at least --memory " + mebibytes(bytes);
 }

@@ -29,11 +29,11 @@ std::string hdf5_reason() {
 
 namespace {
 
-/// The library sees the first member only.
+/// An open file, of which the library sees the first member only.
 struct OpenFile {
   H5FD_t base;
   Hdf5Source* source;
-  haddr_t allocated;  ///< end of what the library takes the file to be ("EOA")
+  haddr_t allocated;  ///< where the file ends for the library ("EOA")
 };
 
 OpenFile& ours(H5FD_t* file) {

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: The mwmesh authors
 // SPDX-License-Identifier: Apache-2.0
-// What is shared by all who ask the HDF5 library: owned identifiers, a file that is read through a
-// ByteSource, and why a call failed.
+// What all callers of the HDF5 library share: owned identifiers, a file that is read through a
+// ByteSource, and the reason why a call failed.
 #pragma once
 
 #include <hdf5.h>
@@ -14,8 +14,8 @@
 
 namespace mw::io {
 
-/// An HDF5 identifier with the function that closes it.  Thread safety: none, like all of Debian's
-/// serial HDF5: one thread at a time in the whole process.
+/// An HDF5 identifier with the function that closes it.  Thread safety: none; only one thread of
+/// the process may call Debian's serial HDF5 at a time.
 class Hdf5Handle {
  public:
   using Close = herr_t (*)(hid_t);
@@ -33,7 +33,7 @@ class Hdf5Handle {
 
   [[nodiscard]] hid_t get() const { return id_; }
   [[nodiscard]] bool valid() const { return id_ >= 0; }
-  /// Closes now; whether that went well.
+  /// Closes now; returns whether that went well.
   bool close() {
     const hid_t id = std::exchange(id_, H5I_INVALID_HID);
     return id < 0 || close_(id) >= 0;
@@ -44,30 +44,31 @@ class Hdf5Handle {
   Close close_ = nullptr;
 };
 
-/// Keeps the library from printing its errors; ours say what matters.  Before any other call.
+/// Keeps the library from printing its errors, as ours say what matters.  REQUIRES: called first.
 inline void silence_hdf5() {
   H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);
 }
 
-/// The innermost message of the call that failed last: "file signature not found".  Any other call
-/// of the library forgets it.
+/// Returns the innermost message of the call that failed last, such as "file signature not found".
+/// Any other call of the library forgets it.
 [[nodiscard]] std::string hdf5_reason();
 
 /// A file that the library reads.
 struct Hdf5Source {
   const ByteSource* bytes = nullptr;
-  /// Raw data (not metadata) are not read; where they would have been is noted.  The library has no
-  /// other quick way to tell: H5Dget_chunk_info_by_coord goes through all chunks for each.
+  /// Whether raw data (not metadata) are not read but only their place is noted.  The library has
+  /// no other quick way to tell it: H5Dget_chunk_info_by_coord goes through all chunks for each.
   bool only_note_data = false;
 
   struct Place {
     std::uint64_t offset = 0;
     std::uint64_t bytes = 0;
   };
-  std::optional<Place> noted;  ///< the last one
+  std::optional<Place> noted;  ///< the last such place
 };
 
-/// A file access property list for H5Fopen to read, whose file name is then ignored.
+/// Returns a file access property list with which H5Fopen reads the source and ignores its file
+/// name.
 /// REQUIRES: source and its bytes outlive the HDF5 file.
 [[nodiscard]] Hdf5Handle access_from(Hdf5Source& source);
 

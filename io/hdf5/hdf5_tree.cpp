@@ -36,7 +36,7 @@ void finish(State& s) {
   c ^= b, c -= std::rotl(b, 24);
 }
 
-/// Up to twelve bytes, least significant first.
+/// Adds up to twelve bytes to the state, least significant first.
 void add(std::string_view bytes, State& s) {
   for (std::size_t i = 0; i < bytes.size(); ++i) {
     s[i / 4] += std::uint32_t{static_cast<unsigned char>(bytes[i])} << 8 * (i % 4);
@@ -62,14 +62,14 @@ std::uint32_t metadata_checksum(std::string_view bytes) {
 namespace {
 
 constexpr std::size_t kMaxObjects = 1000;
-constexpr std::size_t kHeadBytes = 16;        ///< of a collection, and of an object in it
+constexpr std::size_t kHeadBytes = 16;        ///< of a collection, and of an object in it too
 constexpr std::size_t kMinCollection = 4096;  ///< what the library reads at once
 
 std::size_t padded(std::size_t bytes) {
   return (bytes + 7) / 8 * 8;
 }
 
-/// One collection; object 0, the last, is what is free.
+/// Returns a collection of the strings; object 0, the last one, is its free space.
 LittleBytes collection_of(std::span<const std::string> strings) {
   LittleBytes objects;
   for (std::size_t i = 0; i < strings.size(); ++i) {
@@ -91,7 +91,7 @@ Hdf5Texts hdf5_texts(std::span<const std::string> strings, std::uint64_t address
   for (; !strings.empty(); strings = strings.subspan(std::min(kMaxObjects, strings.size()))) {
     const auto some = strings.first(std::min(kMaxObjects, strings.size()));
     for (std::size_t i = 0; i < some.size(); ++i) {
-      const bool empty = some[i].empty();  // which is nowhere
+      const bool empty = some[i].empty();  // an empty string has no object
       positions.number(some[i].size(), 4).number(empty ? 0 : address + out.heap.size(), 8);
       positions.number(empty ? 0 : i + 1, 4);
     }
@@ -105,7 +105,7 @@ namespace {
 
 constexpr std::uint64_t kNowhere = ~std::uint64_t{0};
 
-/// Types of messages, IV.A.2.
+/// The types of messages in object headers (HDF5 file format, IV.A.2, as all sections below).
 enum Message : std::uint8_t {
   kDataspace = 0x01,
   kLinkInfo = 0x02,
@@ -121,7 +121,7 @@ void add_message(LittleBytes& out, Message type, const LittleBytes& body) {
   out.number(type, 1).number(body.size(), 2).number(0, 1).text(body.bytes());
 }
 
-/// IV.A.2.b, version 2: a scalar without a shape.
+/// Returns the message of IV.A.2.b, version 2; without extents it is that of a scalar.
 LittleBytes dataspace(const std::vector<std::uint64_t>& shape) {
   LittleBytes out;
   out.number(2, 1).number(shape.size(), 1).number(0, 1).number(shape.empty() ? 0 : 1, 1);
@@ -129,7 +129,7 @@ LittleBytes dataspace(const std::vector<std::uint64_t>& shape) {
   return out;
 }
 
-/// IV.A.2.d, version 1.  `bits`: what the class says of itself.
+/// Returns the start of a type (IV.A.2.d, version 1); bits are the flags of its class.
 LittleBytes type_head(unsigned of_class, unsigned bits, std::uint64_t bytes) {
   LittleBytes out;
   out.number(0x10U | of_class, 1).number(bits, 3).number(bytes, 4);
@@ -142,8 +142,8 @@ LittleBytes integer_type(bool is_signed, std::uint64_t bytes) {
   return out;
 }
 
-/// IEEE 754: mantissa with its leading 1 implied, sign in bit 63; exponent and mantissa by first
-/// bit and number of bits; bias.
+/// Returns the type of IEEE 754 numbers: the mantissa's leading 1 is implied, the sign is bit 63;
+/// then come exponent and mantissa, each by first bit and number of bits, and the bias.
 LittleBytes float64_type() {
   LittleBytes out = type_head(1, 0x3f20, 8);
   out.number(0, 2).number(64, 2).number(52, 1).number(11, 1).number(0, 1).number(52, 1);
@@ -171,7 +171,7 @@ LittleBytes datatype(Hdf5Kind kind) {
   return out;
 }
 
-/// IV.A.2.m, version 3.
+/// Returns the message of IV.A.2.m, version 3.
 LittleBytes attribute(const Hdf5Attribute& a) {
   LittleBytes type, space, value;
   if (const auto* const text = std::get_if<std::string>(&a.value)) {
@@ -192,7 +192,7 @@ LittleBytes attribute(const Hdf5Attribute& a) {
   return out;
 }
 
-/// IV.A.2.g, version 1: a hard link.
+/// Returns the message of a hard link (IV.A.2.g, version 1).
 LittleBytes link(const std::string& name, std::uint64_t address) {
   MW_ASSERT(!name.empty() && name.size() < 256);
   LittleBytes out;
@@ -205,7 +205,7 @@ std::uint64_t bytes_of(const Hdf5DataSet& set) {
                          std::multiplies<>());
 }
 
-/// IV.A.2.i, version 3, contiguous.
+/// Returns the message of contiguous data (IV.A.2.i, version 3).
 LittleBytes layout(const Hdf5DataSet& set) {
   const std::uint64_t bytes = bytes_of(set);
   LittleBytes out;
@@ -237,7 +237,7 @@ class Tail {
 
  private:
   std::uint64_t add(const Hdf5DataSet& set) {
-    // Space is given out late, and filled with zeros if that is ever asked for.
+    // The library allocates space late, and fills it only if a fill value is set.
     constexpr unsigned kLate = 2, kIfSet = 2 << 2;
     LittleBytes messages;
     add_message(messages, kDataspace, dataspace(set.shape));
@@ -247,7 +247,7 @@ class Tail {
     return add_header(messages);
   }
 
-  /// IV.A.1.b, version 2, in one chunk whose size has four bytes.
+  /// Adds an object header (IV.A.1.b, version 2) in one chunk, whose size has four bytes.
   std::uint64_t add_header(const LittleBytes& messages) {
     constexpr unsigned kFourBytes = 2;
     LittleBytes out;
@@ -281,7 +281,7 @@ std::uint64_t byte_size(Hdf5Kind kind) {
   return 0;
 }
 
-/// The superblock: II.B, version 2.
+// The head is a superblock of version 2 (II.B).
 Hdf5Metadata hdf5_metadata(const Hdf5Group& root, std::uint64_t address) {
   Tail tail(address);
   const std::uint64_t first = tail.add(root);

@@ -12,10 +12,10 @@
 
 namespace mw::io {
 
-/// Grows at its end.
+/// Bytes to which numbers and texts are appended.
 class LittleBytes {
  public:
-  /// The low `bytes` bytes of value, least significant first.
+  /// Appends the low `bytes` bytes of value, least significant first.
   LittleBytes& number(std::uint64_t value, unsigned bytes) {
     for (unsigned i = 0; i < bytes; ++i) bytes_ += static_cast<char>(value >> 8 * i & 0xffU);
     return *this;
@@ -24,7 +24,7 @@ class LittleBytes {
     bytes_ += text;
     return *this;
   }
-  /// Zeros up to this size.
+  /// Appends zeros up to this size.
   LittleBytes& pad_to(std::size_t size) {
     if (size > bytes_.size()) bytes_.resize(size, '\0');
     return *this;
@@ -36,17 +36,17 @@ class LittleBytes {
   std::string bytes_;
 };
 
-/// Jenkins' "lookup3" (hashlittle) from 0, as the HDF5 file format asks for.
+/// Returns Jenkins' "lookup3" (hashlittle) from 0, as the HDF5 file format asks for.
 [[nodiscard]] std::uint32_t metadata_checksum(std::string_view bytes);
 
-/// Global heap collections (HDF5 file format, III.E), and what a data set of Hdf5Kind::kText holds
-/// of them: of each string its length, its collection and its place in there.
+/// Strings in global heap collections (HDF5 file format, III.E), and the data set of
+/// Hdf5Kind::kText, which has the length, the collection and the place in there of each string.
 struct Hdf5Texts {
-  std::string heap;       ///< for `address`
+  std::string heap;       ///< the collections, to be written at `address`
   std::string positions;  ///< the data set
 };
 
-/// address: a multiple of 8.
+/// REQUIRES: address is a multiple of 8.
 [[nodiscard]] Hdf5Texts hdf5_texts(std::span<const std::string> strings, std::uint64_t address);
 
 /// What a data set holds, least significant byte first.
@@ -56,7 +56,7 @@ enum class Hdf5Kind : std::uint8_t {
   kUint64,
   kInt32,
   kUint8,
-  kText,  ///< ASCII of variable length: a place in a heap (hdf5_text_heap.h)
+  kText,  ///< ASCII of variable length, as a place in a heap (hdf5_texts())
 };
 
 [[nodiscard]] std::uint64_t byte_size(Hdf5Kind kind);
@@ -66,7 +66,7 @@ struct Hdf5DataSet {
   std::string name;
   Hdf5Kind kind = Hdf5Kind::kUint8;
   std::vector<std::uint64_t> shape;
-  std::uint64_t address = 0;  ///< of its first byte in the file; any when it is empty
+  std::uint64_t address = 0;  ///< where it begins in the file; any number when it is empty
 };
 
 struct Hdf5Attribute {
@@ -81,17 +81,17 @@ struct Hdf5Group {
   std::vector<Hdf5Group> groups;
 };
 
-/// Bytes at the begin of the file.
+/// The bytes of metadata at the start of the file.
 inline constexpr std::uint64_t kHdf5HeadBytes = 48;
 
 /// What is written when all data are in the file.
 struct Hdf5Metadata {
-  std::string head;  ///< at 0, kHdf5HeadBytes
+  std::string head;  ///< at 0, of kHdf5HeadBytes
   std::string tail;  ///< from `address` to the end of the file
 };
 
-/// "HDF5 File Format Specification 3.0", what HDF5 1.8 (2008) and later read: superblock of
-/// version 2, object headers of version 2, links in them, contiguous data.  No times.
+/// Returns metadata that HDF5 1.8 (2008) and later read ("HDF5 File Format Specification 3.0"):
+/// superblock and object headers of version 2, links in them, contiguous data and no times.
 /// REQUIRES: names of 1 to 255 bytes, no two alike in a group.
 /// Cost: some hundred bytes a group or data set.
 [[nodiscard]] Hdf5Metadata hdf5_metadata(const Hdf5Group& root, std::uint64_t address);

@@ -25,7 +25,7 @@ std::string scalar_text(const Library& value, Style style) {
   return value.dump(-1, ' ', style.ascii, Library::error_handler_t::replace);
 }
 
-/// Null, boolean, number or text.
+/// Returns the library's value of null, a boolean, a number or a text.
 Library scalar_of(const Json& value) {
   if (value.is_boolean()) return value.boolean();
   if (value.is_string()) return value.text();
@@ -85,7 +85,7 @@ std::string text_of(const Json& value, Style style) {
   return writer.text();
 }
 
-/// Takes what the library has parsed.
+/// Returns a value that the library has parsed, and takes its texts out of it.
 Json taken(Library& value) {
   if (value.is_boolean()) return value.get<bool>();
   if (value.is_string()) return std::move(value.get_ref<std::string&>());
@@ -105,7 +105,7 @@ Json taken(Library& value) {
   return Json(std::move(out));
 }
 
-/// The library's words without its name and number in front: "[json.exception...] ".
+/// Returns the library's message without the name and number in front, "[json.exception...] ".
 std::string_view reason_of(const Library::exception& error) {
   const std::string_view what = error.what();
   const std::size_t end = what.find("] ");

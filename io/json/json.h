@@ -17,8 +17,9 @@ namespace mw::io {
 class Place;
 
 /// Null, a boolean, a number, a text, an array or an object, whose fields stay in the order in
-/// which they came.  Only what makes and takes texts knows a JSON library, which is slow to
-/// compile. ERRORS: std::bad_variant_access where a value is not of the kind that is asked for.
+/// which they came.  No header includes the JSON library that parses and writes texts, since it is
+/// slow to compile.
+/// ERRORS: std::bad_variant_access where a value is not of the kind that is asked for.
 class Json {
  public:
   struct Field;
@@ -34,12 +35,12 @@ class Json {
   Json(T value) : Json(Value(std::int64_t{value})) {}
   template <std::unsigned_integral T>
   requires(!std::same_as<T, bool>) Json(T value) : Json(Value(std::uint64_t{value})) {}
-  /// Infinite ones and NaN are written as null.
+  /// Infinities and NaN are written as null.
   Json(double value);
   Json(const char* text);
   Json(std::string_view text);
   Json(std::string text);
-  /// An array of what any container has.
+  /// Makes an array of the elements of any container.
   template <typename T>
   requires(!std::convertible_to<T, std::string_view>) && requires(const T& t) { t.begin(); }
   Json(const T& values) : Json(Array(values.begin(), values.end())) {}
@@ -93,12 +94,12 @@ class Json {
   [[nodiscard]] Json& operator[](std::string_view key);
   /// Adds an element to an array.  A null becomes an array.
   void push_back(Json element);
-  /// Adds the fields of another object, or puts them in the place of its own.
+  /// Adds the fields of another object; they replace those with the same keys.
   void update(Json other);
   void erase(std::string_view key);
 
-  /// The text on one line, on lines with indents of two, and on one line in ASCII.  What is no
-  /// UTF-8 becomes U+FFFD.
+  /// Return the text on one line, on lines with indents of two, and on one line in ASCII.  Bytes
+  /// that are no UTF-8 become U+FFFD.
   [[nodiscard]] std::string dump() const;
   [[nodiscard]] std::string dump_indented() const;
   [[nodiscard]] std::string dump_ascii() const;
@@ -116,7 +117,7 @@ struct Json::Field {
   Json value;
 };
 
-/// A value on its way into an array or object, from where it can be moved though lists are const.
+/// A value on its way into an array or object, which can be moved out although lists are const.
 struct Json::Part {
   template <typename T>
   requires std::constructible_from<Json, T&&> Part(T&& from) : value(std::forward<T>(from)) {}
@@ -130,13 +131,13 @@ inline constexpr std::uint64_t kMaxJsonBytes = 4ULL << 20U;
 /// The deepest nesting that is read.
 inline constexpr int kMaxJsonDepth = 64;
 
-/// Fields are in the order of their keys; of several with one key the last one counts.
+/// Parses a text.  Fields are in the order of their keys; of several with one key the last counts.
 /// ERRORS: mw::Error(kInput) naming `file` and the place in it when the text is no JSON, or nested
 /// deeper than kMaxJsonDepth.
 [[nodiscard]] Json parse_json(std::string_view text, std::string_view file);
 
-/// ERRORS: those of parse_json; kInput when the file is missing or larger than kMaxJsonBytes;
-/// kResource when a server does not answer.
+/// Reads and parses a file.  ERRORS: those of parse_json; kInput when the file is missing or larger
+/// than kMaxJsonBytes; kResource when a server does not answer.
 [[nodiscard]] Json read_json(const Place& place);
 
 }  // namespace mw::io

@@ -11,7 +11,7 @@
 namespace mw::io {
 namespace {
 
-/// What an error quotes of a value.
+/// Returns what an error quotes of a value.
 std::string quoted(const Json& value) {
   constexpr std::size_t kMax = 60;
   if (value.is_structured()) return value.is_array() ? "an array" : "an object";

@@ -13,16 +13,16 @@
 
 namespace mw::io {
 
-/// Looks at an object in a document; both must outlive it.
+/// Reads the fields of an object in a document; both must outlive it.
 /// ERRORS (all members but has): mw::Error(kInput) naming file and field, "scales[0].size", when
 /// the field is missing or of another type.
 class JsonFields {
  public:
-  /// where: what errors call the object; empty for the whole document.
+  /// where is the name of the object in errors; it is empty for the whole document.
   JsonFields(const Json& object, std::string file, std::string where = {});
 
   [[nodiscard]] const std::string& file() const { return file_; }
-  /// What errors call a field.
+  /// Returns the name of a field in errors.
   [[nodiscard]] std::string name_of(std::string_view key) const;
   /// True if the field is there, and not null.
   [[nodiscard]] bool has(std::string_view key) const;
@@ -31,7 +31,7 @@ class JsonFields {
   [[nodiscard]] std::string text(std::string_view key) const;
   [[nodiscard]] std::vector<std::string> texts(std::string_view key) const;
   [[nodiscard]] bool flag(std::string_view key) const;
-  /// Whole numbers may be written as 1.0; they must fit into 64 signed bits.
+  /// Returns a whole number, which may be written as 1.0 and must fit into 64 signed bits.
   [[nodiscard]] std::int64_t integer(std::string_view key) const;
   [[nodiscard]] std::vector<std::int64_t> integers(std::string_view key) const;
   [[nodiscard]] double number(std::string_view key) const;

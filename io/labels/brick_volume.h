@@ -15,16 +15,16 @@ namespace mw::io {
 
 /// A volume of dense labels that is read many times in small boxes.
 ///
-/// Cut into bricks of 16^3 voxels.  A uniform brick costs no file access, which makes the large
-/// empty parts of a CT nearly free; another is one read of 4 to 16 KiB.  In memory it holds 8 bytes
-/// a brick (2 KiB a million voxels).  It may hold a box of bricks only.
-/// Thread safety: different bricks may be written at once; reading goes on after writing.
+/// It is cut into bricks of 16^3 voxels.  A uniform brick costs no file access, which makes the
+/// large empty parts of a CT nearly free; another takes one read of 4 to 16 KiB.  In memory the
+/// volume holds 8 bytes a brick (2 KiB a million voxels).  It may hold only a box of its bricks.
+/// Thread safety: different bricks may be written at once; a brick is read after it is written.
 class BrickVolume {
  public:
   static constexpr std::int64_t kEdge = 16;
 
-  /// folder: where the temporary file goes.
-  /// REQUIRES: labels > 0, all labels below it.
+  /// The temporary file goes to folder.
+  /// REQUIRES: labels > 0, and every label is below it.
   BrickVolume(Index3 shape, std::size_t labels, const std::filesystem::path& folder);
   /// Holds only the bricks `held` of such a volume.
   BrickVolume(Index3 shape, std::size_t labels, const std::filesystem::path& folder,
@@ -33,13 +33,13 @@ class BrickVolume {
   [[nodiscard]] Index3 shape() const { return shape_; }
   [[nodiscard]] Index3 bricks() const { return bricks_; }
   [[nodiscard]] const Box3& held() const { return held_; }
-  /// The brick's voxels that are in the volume.
+  /// Returns the brick's voxels that are in the volume.
   [[nodiscard]] Box3 box_of(Index3 brick) const;
 
-  /// REQUIRES: voxels of box_of(brick), x fastest; held and not written before.
+  /// REQUIRES: voxels are those of box_of(brick), x fastest; the brick is held and is written once.
   void write(Index3 brick, std::span<const Label> voxels);
 
-  /// The brick's only label, or none when it has several.  REQUIRES: held.
+  /// Returns the brick's only label, or nothing when it has several.  REQUIRES: the brick is held.
   [[nodiscard]] std::optional<Label> uniform_label(Index3 brick) const;
 
   /// Reads a box that may reach outside the volume, where voxels are kExterior.

@@ -15,9 +15,9 @@ struct SpeckFacts {
   int rounds = 0;
 };
 
-/// The rule: settle_specks().  The volume is read twice at the start and never
-/// held (plane by plane: a file whose fastest axis is z takes several times as long as others);
-/// what is held are the runs of voxels that change.
+/// settle_specks() has the rule.  The volume is read twice at the start, plane by plane, which for
+/// a file whose fastest axis is z takes several times as long as for others.  The volume is never
+/// held; only the runs of voxels that change are.
 /// Thread safety: as the volume below, which must outlive it.
 class DespeckledVolume : public VolumeView {
  public:
@@ -28,14 +28,14 @@ class DespeckledVolume : public VolumeView {
 
   [[nodiscard]] const SpeckFacts& facts() const { return facts_; }
   void read(const Box3& box, std::span<RawLabel> out) const override;
-  /// Bytes, as long as it lives.
+  /// Returns the bytes that this object holds.
   [[nodiscard]] std::uint64_t held_bytes() const;
 
  private:
   void find_planes();
   void change_row(Index3 first, std::span<RawLabel> row) const;
 
-  std::vector<SpeckRun> runs_;     ///< those that change, ascending by z, y, begin
+  std::vector<SpeckRun> runs_;     ///< the runs that change, ascending by z, y, begin
   std::vector<RawLabel> becomes_;  ///< by speck
   std::vector<std::size_t> plane_begin_;
   SpeckFacts facts_;

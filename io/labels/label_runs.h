@@ -14,7 +14,8 @@
 
 namespace mw::io {
 
-/// Voxels of a slab where labels are looked at once, one slab after the other.
+/// The most voxels of a slab where labels are looked at once, slab by slab: 512 KiB of raw labels,
+/// which stay in a second-level cache.
 inline constexpr std::int64_t kSlabVoxels = 1 << 16;
 
 /// Calls visit(Box3) on boxes that cover box in file order (x fastest), each of at most max_voxels
@@ -42,15 +43,15 @@ void for_each_x_slab(const Box3& box, std::int64_t max_voxels, Visit visit) {
   });
 }
 
-/// All voxels from begin to end - 1 of a row, as far as they have one label.
+/// The voxels from begin to end - 1 of a row, which have one label, unlike those beside them.
 struct LabelRun {
   std::int32_t begin = 0;
   std::int32_t end = 0;
-  std::uint32_t part = 0;  ///< free for the use of those that walk over the runs
+  std::uint32_t part = 0;  ///< for the use of those that visit the runs
   RawLabel label = 0;
 };
 
-/// The runs of the first rows of a plane; a row has them all, ascending.
+/// The runs of the first rows of a plane.  A row has all its runs, in ascending order.
 class RunPlane {
  public:
   void clear() {
@@ -59,7 +60,7 @@ class RunPlane {
   }
   void add_row(std::span<const RawLabel> labels);
 
-  /// Empty for a row that is not there.  Invalid after add_row().
+  /// Returns the runs of a row, none for a row that is not there; they are invalid after add_row().
   [[nodiscard]] std::span<LabelRun> row(std::int64_t y) {
     const auto i = static_cast<std::size_t>(y);
     if (y < 0 || i + 1 >= row_begin_.size()) return {};

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: The mwmesh authors
 // SPDX-License-Identifier: Apache-2.0
-// A growing set of raw labels, made for long runs of few different ones, and which labels a part of
-// a volume has.
+// A growing set of raw labels, made for long runs of few different ones, and the labels that a part
+// of a volume has.
 #pragma once
 
 #include <span>
@@ -12,11 +12,11 @@
 
 namespace mw::io {
 
-/// Small labels are flags in a table, others a hash set with linear probing.
+/// Small labels are flags in a table; others are in a hash set with linear probing.
 class LabelSet {
  public:
   void insert(std::span<const RawLabel> labels);
-  /// In no particular order.
+  /// Returns the labels, in no particular order.
   [[nodiscard]] std::vector<RawLabel> values() const;
 
  private:
@@ -37,8 +37,8 @@ class LabelSet {
   return x * 0xd6e8feb86659fd93U;
 }
 
-/// The labels of a box of the volume, in no particular order: one pass in the order of the file, in
-/// slabs of bounded memory.
+/// Returns the labels of a box of the volume, in no particular order.  It reads the box once, in
+/// the order of the file and in slabs of bounded memory.
 [[nodiscard]] std::vector<RawLabel> labels_in(const LabelVolume& volume, const Box3& box);
 
 }  // namespace mw::io

@@ -15,13 +15,12 @@ namespace mw::io {
 namespace {
 
 constexpr std::uint64_t kDirectRange = 1 << 16;
-/// 512 KiB of raw labels: stays in a second-level cache.
 
 }  // namespace
 
 LabelTable::LabelTable(std::vector<RawLabel> labels, bool is_signed)
     : labels_(std::move(labels)), is_signed_(is_signed) {
-  // Flipping the top bit turns the order of unsigned numbers into that of signed ones.
+  // With the top bit flipped, the order of unsigned numbers is that of signed ones.
   const RawLabel flip = is_signed ? RawLabel{1} << 63 : 0;
   std::sort(labels_.begin(), labels_.end(),
             [flip](RawLabel a, RawLabel b) { return (a ^ flip) < (b ^ flip); });
@@ -34,7 +33,7 @@ LabelTable::LabelTable(std::vector<RawLabel> labels, bool is_signed)
 
 void LabelTable::fill_slots() {
   if (labels_.empty()) return;
-  // Wraps around correctly for signed labels too.
+  // The difference wraps around correctly for signed labels too.
   const std::uint64_t range = labels_.back() - labels_.front();
   hashed_ = range >= kDirectRange;
   slots_.assign(hashed_ ? std::bit_ceil(labels_.size() * 2) : range + 1, kExterior);

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The mwmesh authors
 // SPDX-License-Identifier: Apache-2.0
-// Sparse 64-bit labels to dense ones and back.
+// A table that turns sparse 64-bit labels into dense ones and back.
 #pragma once
 
 #include <string>
@@ -20,7 +20,7 @@ namespace mw::io {
 class LabelTable {
  public:
   LabelTable() = default;
-  /// REQUIRES: nothing; duplicates are removed.  Signed labels are ordered as signed numbers.
+  /// Removes duplicates.  Signed labels are ordered as signed numbers.
   LabelTable(std::vector<RawLabel> labels, bool is_signed);
 
   [[nodiscard]] std::size_t size() const { return labels_.size(); }
@@ -38,18 +38,18 @@ class LabelTable {
   void fill_slots();
 
   std::vector<RawLabel> labels_;
-  // Raw label -> rank: one slot for each number from labels_[0] on when their range is small
+  // The ranks of raw labels: a slot for each number from labels_[0] on when their range is small
   // (hashed_ false), else a hash table with linear probing.  Free slots hold kExterior.
   std::vector<Label> slots_;
   bool hashed_ = false;
   bool is_signed_ = false;
 };
 
-/// One pass over the volume in slabs of bounded memory.
+/// Returns the table of a volume's labels, by one pass over it in slabs of bounded memory.
 [[nodiscard]] LabelTable collect_labels(const LabelVolume& volume);
 
-/// ERRORS: always mw::Error(kInput), which says that the input is not what it was when its labels
-/// were collected.
+/// Throws mw::Error(kInput), which says that the input is not what it was when its labels were
+/// collected.
 [[noreturn]] void fail_input_changed();
 
 /// A volume seen through its table.  Thread safety: as LabelVolume.

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The mwmesh authors
 // SPDX-License-Identifier: Apache-2.0
-// Rows are spread once for each slice below, then copied to its other layers.
+// Spreads each row of the volume below once, and copies it to its other layers.
 #include "io/labels/layered_volume.h"
 
 #include <algorithm>
@@ -13,7 +13,7 @@
 namespace mw::io {
 namespace {
 
-/// Repeats the labels of a row from layer `lo` to layer `hi`; from: the voxel that holds `lo`.
+/// Repeats the labels of a row from layer `lo` to layer `hi`; from is the voxel that holds `lo`.
 void spread(const RawLabel* from, std::int64_t lo, std::int64_t hi, std::int64_t layers,
             RawLabel* to) {
   for (std::int64_t at = lo; at < hi; ++from) {

@@ -17,8 +17,8 @@ class LayeredVolume : public VolumeView {
 
   [[nodiscard]] const VolumeInfo& info() const override { return info_; }
 
-  /// Reads the voxels below the box once, together.
-  /// Memory: their labels; at most as many as out has, and one voxel's more along each axis.
+  /// Reads the voxels of the volume below that the box meets once, together.
+  /// Memory: their labels, at most as many as out has with one voxel more along each axis.
   void read(const Box3& box, std::span<RawLabel> out) const override;
 
  private:

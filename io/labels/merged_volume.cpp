@@ -22,7 +22,7 @@ LabelTable table_of(const std::vector<MergeRule>& rules, bool is_signed) {
               text("--merge: label ", label_text(twice, is_signed), " is to be merged twice"));
 }
 
-/// A label has 64 bits, which are a number of the one kind or the other.
+/// Checks that labels of the volume, whose 64 bits are signed or unsigned numbers, can be `to`.
 void check_target(const MergeRule& rule, bool is_signed) {
   const bool is_high = rule.to >> 63U != 0;
   if (is_high && is_signed != rule.to_is_negative) {

@@ -10,14 +10,14 @@
 
 namespace mw::io {
 
-/// All of `from` become `to`, which may be new, or in the volume.
+/// All labels of `from` become `to`, which may be a new label or one of the volume.
 struct MergeRule {
   std::vector<RawLabel> from;
   RawLabel to = 0;
   bool to_is_negative = false;  ///< `to` was written with a minus sign
 };
 
-/// Every voxel by the rules at once: what a rule makes is not looked at by another.
+/// All rules apply at once: no rule changes what another one makes.
 /// Thread safety: as the volume below, which must outlive it.
 class MergedVolume : public VolumeView {
  public:

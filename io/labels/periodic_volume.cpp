@@ -10,12 +10,12 @@
 namespace mw::io {
 namespace {
 
-/// Rounded down.
+/// Returns a / b rounded down.
 std::int64_t quotient(std::int64_t a, std::int64_t b) {
   return a >= 0 ? a / b : -((b - 1 - a) / b);
 }
 
-/// The copies of a box that begins at 0 which another box meets: copy c begins at c * shape.
+/// Returns the copies of a cell that a box meets; copy c begins at c * shape.
 Box3 copies_over(const Box3& box, Index3 shape) {
   const Index3 last = box.hi - Index3{1, 1, 1};
   return {{quotient(box.lo.x, shape.x), quotient(box.lo.y, shape.y), quotient(box.lo.z, shape.z)},

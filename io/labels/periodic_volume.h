@@ -7,18 +7,18 @@
 
 namespace mw::io {
 
-/// A volume with `margin` voxels more on both sides of each axis: those of its copies beside it.
-/// The first corner moves accordingly, everything else is the same.
+/// A volume with `margin` more voxels on both sides of each axis, which are those of its copies
+/// beside it.  The first corner moves accordingly, everything else is the same.
 /// Thread safety: as the volume below, which must outlive it.
 class PeriodicVolume : public VolumeView {
  public:
   PeriodicVolume(const LabelVolume& volume, Index3 margin);
 
   [[nodiscard]] const VolumeInfo& info() const override { return info_; }
-  /// They are of the cell alone.
+  /// Returns none, since the scores are of the cell alone.
   [[nodiscard]] const LabelScores* scores() const override { return nullptr; }
 
-  /// Reads each copy that the box meets apart.  Memory: the labels of the largest part.
+  /// Reads the part of each copy that the box meets.  Memory: the labels of the largest part.
   void read(const Box3& box, std::span<RawLabel> out) const override;
 
  private:

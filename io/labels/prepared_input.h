@@ -11,18 +11,19 @@
 
 namespace mw::io {
 
-/// The steps in their order; a crop comes before (OpenOptions), --labels and --background after.
+/// The steps in their order.  A crop comes before them (OpenOptions), --labels and --background
+/// after them.
 struct InputSteps {
   std::vector<MergeRule> merge;     ///< empty: none
   std::optional<SpeckRule> specks;  ///< empty: none
   std::vector<RawLabel> weld;       ///< labels that are filled (WeldedVolume); empty: none
 };
 
-/// A volume after the steps: the reference for all that is promised of a mesh, and what the
-/// fingerprint of a run is taken of.
+/// A volume after the steps.  All that is promised of a mesh refers to it, and the fingerprint of a
+/// run is made from it.
 class PreparedInput {
  public:
-  /// opened must outlive it.  limits: of the search for specks, and of what is welded.
+  /// opened must outlive it.  limits bound the search for specks and what is welded.
   /// ERRORS: those of MergedVolume, DespeckledVolume and WeldedVolume.
   PreparedInput(const LabelVolume& opened, const InputSteps& steps, const SpeckLimits& limits = {})
       : volume_(&opened) {
@@ -43,13 +44,13 @@ class PreparedInput {
   [[nodiscard]] std::optional<WeldFacts> welds() const {
     return welded_ ? std::optional(welded_->facts()) : std::nullopt;
   }
-  /// Bytes that the steps hold, as long as it lives.
+  /// Returns the bytes that the steps hold.
   [[nodiscard]] std::uint64_t held_bytes() const {
     return (despeckled_ ? despeckled_->held_bytes() : 0) + (welded_ ? welded_->held_bytes() : 0);
   }
 
  private:
-  const LabelVolume* volume_;  ///< the last of what follows, or the one that was opened
+  const LabelVolume* volume_;  ///< the result of the last step, or the one that was opened
   std::optional<MergedVolume> merged_;
   std::optional<DespeckledVolume> despeckled_;
   std::optional<WeldedVolume> welded_;

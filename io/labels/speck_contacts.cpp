@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The mwmesh authors
 // SPDX-License-Identifier: Apache-2.0
-// The runs of the volume again, those of specks known by their place.
+// Reads the runs of the volume again, and knows those of specks by their place.
 #include "io/labels/specks.h"
 
 #include <algorithm>
@@ -15,7 +15,7 @@ namespace {
 
 constexpr std::uint32_t kNoSpeck = 0xffffffffU;
 
-/// Contacts, of which the same come again and again.
+/// A list of contacts, which adds up equal ones, as they come again and again.
 class ContactList {
  public:
   explicit ContactList(std::size_t max) : max_(max) {}
@@ -79,7 +79,7 @@ class ContactFinder {
     }
   }
 
-  /// The runs of all specks have been seen again, unless the volume is another one now.
+  /// Returns the contacts.  The volume has changed if the runs of some specks were not seen again.
   SpeckContacts take() {
     if (next_ != specks_.runs.size()) fail_input_changed();
     return {list_.take(), std::move(labels_)};
@@ -90,7 +90,7 @@ class ContactFinder {
     return specks_.runs.capacity() * sizeof(SpeckRun);
   }
 
-  /// Specks' runs are whole runs of the volume, and come in the same order.
+  /// Returns the speck of a run.  Specks' runs are whole runs of the volume, in the same order.
   std::uint32_t speck_at(const LabelRun& run, std::int64_t y, std::int64_t z) {
     if (next_ == specks_.runs.size()) return kNoSpeck;
     const SpeckRun& next = specks_.runs[next_];
@@ -101,7 +101,7 @@ class ContactFinder {
     return next.speck;
   }
 
-  /// shares_faces: the row is next to the run's along y or z, not along both.
+  /// shares_faces is true if the row is next to the run's along y or z, not along both.
   void meet_row(std::span<LabelRun> row, const LabelRun& run, bool shares_faces) {
     for_each_touching(row, run, rule_.diagonal ? 1 : 0, [&](const LabelRun& other) {
       const std::int32_t overlap = std::min(run.end, other.end) - std::max(run.begin, other.begin);

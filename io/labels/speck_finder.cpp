@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The mwmesh authors
 // SPDX-License-Identifier: Apache-2.0
-// Union-find over the runs of two planes; what no later plane can reach is finished.
+// Union-find over the runs of two planes; a component that no later plane can reach is finished.
 
 #include <algorithm>
 #include <deque>
@@ -17,7 +17,7 @@ namespace {
 constexpr std::uint32_t kNone = std::numeric_limits<std::uint32_t>::max();
 constexpr std::uint64_t kMaxRuns = std::uint64_t{1} << 31;
 
-/// Runs in lists that are joined and let go in no time a run.
+/// Runs in lists; to join or free lists takes a time that does not depend on their length.
 class RunLists {
  public:
   struct List {
@@ -72,11 +72,11 @@ class RunLists {
 /// A component as far as it has been read; only those of the last two planes are held.
 struct Part {
   std::uint32_t parent = 0;
-  std::uint32_t met = kNone;   ///< whom it touches, as counted last
+  std::uint32_t met = kNone;   ///< the part whose contact was counted last
   RunLists::List list;         ///< empty when it is no speck
-  std::uint64_t voxels = 0;    ///< not counted beyond what a speck has
-  std::uint64_t runs = 0;      ///< 0 when it is no speck; else those of the list, if it is stored
-  std::uint64_t contacts = 0;  ///< the same; some may be counted twice
+  std::uint64_t voxels = 0;    ///< counted up to rule.min
+  std::uint64_t runs = 0;      ///< 0 when it is no speck; the list has them if it is stored
+  std::uint64_t contacts = 0;  ///< 0 when it is no speck; some may be counted twice
   RawLabel label = 0;
 };
 
@@ -165,7 +165,7 @@ class Finder {
 
   [[nodiscard]] bool is_small(const Part& part) const { return part.voxels < rule_.min; }
 
-  /// REQUIRES: roots.
+  /// Joins two parts and returns their root.  REQUIRES: a and b are roots.
   std::uint32_t unite(std::uint32_t a, std::uint32_t b) {
     if (a == b) return a;
     if (b < a) std::swap(a, b);
@@ -192,7 +192,7 @@ class Finder {
     if (!is_small(part)) forget(part);
   }
 
-  /// Two parts touch; what the volume repeats of it mostly comes at once.
+  /// Counts a contact of two parts, but not when it repeats the last one, as most repetitions do.
   void meet(std::uint32_t a, std::uint32_t b) {
     for (const auto& [from, to] : {std::pair(a, b), std::pair(b, a)}) {
       Part& part = parts_[from];
@@ -202,7 +202,7 @@ class Finder {
     }
   }
 
-  /// Lets go the runs of a part that is no speck.
+  /// Frees the runs of a part that is no speck.
   void forget(Part& part) {
     memory_.runs -= part.runs;
     ++memory_.large;
@@ -210,7 +210,7 @@ class Finder {
     part.runs = part.contacts = 0;
   }
 
-  /// From here on specks are counted only, so that the error can tell how many there are.
+  /// Frees all runs; from here on specks are only counted, so that the error can tell their number.
   void stop_storing() {
     if (!stores_) return;
     stores_ = false;
@@ -253,7 +253,7 @@ class Finder {
   std::int32_t reach_;
   std::vector<Part> parts_;
   std::vector<Part> kept_;              ///< scratch of read_plane()
-  std::vector<std::uint32_t> renamed_;  ///< the same
+  std::vector<std::uint32_t> renamed_;  ///< scratch of read_plane()
   RunLists lists_;
   Specks found_;
   SpeckMemory memory_;

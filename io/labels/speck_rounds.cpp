@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The mwmesh authors
 // SPDX-License-Identifier: Apache-2.0
-// Rounds over the graph of specks, each from those that the round before has settled.
+// Rounds over the graph of specks; each goes out from the specks that the one before has settled.
 #include "io/labels/specks.h"
 
 #include <algorithm>
@@ -41,7 +41,7 @@ class Rounds {
     return std::span(contacts_.list).subspan(begin_[speck], begin_[speck + 1] - begin_[speck]);
   }
 
-  /// Each of the candidates that can takes its label, all at once; returns those.
+  /// Gives all candidates at once the label that they can take; returns those that take one.
   std::vector<std::uint32_t> change(const std::vector<std::uint32_t>& candidates) {
     std::vector<std::uint32_t> changed;
     for (const std::uint32_t speck : candidates) {
@@ -52,9 +52,9 @@ class Rounds {
     return changed;
   }
 
-  /// The label that surrounds it most; none when all around are waiting.
+  /// Returns the label that surrounds a speck most; nothing when all around it are waiting.
   [[nodiscard]] std::optional<RawLabel> choice(std::uint32_t speck) const {
-    std::vector<std::pair<RawLabel, std::uint64_t>> faces;  // labels flipped: ascending
+    std::vector<std::pair<RawLabel, std::uint64_t>> faces;  // with labels flipped, to sort them
     for (const SpeckContact& c : around(speck)) {
       if (c.faces == 0 || (!c.is_label() && !is_settled_[c.other])) continue;
       faces.emplace_back(label_of(c) ^ flip_, c.faces);
@@ -73,13 +73,14 @@ class Rounds {
     return best;
   }
 
-  /// REQUIRES: voxels in no speck, or a settled one.
+  /// REQUIRES: the other of c is a label or a settled speck.
   [[nodiscard]] RawLabel label_of(const SpeckContact& c) const {
     if (c.is_label()) return contacts_.labels[c.other - SpeckContact::kOfLabel];
     return outcome_.becomes[c.other].value_or(labels_[c.other]);
   }
 
-  /// Waiting specks that have become part of a larger component, without changing.
+  /// Settles the waiting specks whose own label a changed neighbour has taken, so that they belong
+  /// to a larger component; returns them.
   std::vector<std::uint32_t> join(const std::vector<std::uint32_t>& changed) {
     std::vector<std::uint32_t> joined;
     for (const std::uint32_t speck : changed) {
@@ -109,8 +110,8 @@ class Rounds {
   const std::vector<RawLabel>& labels_;
   const SpeckContacts& contacts_;
   RawLabel flip_;
-  std::vector<std::size_t> begin_;  ///< of each speck's contacts
-  std::vector<bool> is_settled_;    ///< in no speck any more
+  std::vector<std::size_t> begin_;  ///< where each speck's contacts begin
+  std::vector<bool> is_settled_;    ///< by speck: it belongs to a larger component
   SpeckOutcome outcome_;
 };
 

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The mwmesh authors
 // SPDX-License-Identifier: Apache-2.0
-// Rounds over tiles: find where solid voxels meet in an edge or a corner only, fill, look again.
+// Rounds over tiles, which find where solid voxels meet in an edge or a corner only, and fill.
 #include "io/labels/welded_volume.h"
 
 #include <algorithm>
@@ -19,7 +19,7 @@ namespace {
 
 constexpr std::int64_t kTileEdge = 128;
 
-/// Around a voxel lies all that decides whether it is filled, and all that it can make a place of.
+/// A filled voxel changes only places within this distance, and what they fill.
 constexpr std::int64_t kReach = 2;
 
 constexpr std::array<Index3, 3> kSteps{{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}};
@@ -49,7 +49,7 @@ Index3 voxel_at(std::int64_t offset, Index3 shape) {
 
 }  // namespace
 
-/// A tile of the volume and what lies around it, and what is to be filled there.
+/// A tile of the volume and the voxels around it, in which it finds what is to be filled.
 class WeldedVolume::Tile {
  public:
   Tile(const WeldedVolume& volume, const Box3& tile)
@@ -66,14 +66,14 @@ class WeldedVolume::Tile {
     }
   }
 
-  /// Marks the givers that are in the tile, by their rank.
+  /// Marks the givers that are in the tile or around it, by their rank.
   void see_givers(std::vector<char>& seen) const {
     for (std::size_t i = 0; i < labels_.size(); ++i) {
       if (solid_[i] == 0) seen[volume_.givers_.dense(labels_[i])] = 1;
     }
   }
 
-  /// What the places whose first voxel is in the tile fill.
+  /// Finds what the places whose first voxel is in the tile fill.
   void find(std::vector<Filled>& out) const {
     for_each_index(tile_, [&](Index3 v) {
       if (is_uniform(v)) return;
@@ -99,7 +99,7 @@ class WeldedVolume::Tile {
     return count == 0 || count == 8;
   }
 
-  /// The four voxels around the edge between v and v + a + b.
+  /// Fills one voxel if the four around the edge between v and v + a + b are a place.
   void at_edge(Index3 v, Index3 a, Index3 b, std::vector<Filled>& out) const {
     if (!all_.contains(v + a + b)) return;
     const bool first = is_solid(v), other = is_solid(v + a);
@@ -108,8 +108,8 @@ class WeldedVolume::Tile {
     fill(solid_neighbours(two) > solid_neighbours(one) ? two : one, out);
   }
 
-  /// The eight voxels around the corner between v and v + (1, 1, 1): a way of two from one solid
-  /// voxel to the other, along z and along y.
+  /// Fills two voxels if the eight around the corner between v and v + (1, 1, 1) are a place: those
+  /// on the way from one solid voxel to the other, first along z, then along y.
   void at_corner(Index3 v, std::vector<Filled>& out) const {
     if (!all_.contains(v + Index3{1, 1, 1})) return;
     int count = 0;
@@ -134,7 +134,7 @@ class WeldedVolume::Tile {
     return count;
   }
 
-  /// REQUIRES: a neighbour of v across a face is solid.
+  /// Adds v with the label that it takes.  REQUIRES: a neighbour of v across a face is solid.
   void fill(Index3 v, std::vector<Filled>& out) const {
     std::array<RawLabel, 6> around{};
     std::size_t count = 0;
@@ -149,7 +149,7 @@ class WeldedVolume::Tile {
   [[nodiscard]] RawLabel most_frequent(std::span<const RawLabel> labels) const {
     const auto rank = [&](RawLabel label) {
       const std::ptrdiff_t rare = -std::count(labels.begin(), labels.end(), label);
-      // Signed labels in their order.
+      // With the sign flipped, signed labels are in their order.
       constexpr RawLabel kSign = RawLabel{1} << 63U;
       return std::pair(rare, volume_.givers_.is_signed() ? label ^ kSign : label);
     };

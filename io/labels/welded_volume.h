@@ -16,17 +16,18 @@ struct WeldFacts {
   int rounds = 0;
 };
 
-/// Voxels of some labels, the givers, are filled with labels of others, the solid: until no two
-/// solid voxels share an edge of which the other two voxels are givers' (one of these is filled),
-/// or a corner of which the other six are (two are filled).
+/// Fills voxels of some labels, the givers, with the other labels, which are solid.  A place is an
+/// edge at which two solid voxels meet and the other two voxels are givers', or a corner at which
+/// two do and the other six are.  One voxel is filled at an edge and two at a corner, until there
+/// is no such place.
 ///
-/// In a round all such places are found in the volume as it was when the round began.  At an edge
-/// that voxel is filled which has more solid neighbours across faces, the first of two with as
-/// many.  It takes the label that most of these have, the smaller label of two.  Each round makes
-/// the solid larger, so that there is a last one.
+/// In a round all places are found in the volume as it was when the round began.  At an edge the
+/// voxel with more solid neighbours across faces is filled, the first of two with as many.  A
+/// filled voxel takes the label that most of these neighbours have, the smaller label of two.  Each
+/// round makes the solid larger, so that there is a last one.
 ///
-/// The volume is read once in tiles, afterwards only where something changed; what is held are the
-/// voxels that changed.
+/// The volume is read once in tiles, afterwards only where something changed; only the voxels that
+/// changed are held.
 /// Thread safety: as the volume below, which must outlive it.
 class WeldedVolume : public VolumeView {
  public:
@@ -38,7 +39,7 @@ class WeldedVolume : public VolumeView {
 
   [[nodiscard]] const WeldFacts& facts() const { return facts_; }
   void read(const Box3& box, std::span<RawLabel> out) const override;
-  /// Bytes, as long as it lives.
+  /// Returns the bytes that this object holds.
   [[nodiscard]] std::uint64_t held_bytes() const { return filled_.capacity() * sizeof(Filled); }
 
  private:

@@ -12,21 +12,21 @@
 namespace mw::io {
 namespace {
 
-constexpr std::uint64_t kMaxNameBytes = 1 << 16;  ///< of one
+constexpr std::uint64_t kMaxNameBytes = 1 << 16;  ///< of one name
 constexpr std::uint64_t kMaxNames = 1 << 24;
 constexpr std::uint64_t kMaxRecordBytes = 1 << 16;
-constexpr std::uint64_t kMaxValueBytes = 1 << 12;  ///< of the names of values
+constexpr std::uint64_t kMaxValueBytes = 1 << 12;  ///< of all names of values
 
 enum class Message : std::uint64_t { kBegin, kVertices, kTets, kValues, kFinish };
 
-/// Goes ahead of each batch.
+/// The head of a message, which goes ahead of what the message holds.
 struct Head {
   Message message = Message::kFinish;
-  std::uint64_t count = 0;  ///< rows; of kBegin the tets of the mesh
+  std::uint64_t count = 0;  ///< rows of the batch; with kBegin, tets of the mesh
   std::uint64_t labels_signed = 0;
   std::uint64_t in_parts = 0;
   std::uint64_t names = 0;         ///< with kBegin: how many follow
-  std::uint64_t record_bytes = 0;  ///< with kBegin: of the record as text, ahead of the names
+  std::uint64_t record_bytes = 0;  ///< with kBegin: of the record's text, ahead of the names
   std::uint64_t value_bytes = 0;   ///< with kBegin: of names of values, each with ';' behind it
 };
 
@@ -43,7 +43,7 @@ std::span<const std::byte> bytes_of(const T& value) {
   return std::as_bytes(std::span(&value, 1));
 }
 
-/// In the child.
+/// Sends the mesh that the child reads to the parent.
 class SendingSink : public MeshSink {
  public:
   explicit SendingSink(const SendBytes& send) : send_(send) {}
@@ -85,15 +85,15 @@ class SendingSink : public MeshSink {
 
  private:
   const SendBytes& send_;
-  std::size_t columns_ = 0;  ///< of values
+  std::size_t columns_ = 0;  ///< numbers that each tet has
 };
 
-/// In the parent.  The child may be out of its mind: no row that it sends is taken on trust.
+/// Receives the mesh in the parent; checks counts and rows, as damaged input may break the child.
 class Receiver {
  public:
   Receiver(ApartStream& stream, MeshSink& sink) : stream_(stream), sink_(sink) {}
 
-  /// Whether it came to the end of the mesh.
+  /// Returns whether the stream came to the end of the mesh.
   [[nodiscard]] bool receive() {
     Head head;
     if (!next(head) || head.message != Message::kBegin) return false;
@@ -192,7 +192,7 @@ class Receiver {
   ApartStream& stream_;
   MeshSink& sink_;
   std::uint64_t vertices_ = 0;
-  std::size_t columns_ = 0;  ///< of values
+  std::size_t columns_ = 0;  ///< numbers that each tet has
   std::vector<Position> positions_;
   std::vector<TetRows> tets_;
   std::vector<RawLabel> labels_;

@@ -88,7 +88,7 @@ void ColumnSink::write_vertices(std::span<const Position> positions) {
   columns_.write_vertices(positions);
 }
 
-/// Rows beyond those that were announced would be written over others.
+/// Returns whether these tets were announced; rows beyond those would be written over others.
 bool ColumnSink::has_room(std::size_t tets) const {
   return columns_.place().tet + tets <= header_.tets;
 }

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The mwmesh authors
 // SPDX-License-Identifier: Apache-2.0
-// Meshes as columns of numbers, each in one piece of a file: so VTK's formats have them.
+// Meshes as columns of numbers, each in one piece of a file, as VTK's formats store them.
 #pragma once
 
 #include <bit>
@@ -16,24 +16,24 @@
 
 namespace mw::io {
 
-/// Numbers one behind the other, from an address on.  T: as wide as the numbers in the file.
-/// Cost: half a MiB.
+/// Writes numbers one behind the other, from an address on.  T is as wide as the numbers in the
+/// file.  Cost: half a MiB.
 template <class T>
 class FileColumn {
  public:
   FileColumn() = default;
-  /// address: reserved for as many bytes as will be added, or the next to be.
+  /// From address on, the bytes that will be added are reserved, or are the next to be reserved.
   /// REQUIRES: output outlives the column.
   FileColumn(PlacedOutput& output, std::uint64_t address) : output_(&output), address_(address) {
     buffer_.reserve(kBuffered);
   }
   [[nodiscard]] std::uint64_t address() const { return address_; }
-  /// ERRORS of all: as the output.
+  /// ERRORS (all members): those of the output.
   void add(T value) {
     buffer_.push_back(value);
     if (buffer_.size() == kBuffered) flush();
   }
-  /// The next to be added is that number of the column: what is between is another one's to write.
+  /// Makes the next number added have this place in the column; others write those in between.
   void go_to(std::uint64_t number) {
     if (number == written_ + buffer_.size()) return;
     flush();
@@ -59,39 +59,39 @@ class FileColumn {
 /// Addresses of the columns of a mesh.
 struct ColumnPlaces {
   std::uint64_t connectivity = 0;
-  std::uint64_t offsets = 0;  ///< of the first, which is 0: the others say where a cell's nodes end
+  std::uint64_t offsets = 0;  ///< the first is 0; the others say where each cell's nodes end
   std::uint64_t types = 0;
   std::uint64_t labels = 0;
-  std::uint64_t points = 0;             ///< behind all others: how many there are is known last
-  std::vector<std::uint64_t> values{};  ///< of each of MeshHeader::values
-  std::uint64_t cohesive = 0;           ///< only with wedges: their interface; 0 of a tet
+  std::uint64_t points = 0;             ///< behind all others, since their number is known last
+  std::vector<std::uint64_t> values{};  ///< one for each of MeshHeader::values
+  std::uint64_t cohesive = 0;           ///< with wedges only: their interface, 0 for a tet
 };
 
-/// Writes rows, from any on.  Cost: 3 MiB of buffers, half a MiB more for each column of values.
-/// ERRORS: as the output.
+/// Writes the rows of a mesh from any row on.  Cost: 3 MiB of buffers, and half a MiB for each
+/// column of values.  ERRORS: those of the output.
 class MeshColumns {
  public:
   MeshColumns() = default;
-  /// output outlives it.
+  /// REQUIRES: output outlives it.
   MeshColumns(PlacedOutput& output, const ColumnPlaces& places, Element element,
               bool has_wedges = false);
 
-  /// Before the first rows, too.  With tet 0 goes the first of the offsets, which there is even
-  /// without tets.
+  /// Makes the next rows go to this place.  To be called before the first rows, too.  A call for
+  /// tet 0 writes the first offset, which a file has even without tets.
   void go_to(const RowPlace& place);
   void write_vertices(std::span<const Position> positions);
-  /// rows: of node_count(element).
+  /// Writes a tet; rows are those of its node_count(element) nodes.
   void write_cell(std::span<const std::uint64_t> rows, RawLabel label);
-  /// Behind all tets.  rows: of wedge_node_count(element), as NodeRows has them; label: that under
-  /// the wedge.  REQUIRES: made for wedges.
+  /// Writes a wedge; rows are those of its wedge_node_count(element) nodes, in the order of
+  /// NodeRows, and label is that under it.  REQUIRES: made for wedges; all tets were written.
   void write_wedge(std::span<const std::uint64_t> rows, RawLabel label, std::uint64_t interface);
   /// REQUIRES: tets.size() == labels.size(); made for kTet4.
   void write_tets(std::span<const TetRows> tets, std::span<const RawLabel> labels);
-  /// rows: a number for each column of values, tet by tet.
+  /// rows holds, tet by tet, a number for each column of values.
   void write_values(std::span<const double> rows);
   void flush();
 
-  /// The next rows.
+  /// Returns where the next rows go.
   [[nodiscard]] const RowPlace& place() const { return place_; }
   [[nodiscard]] std::uint64_t wedges() const { return wedges_; }
 
@@ -112,7 +112,7 @@ class MeshColumns {
   std::optional<Column> cohesive_;
 };
 
-/// What the sinks of such formats have in common: rows go into columns as they come.
+/// The common part of the sinks of such formats, which write rows into columns as they come.
 class ColumnSink : public CellSink {
  public:
   void write_vertices(std::span<const Position> positions) override;
@@ -126,9 +126,9 @@ class ColumnSink : public CellSink {
   explicit ColumnSink(Element element) : element_(element) {}
   [[nodiscard]] Element element() const { return element_; }
   [[nodiscard]] const MeshHeader& header() const { return header_; }
-  /// Rows go there from now on.
+  /// Makes rows go into these columns.
   void place_columns(const MeshHeader& header, PlacedOutput& output, const ColumnPlaces& places);
-  /// All rows are in the file: how many there were.  ERRORS: as check_sink_counts(file, ...).
+  /// Writes what is buffered; returns how many rows there were.  ERRORS: see check_sink_counts().
   [[nodiscard]] RowPlace finish_columns(std::string_view file);
 
  private:

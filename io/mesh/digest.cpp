@@ -15,12 +15,12 @@ namespace {
 
 using TetKey = std::array<std::uint64_t, 5>;
 
-/// The bits of the double.
+/// Returns the bits of the double that sortable() gave this number.
 std::uint64_t unsortable(std::uint64_t key) {
   return (key >> 63) != 0 ? key & ~(std::uint64_t{1} << 63) : ~key;
 }
 
-/// Hashes the vertices in order and leaves the rank of each row.
+/// Hashes the vertices in order and adds the rank of each row to ranks.
 void hash_vertices(ExternalSort<4>& positions, ExternalSort<2>& ranks, Hasher& hasher) {
   std::uint64_t position = 0;
   std::uint64_t rank = 0;
@@ -35,7 +35,7 @@ void hash_vertices(ExternalSort<4>& positions, ExternalSort<2>& ranks, Hasher& h
   });
 }
 
-/// The tets with ranks instead of rows.
+/// Adds the tets to keys, with ranks in the place of rows.
 void rank_tets(ScratchFile& tet_rows, PagedFile<std::uint64_t>& rank, ExternalSort<5>& keys) {
   std::vector<TetKey> batch;
   for (std::uint64_t at = 0; at < tet_rows.size(); at += batch.size() * sizeof(TetKey)) {

@@ -18,8 +18,8 @@ namespace mw::io {
 ///   tets                              4 x uint64 ranks in ascending order, then uint64 label,
 ///                                     each; sorted by these five numbers
 /// The rank of a vertex is the number of vertices whose position sorts before its own, so vertices
-/// at one position share a rank.  Independent of the order of rows, the orientation of tets, the
-/// signedness of labels and the format.
+/// at one position share a rank.  The digest does not depend on the order of rows, the orientation
+/// of tets, the signedness of labels or the format.
 /// Memory: 3 * memory_bytes and 10 MiB; what does not fit waits in temporary files in `folder`,
 /// about 50 bytes a vertex and 80 a tet. ERRORS: kInternal when a tet names a vertex that never
 /// came; see also ScratchFile.

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The mwmesh authors
 // SPDX-License-Identifier: Apache-2.0
-// Nodes of a tet in a file.
+// The nodes that tets and wedges have in a file.
 #pragma once
 
 #include <array>
@@ -15,7 +15,7 @@ namespace mw::io {
 
 enum class Element : std::uint8_t {
   kTet4,         ///< its corners
-  kTet10,        ///< and the middles of its edges, on straight edges
+  kTet10,        ///< its corners and the middles of its edges, which are straight
   kCurvedTet10,  ///< ten nodes, with edges of interfaces curved (grouped/curved_nodes.h)
 };
 
@@ -28,7 +28,7 @@ enum class Element : std::uint8_t {
   return has_middles(element) ? 10 : 4;
 }
 
-/// "tet4", "tet10", "tet10-curved".  ERRORS: mw::Error(kUsage).
+/// Reads "tet4", "tet10" or "tet10-curved".  ERRORS: mw::Error(kUsage) for another text.
 [[nodiscard]] inline Element parse_element(std::string_view text) {
   if (text == "tet4") return Element::kTet4;
   if (text == "tet10") return Element::kTet10;
@@ -37,7 +37,7 @@ enum class Element : std::uint8_t {
               "'" + std::string(text) + "' is no element; those are tet4, tet10 and tet10-curved");
 }
 
-/// Cell types of VTK's files; the ten nodes of theirs are in the order of kTetEdges.
+/// VTK's cell types for tets; behind the corners, the second has the middles of kTetEdges.
 inline constexpr std::uint8_t kVtkTetra = 10;
 inline constexpr std::uint8_t kVtkQuadraticTetra = 24;
 
@@ -45,7 +45,7 @@ inline constexpr std::uint8_t kVtkQuadraticTetra = 24;
   return has_middles(element) ? kVtkQuadraticTetra : kVtkTetra;
 }
 
-/// Nodes of a wedge between tets of that kind.
+/// Returns the number of nodes of a wedge between tets of that kind.
 [[nodiscard]] constexpr std::uint64_t wedge_node_count(Element element) {
   return has_middles(element) ? 12 : 6;
 }
@@ -63,7 +63,7 @@ inline constexpr std::uint8_t kVtkQuadraticLinearWedge = 31;
   return type == kVtkWedge || type == kVtkQuadraticLinearWedge;
 }
 
-/// Nodes of a cell, which may be a wedge where there are some; 0 of any other type.
+/// Returns the number of nodes of a tet or, with has_wedges, of a wedge; 0 for other cell types.
 [[nodiscard]] constexpr std::uint64_t vtk_nodes_of(std::uint64_t type, bool has_wedges) {
   if (type == kVtkTetra) return node_count(Element::kTet4);
   if (type == kVtkQuadraticTetra) return node_count(Element::kTet10);
@@ -71,8 +71,8 @@ inline constexpr std::uint8_t kVtkQuadraticLinearWedge = 31;
   return wedge_node_count(type == kVtkWedge ? Element::kTet4 : Element::kTet10);
 }
 
-/// Where VTK has the nodes of a wedge (NodeRows of grouped/grouped_mesh.h): the normal of its first
-/// triangle points away from the second one, other than in all other formats.
+/// The order in which VTK has the nodes of a wedge (NodeRows of grouped/grouped_mesh.h): the normal
+/// of its first triangle points away from the second one, unlike in all other formats.
 inline constexpr std::array<std::size_t, 12> kVtkWedgeOrder{0, 2, 1, 3, 5, 4, 8, 7, 6, 11, 10, 9};
 
 }  // namespace mw::io

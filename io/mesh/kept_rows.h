@@ -10,9 +10,9 @@
 
 namespace mw::io {
 
-/// A row goes when it is the middle of an edge and no tet's corner; rows that no tet names stay.
+/// Drops a row when it is the middle of an edge and no tet's corner; rows that no tet names stay.
 /// All middles are given first, then all corners.  Memory: a quarter of a byte for each row.
-/// REQUIRES of all: row < rows.
+/// REQUIRES (all members): row < rows.
 class KeptRows {
  public:
   explicit KeptRows(std::uint64_t rows = 0) { grow(rows); }
@@ -35,7 +35,7 @@ class KeptRows {
   }
 
   [[nodiscard]] bool stays(std::uint64_t row) const { return (words_[row / 64] & bit(row)) != 0; }
-  /// How many rows before it stay: its new number.  REQUIRES: number().
+  /// Returns the new number of a row: how many rows before it stay.  REQUIRES: number().
   [[nodiscard]] std::uint64_t operator[](std::uint64_t row) const {
     const std::uint64_t lower = words_[row / 64] & (bit(row) - 1);
     return before_[row / 64] + static_cast<std::uint64_t>(std::popcount(lower));
@@ -44,13 +44,13 @@ class KeptRows {
  private:
   [[nodiscard]] static std::uint64_t bit(std::uint64_t row) { return std::uint64_t{1} << row % 64; }
 
-  std::vector<std::uint64_t> words_;   ///< a bit a row: it stays
-  std::vector<std::uint64_t> before_;  ///< by word: rows before it that stay
+  std::vector<std::uint64_t> words_;   ///< a bit for each row, set where it stays
+  std::vector<std::uint64_t> before_;  ///< by word, how many rows before it stay
   bool any_ = false;
 };
 
 /// Takes the middles out of a mesh whose tets name their corners.
-/// middles: told all of them.  REQUIRES: tets name vertices that there are.
+/// middles has been given all of them.  REQUIRES: tets name existing vertices.
 inline void drop_middles(MeshData& mesh, KeptRows& middles) {
   if (!middles.any()) return;
   for (const TetRows& tet : mesh.tets) {

@@ -24,9 +24,9 @@ class DoubledVertices {
   void add(std::span<const Position> positions);
   /// Called once, when all vertices were added.
   void find();
-  /// The first row at the position of `row`.  REQUIRES: find().  Cost: O(log doubles).
+  /// Returns the first row at the position of `row`.  REQUIRES: find().  Cost: O(log doubles).
   [[nodiscard]] std::uint64_t first(std::uint64_t row) const;
-  /// The row among those that double no earlier one.  REQUIRES: first(row) == row.
+  /// Returns how many rows before this one double no earlier one.  REQUIRES: first(row) == row.
   [[nodiscard]] std::uint64_t rank(std::uint64_t row) const;
   [[nodiscard]] std::uint64_t count() const { return doubles_.size(); }
 
@@ -38,10 +38,10 @@ class DoubledVertices {
   std::vector<std::pair<std::uint64_t, std::uint64_t>> doubles_;  ///< row, first row; ascending
 };
 
-/// Passes a mesh on; where its record tells of doubled vertices, with all vertices at one position
-/// as one.  Values of tets stay behind.  REQUIRES: the sink outlives it.
-/// Memory: that of DoubledVertices and 1 MiB.  Disk: with doubles, besides, 24 bytes a vertex and
-/// 40 a tet.
+/// Passes a mesh on without its values of tets.  Where its record tells of doubled vertices, all
+/// vertices at one position become one.  REQUIRES: the sink outlives it.
+/// Memory: that of DoubledVertices and 1 MiB.  Disk: where vertices were doubled, that of
+/// DoubledVertices, and 24 bytes a vertex and 40 a tet.
 class MergedVertices : public MeshSink {
  public:
   MergedVertices(MeshSink& below, std::filesystem::path folder)
@@ -53,7 +53,7 @@ class MergedVertices : public MeshSink {
   void finish() override;
   [[nodiscard]] std::uint64_t buffer_bytes() const override { return below_.buffer_bytes(); }
 
-  /// How many vertices were merged into others.  REQUIRES: finished.
+  /// Returns how many vertices were merged into others.  REQUIRES: finished.
   [[nodiscard]] std::uint64_t merged() const { return waiting_ ? waiting_->doubles.count() : 0; }
 
  private:

@@ -10,13 +10,13 @@
 
 namespace mw::io {
 
-/// A number for each tet; NaN: unknown.
+/// A number for each tet, NaN where it is unknown.
 struct TetValues {
   std::string name;  ///< see MeshHeader::values
   std::vector<double> numbers;
 };
 
-/// Vertices by row, tets by vertex rows, one raw label a tet.
+/// Vertices by row, tets as rows of vertices, and a raw label for each tet.
 struct MeshData {
   std::vector<Position> vertices;
   std::vector<TetRows> tets;
@@ -28,7 +28,7 @@ struct MeshData {
   bool in_parts = false;  ///< see MeshHeader
 };
 
-/// Writes the tets of a mesh; where they have values, batch by batch with these.
+/// Writes the tets of a mesh, in batches with their values where they have some.
 inline void write_tets(const MeshData& mesh, MeshSink& sink) {
   if (mesh.values.empty()) return sink.write_tets(mesh.tets, mesh.labels);
   constexpr std::size_t kBatchRows = 4096;
@@ -45,7 +45,7 @@ inline void write_tets(const MeshData& mesh, MeshSink& sink) {
   }
 }
 
-/// Writes all of a mesh: begin to finish.
+/// Writes a whole mesh, from begin() to finish().
 inline void write_mesh(const MeshData& mesh, MeshSink& sink) {
   MeshHeader header{.tets = mesh.tets.size(),
                     .labels_signed = mesh.labels_signed,
@@ -59,7 +59,7 @@ inline void write_mesh(const MeshData& mesh, MeshSink& sink) {
   sink.finish();
 }
 
-/// Collects a mesh.
+/// Collects a mesh in memory.
 class MeshDataSink : public MeshSink {
  public:
   void begin(const MeshHeader& header) override {

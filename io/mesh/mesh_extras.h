@@ -11,7 +11,7 @@
 
 namespace mw::io {
 
-/// How numbers are written in a format that has both.
+/// How numbers are written in a format that has both encodings.
 enum class Encoding : std::uint8_t {
   kUsual,  ///< binary
   kText,
@@ -26,8 +26,8 @@ struct MeshExtras {
   /// The mesh is known to have wedges between the sides of interfaces (MeshRecord::cohesive) before
   /// it comes, so that MeshSink::buffer_bytes() counts what they take.
   bool wedges = false;
-  /// Where the pairs of nodes of a cell that repeats itself go (grouped/periodic_pairs.h); empty:
-  /// they are not written.
+  /// The file for the pairs of nodes of a cell that repeats itself (grouped/periodic_pairs.h);
+  /// where it is empty, they are not written.
   std::filesystem::path pairs{};
 };
 

@@ -78,7 +78,7 @@ double number_in(const JsonFields& fields, const char* key) {
   return number;
 }
 
-/// Whether it is the first word; no others but these two are allowed.
+/// Returns whether the text is the first word.  ERRORS: kInput when it is neither word.
 bool word_in(const JsonFields& fields, const char* key, std::string_view first,
              std::string_view second) {
   const std::string word = fields.text(key);

@@ -34,18 +34,18 @@ struct MeshPromises {
   bool optimised = true;               ///< not --optimizer none
   /// Axes of the volume whose two faces have the same triangles (--periodic): bit 0 = x.
   unsigned periodic = 0;
-  /// How often each tet was cut into eight after the run; quality_floor is that of before.
+  /// How often each tet was cut into eight after the run; quality_floor is that of the uncut tets.
   int halvings = 0;
 
   friend bool operator==(const MeshPromises&, const MeshPromises&) = default;
 };
 
-/// How often tets are cut at most.
+/// The most times that each tet is cut into eight.
 inline constexpr int kMostHalvings = 2;
 
 /// Interfaces between whose two sides there are wedges of no thickness (--cohesive).
 struct CohesiveRule {
-  bool all = false;  ///< those of all labels, each from its lower label to its higher one
+  bool all = false;  ///< all interfaces, each from its lower label to its higher one
   /// The label that is under the wedges, and the one that is on top of them; no pair twice.
   std::vector<std::array<RawLabel, 2>> pairs;
 
@@ -57,14 +57,14 @@ struct CohesiveRule {
   friend bool operator==(const CohesiveRule&, const CohesiveRule&) = default;
 };
 
-/// Where formats that have names for arrays and groups keep it.
+/// The name that formats with named arrays and groups give the record.
 inline constexpr const char* kRecordName = "mwmesh";
 
 struct MeshRecord {
-  std::optional<MeshBox> box;  ///< of the volume, whether its labels are all in the mesh or not
+  std::optional<MeshBox> box;  ///< the volume's, whether all its labels are in the mesh or not
   std::optional<MeshPromises> promises;
-  WorldFrame frame = WorldFrame::kOwn;  ///< of coordinates
-  // What the volume's labels are that the mesh holds; at most one has any, neither where all are.
+  WorldFrame frame = WorldFrame::kOwn;  ///< the frame of coordinates
+  // The labels of the volume that the mesh holds alone, or that it lacks; at most one list has any.
   std::vector<RawLabel> only_labels;
   std::vector<RawLabel> without_labels;
   /// Labels of which parts were left out (--parts), ascending.
@@ -85,12 +85,12 @@ struct MeshRecord {
 /// "frame": "ras", "only_labels": [...], "without_labels": [...], "partial_labels": [...],
 /// "doubled_vertices": true, "curved": true, "cohesive": [1, 2, 1, 3]}, without what is not known;
 /// empty when nothing is.  "cohesive" has the labels under and on top of wedges by turns, or is
-/// true: all. Labels are numbers of 64 bits with a sign.  ASCII, no line end; numbers come back to
-/// the bit.
+/// true for all interfaces.  Labels are signed numbers of 64 bits.  The text is ASCII without a
+/// line end, and gives back numbers to the bit.
 [[nodiscard]] std::string record_text(const MeshRecord& record);
 
-/// Nothing of an empty text.  ERRORS: mw::Error(kInput) naming file and field.  Whether a run can
-/// have made such promises is not looked at.
+/// Reads such a text; an empty one is an empty record.  It does not check whether a run can have
+/// made such promises.  ERRORS: mw::Error(kInput) naming file and field.
 [[nodiscard]] MeshRecord parse_record(std::string_view text, std::string_view file);
 
 }  // namespace mw::io

@@ -26,13 +26,13 @@ struct WedgeHeader {
   std::vector<std::array<RawLabel, 2>> interfaces{};
 };
 
-/// What is known before the first row.  The number of vertices is not: a writer that merges blocks
-/// learns it with the last of them.
+/// What is known before the first row.  The number of vertices is not, because a writer that merges
+/// blocks learns it with the last of them.
 struct MeshHeader {
   std::uint64_t tets = 0;
   bool labels_signed = false;         ///< labels are two's complement int64 and are written as such
-  LabelNames names;                   ///< of labels that are written
-  MeshRecord record;                  ///< of the run that made it
+  LabelNames names;                   ///< names of the labels that are written
+  MeshRecord record;                  ///< record of the run that made it
   std::vector<std::string> values{};  ///< names of numbers that each tet has: letters, digits, '_'
   WedgeHeader wedges{};               ///< set by CellWriter alone (grouped/grouped_mesh.h)
   /// Set by readers alone: the file's tets are curved, and come as kTetParts
@@ -40,10 +40,10 @@ struct MeshHeader {
   bool in_parts = false;
 };
 
-/// Receives a mesh: begin, then vertices and tets by turns, each in row order, finish.  A sink
-/// holds buffers whose size does not grow with the mesh. Nothing appears under the final name
-/// before finish() returns; a sink destroyed earlier leaves no file behind.  ERRORS:
-/// mw::Error(kResource) on a full disk, kUsage when the path cannot be written.
+/// Receives a mesh: begin(), then vertices and tets by turns, each in row order, then finish().  A
+/// sink holds buffers whose size does not grow with the mesh.  Nothing appears under the final name
+/// before finish() returns; a sink destroyed earlier leaves no file behind.
+/// ERRORS: mw::Error(kResource) on a full disk, kUsage when the path cannot be written.
 class MeshSink {
  public:
   virtual ~MeshSink() = default;
@@ -51,17 +51,17 @@ class MeshSink {
   virtual void write_vertices(std::span<const Position> positions) = 0;
   /// REQUIRES: tets.size() == labels.size(); the vertices of these tets have been written.
   virtual void write_tets(std::span<const TetRows> tets, std::span<const RawLabel> labels) = 0;
-  /// Takes the numbers of the tets that write_tets() was given last: a row a tet, a column for each
-  /// of header.values; NaN: unknown.  REQUIRES: it follows each write_tets() if there are such
-  /// names. A sink whose format has no place for them ignores them (open_mesh.h:
-  /// require_place_for_values()).
+  /// Takes the numbers of the tets that write_tets() was given last: a row for each tet, a column
+  /// for each of header.values, NaN where unknown.  A sink whose format has no place for them
+  /// ignores them (require_place_for_values() of open_mesh.h).
+  /// REQUIRES: it follows each write_tets() if there are such names.
   virtual void write_values(std::span<const double> /*rows*/) {}
   virtual void finish() = 0;
   /// Returns the most bytes that it holds between begin() and finish(); 0 if it is no file.
   [[nodiscard]] virtual std::uint64_t buffer_bytes() const { return 0; }
 };
 
-/// Checks what every sink must before a file gets its name.
+/// Makes the check that every sink makes before a file gets its name.
 /// ERRORS: mw::Error(kInternal) when the tets written are not those the header promised.
 inline void check_sink_counts(std::string_view file, const MeshHeader& header, std::uint64_t tets) {
   if (tets == header.tets) return;

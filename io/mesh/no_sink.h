@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The mwmesh authors
 // SPDX-License-Identifier: Apache-2.0
-// A sink for those who want to know what a run tells of its mesh, and not the mesh.
+// A sink for callers that want to know what a run tells of its mesh, but not the mesh.
 #pragma once
 
 #include "io/mesh/mesh_sink.h"

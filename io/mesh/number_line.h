@@ -9,8 +9,8 @@
 
 namespace mw::io {
 
-/// Reals are written with the fewest digits that give back the same double.  Room for a dozen of
-/// the longest numbers.
+/// Reals are written with the fewest digits that give back the same double.  A line has room for a
+/// dozen of the longest numbers.
 class NumberLine {
  public:
   explicit NumberLine(char separator = ' ') : separator_(separator) {}
@@ -20,12 +20,12 @@ class NumberLine {
     end_ = std::to_chars(end_, chars_.data() + chars_.size(), number).ptr;
     *end_++ = separator_;
   }
-  /// The numbers, the separator behind the last turned into `last`.  REQUIRES: there is a number.
+  /// Returns the numbers, with `last` for the last separator.  REQUIRES: there is a number.
   [[nodiscard]] std::string_view finish(char last = '\n') {
     end_[-1] = last;
     return {chars_.data(), static_cast<std::size_t>(end_ - chars_.data())};
   }
-  /// The numbers with nothing behind the last.  REQUIRES: there is a number.
+  /// Returns the numbers with nothing behind the last.  REQUIRES: there is a number.
   [[nodiscard]] std::string_view numbers() const {
     return {chars_.data(), static_cast<std::size_t>(end_ - chars_.data()) - 1};
   }

@@ -36,14 +36,14 @@ struct MeshFormat {
   MeshData (*read)(const std::filesystem::path&);
   /// Reads it in bounded memory; null where `read` is there.
   void (*stream)(const std::filesystem::path&, MeshSink&);
-  /// Null where it is written in another way: open_mesh_pieces().
+  /// Opens a sink; null where it is written in another way (open_mesh_pieces()).
   std::unique_ptr<MeshSink> (*open)(const std::filesystem::path&, Element);
-  /// Endings of files that are written beside it, in the place of its own; null behind the last.
+  /// Endings of the files beside it, which replace its own ending; null behind the last.
   std::array<const char*, 4> beside{};
   /// Opens a sink that writes extras; null where the format has room for none.
   std::unique_ptr<MeshSink> (*open_with)(const std::filesystem::path&, Element,
                                          const MeshExtras&) = nullptr;
-  /// Opens a sink for a mesh that is known to have wedges; null where the others do.
+  /// Opens a sink for a mesh that is known to have wedges; null where the other sinks take them.
   std::unique_ptr<MeshSink> (*open_wedges)(const std::filesystem::path&, Element) = nullptr;
   bool has_text = false;  ///< numbers are written in two ways
   bool takes_materials = false;
@@ -58,7 +58,7 @@ struct MeshFormat {
                                                           ".msh2",   ".exo", ".xdmf"};
     return std::find(kWithValues.begin(), kWithValues.end(), extension) != kWithValues.end();
   }
-  /// Wedges of six nodes, and of twelve.
+  /// Return whether the format has a place for wedges of six nodes, and of twelve.
   [[nodiscard]] bool has_wedges6() const {
     constexpr std::array<std::string_view, 4> kWithSixAlone{".msh", ".msh2", ".inp", ".exo"};
     return has_wedges12() ||
@@ -73,7 +73,7 @@ struct MeshFormat {
   }
 };
 
-/// A sink that writes corners alone.
+/// Opens a sink that writes corners alone.
 template <class Sink>
 std::unique_ptr<MeshSink> open_corners(const std::filesystem::path& path, Element element) {
   if (element == Element::kTet4) return std::make_unique<Sink>(path);
@@ -81,7 +81,7 @@ std::unique_ptr<MeshSink> open_corners(const std::filesystem::path& path, Elemen
               text(path.string(), ": ", path.extension().string(), " is written with tet4 only"));
 }
 
-/// Cells of the mesh once it is grouped.
+/// Returns a sink that groups the mesh and then passes its cells to this one.
 std::unique_ptr<MeshSink> in_groups(const std::filesystem::path& path,
                                     std::unique_ptr<CellSink> sink, Element element) {
   return std::make_unique<GroupedSink>(path.parent_path(),
@@ -93,7 +93,7 @@ std::unique_ptr<MeshSink> open_cells(const std::filesystem::path& path, Element 
   return in_groups(path, std::make_unique<Sink>(path, element), element);
 }
 
-/// Tets of four nodes as they come, unless the mesh turns out to have wedges.
+/// Passes tets of four nodes on as they come, unless begin() tells of wedges: then it groups them.
 class StreamedCells : public MeshSink {
  public:
   StreamedCells(std::filesystem::path path, std::unique_ptr<CellSink> cells)
@@ -125,14 +125,14 @@ class StreamedCells : public MeshSink {
   std::unique_ptr<MeshSink> sink_;
 };
 
-/// A sink that knows tets of both kinds.
+/// Opens a sink of a format that has tets of four and of ten nodes.
 template <class Sink>
 std::unique_ptr<MeshSink> open_streamed(const std::filesystem::path& path, Element element) {
   if (has_middles(element)) return open_cells<Sink>(path, element);
   return std::make_unique<StreamedCells>(path, std::make_unique<Sink>(path));
 }
 
-/// A format that needs the whole mesh.
+/// Opens a sink of a format that needs the whole mesh.
 template <class Writer>
 std::unique_ptr<MeshSink> open_grouped(const std::filesystem::path& path, Element element) {
   return std::make_unique<GroupedSink>(path.parent_path(), std::make_unique<Writer>(path), element);
@@ -212,7 +212,7 @@ const MeshFormat* find_format(const std::filesystem::path& path) {
   return nullptr;
 }
 
-/// The endings of those formats that `has` holds for, as ".vtkhdf, .vtu".
+/// Returns the endings of the formats that `has` holds for, as ".vtkhdf, .vtu".
 std::string extensions_where(bool (MeshFormat::*has)() const) {
   std::string out;
   for (const MeshFormat& format : kFormats) {
@@ -221,7 +221,7 @@ std::string extensions_where(bool (MeshFormat::*has)() const) {
   return out;
 }
 
-/// What else an ending may stand for.
+/// Returns advice for a known ending that is no mesh's, or nothing.
 std::string other_way(const std::string& extension) {
   if (extension == ".vtk") return "; .vtu is what came after .vtk";
   const bool is_surface = extension == ".stl" || extension == ".ply" || extension == ".obj";
@@ -252,7 +252,7 @@ const MeshFormat& read_format(const std::filesystem::path& path) {
                                       read_mesh_extensions()));
 }
 
-/// CalculiX, which runs the jobs, has no cohesive elements.
+/// Throws, because CalculiX, which runs the jobs, has no cohesive elements.
 [[noreturn]] void refuse_wedges_in_deck(const std::filesystem::path& path) {
   throw Error(ErrorKind::kUsage,
               text(path.string(), ": --deck has no sections for cohesive wedges; give --split in ",
@@ -290,7 +290,7 @@ class SinkWithoutWedges : public MeshSink {
   std::unique_ptr<MeshSink> below_;
 };
 
-/// A mesh, and the pairs of its nodes.
+/// Writes a mesh and the pairs of its nodes.
 class PairedSink : public TeeSink {
  public:
   PairedSink(std::unique_ptr<MeshSink> mesh, std::unique_ptr<MeshSink> pairs)

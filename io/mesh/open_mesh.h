@@ -16,7 +16,7 @@ namespace mw::io {
 
 /// Returns the extensions that are written, as ".vtkhdf, .vtu, .mesh".
 [[nodiscard]] std::string mesh_extensions();
-/// Returns the extensions that are read: without those of solvers, with kPiecesExtension.
+/// Returns the extensions that are read, which include kPiecesExtension but not those of solvers.
 [[nodiscard]] std::string read_mesh_extensions();
 /// True if the extension is that of a mesh, even of one that is not read.
 [[nodiscard]] bool is_mesh_path(const std::filesystem::path& path);
@@ -27,13 +27,13 @@ namespace mw::io {
 /// ERRORS: mw::Error(kUsage) for a format that has no place for numbers of tets
 /// (MeshHeader::values).
 void require_place_for_values(const std::filesystem::path& path);
-/// What that error says; empty where there is a place, which meshes in pieces have, too.
+/// Returns what that error says; empty where there is a place, which meshes in pieces have, too.
 [[nodiscard]] std::string why_no_values(const std::filesystem::path& path);
 
 /// ERRORS: mw::Error(kUsage) for a format that has no place for wedges between tets of that kind.
 void require_place_for_wedges(const std::filesystem::path& path, Element element);
 
-/// Returns the files that are written for a mesh of that name: that file, then those beside it.
+/// Returns the files that are always written for a mesh of that name: that file, then those beside.
 [[nodiscard]] std::vector<std::filesystem::path> mesh_files(const std::filesystem::path& path);
 
 /// ERRORS: mw::Error(kUsage) for an extension that is unknown or written only; kInput with file and
@@ -50,20 +50,20 @@ void copy_mesh(const std::filesystem::path& path, MeshSink& sink);
 [[nodiscard]] std::unique_ptr<MeshSink> open_mesh_sink(const std::filesystem::path& path,
                                                        Element element = Element::kTet4,
                                                        Encoding encoding = Encoding::kUsual);
-/// With materials there is the table material_table_path() beside the mesh.
+/// Opens a sink with extras.  With materials it writes material_table_path() beside the mesh, too.
 [[nodiscard]] std::unique_ptr<MeshSink> open_mesh_sink(const std::filesystem::path& path,
                                                        Element element, const MeshExtras& extras);
 
 /// The ending of meshes in pieces.
 inline constexpr const char* kPiecesExtension = ".pvtu";
-/// Writes a mesh of four nodes a tet in pieces (pieces/pvtu.h), for programs that run on many
-/// processes.
+/// Opens a sink that writes tets of four nodes in pieces (pieces/pvtu.h), for programs that run on
+/// many processes.
 /// ERRORS: mw::Error(kUsage) for another extension or no pieces, or a path that cannot be written.
 [[nodiscard]] std::unique_ptr<MeshSink> open_mesh_pieces(const std::filesystem::path& path,
                                                          std::uint64_t pieces);
 
-/// open_mesh_sink() for several processes that write together: .vtkhdf of kTet4; null: only one
-/// can. No file is touched before create() or join().
+/// Opens a mesh that several processes write together, a .vtkhdf of kTet4.  Returns null for
+/// others, which only one process can write.  No file is touched before create() or join().
 [[nodiscard]] std::unique_ptr<SharedMesh> open_shared_mesh(const std::filesystem::path& path,
                                                            Element element = Element::kTet4);
 

@@ -15,10 +15,10 @@ struct RowPlace {
   std::uint64_t tet = 0;
 };
 
-/// One process's hand in a mesh file that several write, each of them rows of its own.  One of them
-/// is the maker: create() before any work, lay_out() when all is counted, finish() when all others
-/// have synced.  The others join() and take no part in these.  All of them begin() once the file is
-/// laid out, write, and sync().
+/// One process's part in a mesh file that several write, each of them rows of its own.  One process
+/// is the maker, which calls create() before any work, lay_out() when all is counted, and finish()
+/// when all others have synced; the others call join() instead.  Each process calls begin() once
+/// the file is laid out, writes, and calls sync().
 /// ENSURES: equal meshes are equal bytes, those of the format's sink, for any division of the rows.
 ///          Nothing has the final name before finish() returns; the maker's destructor removes what
 ///          was not finished.
@@ -35,12 +35,12 @@ class SharedMesh {
   /// Makes sure that the file of that place() is within reach of this process.
   virtual void join(const std::string& place) = 0;
 
-  /// Gives each row its place.
+  /// Gives each row its place.  REQUIRES: the mesh has no values and no wedges.
   virtual void lay_out(const MeshHeader& header, std::uint64_t vertices) = 0;
   /// REQUIRES: the file is laid out for this number of tets.
   virtual void begin(std::uint64_t tets) = 0;
-  /// Rows go there from now on, one behind the other.  REQUIRES: of all processes one begins at the
-  /// first row, even of an empty mesh, and rows that are written do not overlap.
+  /// Makes the next rows go to this place, one behind the other.  REQUIRES: one of the processes
+  /// begins at the first row, even of an empty mesh, and rows that are written do not overlap.
   virtual void go_to(const RowPlace& rows) = 0;
   virtual void write_vertices(std::span<const Position> positions) = 0;
   /// REQUIRES: tets.size() == labels.size().

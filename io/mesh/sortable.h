@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The mwmesh authors
 // SPDX-License-Identifier: Apache-2.0
-// Coordinates as numbers that sorts compare.
+// Coordinates as integers, for sorts to compare.
 #pragma once
 
 #include <bit>
@@ -8,7 +8,7 @@
 
 namespace mw::io {
 
-/// Bits that order like the double they stand for; a total order, whatever the double.
+/// Returns an integer that orders like the double; -0.0 is as 0.0, and NaN has a place, too.
 [[nodiscard]] inline std::uint64_t sortable(double x) {
   const auto bits = std::bit_cast<std::uint64_t>(x == 0 ? 0.0 : x);
   return (bits >> 63) != 0 ? ~bits : bits | std::uint64_t{1} << 63;

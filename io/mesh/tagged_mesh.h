@@ -7,24 +7,24 @@
 
 namespace mw::io {
 
-/// Nodes and tets in any order; then rows.
+/// Takes nodes and tets in any order, and then turns the numbers of nodes into rows.
 class TaggedMesh {
  public:
-  /// file: what errors call it.
+  /// file is what errors call the mesh.
   explicit TaggedMesh(std::string file) : file_(std::move(file)) {}
 
   void add_node(std::uint64_t tag, const Position& position) { nodes_.push_back({tag, position}); }
-  /// tags: four corners, behind them any number of nodes on edges, faces and inside.
-  /// mark: of the caller; it becomes the label.  REQUIRES: tags.size() >= 4.
+  /// tags holds four corners, and behind them any number of nodes on edges, faces and inside.
+  /// mark is the caller's, and becomes the label.  REQUIRES: tags.size() >= 4.
   void add_tet(std::span<const std::uint64_t> tags, RawLabel mark);
 
   [[nodiscard]] std::uint64_t node_count() const { return nodes_.size(); }
   [[nodiscard]] std::uint64_t tet_count() const { return mesh_.tets.size(); }
-  /// By tet.
+  /// Returns the marks, by tet.
   [[nodiscard]] std::vector<RawLabel>& marks() { return mesh_.labels; }
 
-  /// ENSURES: rows are nodes by number, without those that are in tets but are a corner of none;
-  /// tets as they came.  Nothing is left here.
+  /// ENSURES: rows are nodes by ascending number, without those that are in tets but are a corner
+  /// of none; tets have the order in which they came.  Nothing is left here.
   /// ERRORS: mw::Error(kInput) when a tet names a node that never came, or two have one number.
   [[nodiscard]] MeshData finish();
 
@@ -39,8 +39,8 @@ class TaggedMesh {
 
   std::string file_;
   std::vector<Node> nodes_;
-  std::vector<std::uint64_t> middles_;  ///< tags
-  MeshData mesh_;                       ///< tets have tags for rows until finish()
+  std::vector<std::uint64_t> middles_;  ///< tags of nodes that are no corner of their tet
+  MeshData mesh_;                       ///< its tets hold tags, which finish() turns into rows
 };
 
 }  // namespace mw::io

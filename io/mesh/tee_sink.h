@@ -1,13 +1,13 @@
 // SPDX-FileCopyrightText: The mwmesh authors
 // SPDX-License-Identifier: Apache-2.0
-// One mesh into two sinks.
+// A sink that passes one mesh on to two sinks.
 #pragma once
 
 #include "io/mesh/mesh_sink.h"
 
 namespace mw::io {
 
-/// Passes everything on to both.  REQUIRES: they outlive it.
+/// Passes everything on to both sinks.  REQUIRES: they outlive it.
 class TeeSink : public MeshSink {
  public:
   TeeSink(MeshSink& first, MeshSink& second) : first_(first), second_(second) {}

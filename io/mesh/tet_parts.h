@@ -12,7 +12,7 @@
 
 namespace mw::io {
 
-/// Adds the parts of a tet.  rows: of its ten nodes.
+/// Adds the straight parts of a curved tet; rows are the rows of its ten nodes.
 inline void add_parts(std::span<const std::uint64_t, 10> rows, std::vector<TetRows>& out) {
   for (const auto& part : kTetParts) {
     out.push_back({rows[part[0]], rows[part[1]], rows[part[2]], rows[part[3]]});

@@ -8,7 +8,7 @@
 
 namespace mw::io {
 
-/// The text as it stands in an attribute in double quotes, or in an element.
+/// Returns the text as it stands in an attribute in double quotes, or in an element.
 [[nodiscard]] inline std::string xml_escaped(std::string_view text) {
   std::string out;
   for (const char c : text) {

@@ -11,12 +11,12 @@ namespace {
 
 constexpr std::array<double, 3> kWhite{0.96422, 1, 0.82521};  ///< XYZ of D50
 
-/// XYZ under D50 to linear red, green and blue under D65, each a row.
+/// Turns XYZ under D50 into linear red, green and blue under D65, one a row.
 constexpr std::array<std::array<double, 3>, 3> kLinearOfXyz{{{3.1338561, -1.6168667, -0.4906146},
                                                              {-0.9787684, 1.9161415, 0.0334540},
                                                              {0.0719453, -0.2289914, 1.4052427}}};
 
-/// A share of white, of its cube root; dark colours are on a line that touches the cube.
+/// Returns the share of white for its cube root; dark colours are on a line that touches the cube.
 double share_of_root(double root) {
   constexpr double kEnd = 6.0 / 29;
   return root > kEnd ? root * root * root : 3 * kEnd * kEnd * (root - 4.0 / 29);

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The mwmesh authors
 // SPDX-License-Identifier: Apache-2.0
-// Numbers in tables of names, and tables with a label a line.
+// Numbers in tables of names, and tables that have one label a line.
 #include "io/names/colour_table.h"
 
 #include <algorithm>
@@ -84,7 +84,7 @@ namespace {
 struct Row {
   LabelName name;
   std::size_t line = 0;
-  bool has_opacity = false;  ///< counted from 0 to 255
+  bool has_opacity = false;  ///< it has an A from 0 to 255
 };
 
 using Words = std::span<const std::string_view>;
@@ -99,7 +99,7 @@ std::optional<Colour> colour_of(Words rgb) {
   return colour;
 }
 
-/// IDX R G B A VIS MSH "NAME"
+/// Parses IDX R G B A VIS MSH "NAME".
 std::optional<Row> parse_snap_line(std::string_view line) {
   const std::size_t quote = line.find('"');
   const std::vector<std::string_view> words = words_of(line.substr(0, quote));
@@ -115,7 +115,7 @@ std::optional<Row> parse_snap_line(std::string_view line) {
   return Row{.name = {*label, std::string(name), colour}};
 }
 
-/// ID NAME R G B A, ID NAME R G B, ID NAME CODE (as of the AAL atlas) or ID NAME
+/// Parses ID NAME R G B A, ID NAME R G B, ID NAME CODE (of the AAL atlas) or ID NAME.
 std::optional<Row> parse_table_line(std::string_view line) {
   const std::vector<std::string_view> words = words_of(line);
   const std::size_t count = words.size();
@@ -137,7 +137,7 @@ std::optional<Row> parse_line(std::string_view line) {
   return line.ends_with('"') ? parse_snap_line(line) : parse_table_line(line);
 }
 
-/// Opacity that is 0 everywhere is FreeSurfer's transparency.
+/// Makes all labels opaque where all A are 0, since FreeSurfer's A is the transparency.
 void make_opaque(std::vector<Row>& rows) {
   const bool some = std::any_of(rows.begin(), rows.end(), [](const Row& row) {
     return row.has_opacity && (*row.name.colour)[3] != 0;

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: The mwmesh authors
 // SPDX-License-Identifier: Apache-2.0
-// Tables with a label a line and numbers between blanks (ITK-SNAP, FreeSurfer, 3D Slicer), and the
-// numbers in the text of all tables of names.
+// Tables that have one label a line and numbers between blanks (ITK-SNAP, FreeSurfer, 3D Slicer),
+// and the numbers in the text of all tables of names.
 #pragma once
 
 #include <cstdint>
@@ -13,44 +13,45 @@
 
 namespace mw::io {
 
-/// A whole number from -2^63 to 2^64-1, two's complement; also with ".0" behind it, as tables of
-/// floats have it.
+/// Returns a whole number from -2^63 to 2^64-1 in two's complement; ".0" may follow it, as in
+/// tables of floats.  This and the next ones return nothing for another text.
 [[nodiscard]] std::optional<RawLabel> label_of(std::string_view text);
-/// Finite.
+/// Returns a finite number.
 [[nodiscard]] std::optional<double> number_of(std::string_view text);
-/// A whole number from 0 to 255.
+/// Returns a whole number from 0 to 255.
 [[nodiscard]] std::optional<std::uint8_t> byte_of(std::string_view text);
-/// From 0 to 255, of a number from 0 to 1.
+/// Returns a number from 0 to 1 as one from 0 to 255; nothing for another number.
 [[nodiscard]] std::optional<std::uint8_t> byte_of_share(double share);
 
-/// ERRORS: mw::Error(kInput), always: "FILE: line LINE: REASON; ...".
+/// Throws mw::Error(kInput): "FILE: line LINE: REASON; WAY_OUT".
 [[noreturn]] void fail_line(std::string_view file, std::size_t line, std::string_view reason,
                             std::string_view way_out);
 
-/// A row of a table, and where it stands.
+/// A row of a table, and the line where it stands.
 struct ReadName {
   LabelName name;
   std::size_t line = 0;
 };
 
-/// ERRORS: mw::Error(kInput) when a label, or a name that is not empty, is there twice: the line of
-///         the second says where the first is.
+/// Returns the names of rows.
+/// ERRORS: mw::Error(kInput) when a label, or a name that is not empty, is there twice, naming the
+///         lines of both.
 [[nodiscard]] LabelNames names_of_rows(const std::vector<ReadName>& rows, std::string_view file);
 
 /// Whether a line is one of these:
 ///   IDX R G B A VIS MSH "NAME"   label descriptions of ITK-SNAP; A from 0 to 1
 ///   ID NAME R G B A              colour tables of FreeSurfer and Slicer (.ctbl); A may be missing
-///   ID NAME CODE                 as of the AAL atlas; CODE is skipped
-///   ID NAME                      the same without colours
+///   ID NAME CODE                 tables of the AAL atlas; CODE, a number, is skipped
+///   ID NAME                      tables without colours
 /// Only with all four numbers may NAME have blanks in it.
 [[nodiscard]] bool is_colour_table_line(std::string_view line);
 
-/// Lines that are empty or begin with '#' or "//" are skipped.  FreeSurfer counts A the other way
-/// round, and has 0 everywhere: in a table without any other A labels are opaque.
+/// Skips lines that are empty or begin with '#' or "//".  FreeSurfer counts A the other way round,
+/// and has 0 everywhere, so that labels are opaque in a table without any other A.
 /// ERRORS: mw::Error(kInput) naming file and line.
 [[nodiscard]] LabelNames parse_colour_table(std::string_view text, std::string_view file);
 
-/// Whether a line of such a table, or of a table in CSV, is no row.
+/// Whether a line of such a table, or of one in CSV, is empty or a comment.
 [[nodiscard]] bool is_comment_line(std::string_view line);
 
 }  // namespace mw::io

@@ -42,7 +42,7 @@ std::string CsvRecords::quoted_field() {
             "double the quotes that are part of a name");
 }
 
-/// Leaves at_ at the separator or line end behind the field.
+/// Returns a field, and leaves at_ at the separator or line end behind it.
 std::string CsvRecords::next_field() {
   const auto ends = [&](char c) { return c == separator_ || c == '\n'; };
   while (at_ < text_.size() && text_[at_] == ' ') ++at_;
@@ -89,7 +89,7 @@ struct Columns {
   Column hex;
 };
 
-/// "Label Value" and "label_value" are the same column.
+/// Returns the key of a column; "Label Value" and "label_value" have the same.
 std::string column_key(std::string_view title) {
   std::string key;
   for (const char c : title) {
@@ -99,7 +99,7 @@ std::string column_key(std::string_view title) {
   return key;
 }
 
-/// The first title that there is.
+/// Returns the column of the first of the titles that there is.
 Column find_column(const Fields& keys, std::initializer_list<const char*> titles) {
   for (const char* title : titles) {
     const auto found = std::find(keys.begin(), keys.end(), title);
@@ -135,7 +135,7 @@ Columns columns_of(const CsvRecord& header, std::string_view file) {
   return out;
 }
 
-/// 0 to 255, or 0 to 1 with a point in it.
+/// Parses a whole number from 0 to 255, or any from 0 to 1 that has a point in it.
 std::optional<std::uint8_t> part_of_colour(const std::string& text) {
   const auto byte = byte_of(text);
   if (byte) return byte;
@@ -153,7 +153,7 @@ std::optional<std::uint8_t> hex_digit(char c) {
   return static_cast<std::uint8_t>(digit);
 }
 
-/// "#rrggbb" or "#rrggbbaa"; the '#' may be missing.
+/// Parses "#rrggbb" or "#rrggbbaa"; the '#' may be missing.
 std::optional<Colour> hex_colour(std::string_view text) {
   if (text.starts_with('#')) text.remove_prefix(1);
   if (text.size() != 6 && text.size() != 8) return std::nullopt;
@@ -182,7 +182,7 @@ class Table {
   }
 
  private:
-  /// Empty where the record is shorter.
+  /// Returns a field of a record; an empty one where the record is shorter.
   static const std::string& field(const CsvRecord& record, Column column) {
     static const std::string none;
     return column && *column < record.fields.size() ? record.fields[*column] : none;
@@ -225,7 +225,7 @@ std::string_view first_row(std::string_view text) {
   return {};
 }
 
-/// NUL: the line has none.
+/// Returns the separator of a line; NUL when it has none.
 char separator_of(std::string_view line) {
   for (const char separator : {'\t', ';', ','}) {
     bool quoted = false;

@@ -16,14 +16,14 @@ struct CsvRecord {
   std::vector<std::string> fields;  ///< without quotes, and without blanks around unquoted ones
 };
 
-/// Fields in double quotes may hold separators, line ends and, doubled, quotes (RFC 4180).  Lines
-/// that are empty or comments (is_comment_line) are skipped.
+/// Reads records, whose fields in double quotes may hold separators, line ends and, doubled, quotes
+/// (RFC 4180).  Lines that are empty or comments (is_comment_line) are skipped.
 class CsvRecords {
  public:
   CsvRecords(std::string_view text, char separator, std::string_view file)
       : text_(text), separator_(separator), file_(file) {}
 
-  /// Whether there is another record; it is put into `record`.
+  /// Reads the next record into `record`; false when there is none.
   /// ERRORS: mw::Error(kInput) naming file and line when a quote is not closed.
   [[nodiscard]] bool next(CsvRecord& record);
 
@@ -39,11 +39,11 @@ class CsvRecords {
   std::size_t line_ = 1;
 };
 
-/// The field in quotes, those inside doubled; nothing when it is empty.
+/// Returns the field in quotes, with those inside doubled; an empty field stays empty.
 [[nodiscard]] std::string csv_quoted(std::string_view field);
 
 /// The separator is the first of tab, semicolon and comma that the first row has.  A first row that
-/// does not begin with a number says what the columns are, in any case and order:
+/// does not begin with a number names the columns, in any case and order, by titles like these:
 ///   the label   id, index, value, label value or label;
 ///   its name    name, region, structure, label name, or label beside an id;
 ///   its colour  r, g, b (red, ...; a or alpha) from 0 to 255, or from 0 to 1 where there is a

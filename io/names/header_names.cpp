@@ -16,7 +16,7 @@ namespace {
 
 constexpr RawLabel kMostLayers = 1 << 16;
 
-/// "Segment12" of "Segment12_Name"; empty: it is no key of a segment.
+/// Returns "Segment12" for "Segment12_Name"; nothing for a key that is none of a segment.
 std::string_view segment_of(std::string_view key) {
   constexpr std::string_view kStart = "Segment";
   const std::size_t end = key.find('_');
@@ -45,13 +45,13 @@ std::optional<Colour> colour_of(std::string_view value) {
   return colour;
 }
 
-/// A whole number of at least 0; 0 where there is none.
+/// Returns the whole number of a layer; 0 where there is none.
 std::int64_t layer_of(std::string_view value) {
   const auto layer = label_of(value);
   return layer && *layer < kMostLayers ? static_cast<std::int64_t>(*layer) : 0;
 }
 
-/// N of "SegmentN", as a string that sorts as the number does.
+/// Returns a key for "SegmentN" that sorts as the number N does.
 std::pair<std::size_t, std::string_view> number_of_segment(std::string_view segment) {
   return {segment.size(), segment};
 }

@@ -10,13 +10,13 @@ namespace {
 
 constexpr std::string_view kReplacement = "\xEF\xBF\xBD";  // U+FFFD
 
-/// One character at the beginning of the bytes; length 0: they are no UTF-8.
+/// The character at the beginning of bytes; its length is 0 if they are no UTF-8.
 struct Character {
   char32_t code = 0;
   std::size_t length = 0;
 };
 
-/// By RFC 3629: no overlong forms, no surrogates, nothing above U+10FFFF.
+/// Reads a character of RFC 3629: no overlong forms, no surrogates, nothing above U+10FFFF.
 Character first_character(std::string_view bytes) {
   const auto byte = [&](std::size_t i) { return static_cast<unsigned char>(bytes[i]); };
   const unsigned first = byte(0);
@@ -40,7 +40,7 @@ bool is_control(char32_t code) {
          code == kParagraphSeparator;
 }
 
-/// What stands for the character in a name.
+/// Returns what stands for the character in a name.
 std::string_view clean_character(std::string_view bytes, const Character& c) {
   if (c.length == 0 || c.code == 0xFFFE || c.code == 0xFFFF) return kReplacement;
   return is_control(c.code) ? " " : bytes.substr(0, c.length);

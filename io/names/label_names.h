@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The mwmesh authors
 // SPDX-License-Identifier: Apache-2.0
-// What labels are called, and the colours they are shown in.
+// The names of labels, and the colours in which they are shown.
 #pragma once
 
 #include <array>
@@ -17,9 +17,10 @@
 
 namespace mw::io {
 
-/// Longest name that is kept, bytes.
+/// The bytes of the longest name that is kept.
 inline constexpr std::size_t kMaxNameBytes = 1000;
 
+/// Returns a name that every output can hold.
 /// ENSURES: valid UTF-8 of at most kMaxNameBytes, cut between two characters; without control
 /// characters (a blank instead), without characters that XML does not allow (U+FFFD instead, as for
 /// bytes that are no UTF-8), without blanks at its ends.  A clean name stays as it is.
@@ -30,8 +31,8 @@ using Colour = std::array<std::uint8_t, 4>;
 
 struct LabelName {
   RawLabel label = 0;
-  std::string name;              ///< empty: it has none
-  std::optional<Colour> colour;  ///< empty: unknown
+  std::string name;              ///< empty if it has none
+  std::optional<Colour> colour;  ///< empty if unknown
 
   bool operator==(const LabelName&) const = default;
 };
@@ -41,27 +42,27 @@ struct LabelName {
 class LabelNames {
  public:
   LabelNames() = default;
-  /// Names are cleaned (clean_name), and a colour of four zeros, which nobody sees, is none.  Of
-  /// several rows of one label the last counts; one without name and colour is left out.
+  /// Cleans names (clean_name), and drops a colour of four zeros, which nobody sees.  The last of
+  /// several rows of one label counts; a row without name and colour is left out.
   explicit LabelNames(std::vector<LabelName> rows);
 
-  /// Ascending by label, as unsigned numbers.
+  /// Returns the rows, ascending by label as unsigned numbers.
   [[nodiscard]] std::span<const LabelName> rows() const;
   [[nodiscard]] bool empty() const { return rows().empty(); }
-  /// Null when nothing is known of the label.
+  /// Returns the row of a label; null when nothing is known of it.
   [[nodiscard]] const LabelName* find(RawLabel label) const;
-  /// Empty when there is none.
+  /// Returns the name of a label; empty when there is none.
   [[nodiscard]] const std::string& name(RawLabel label) const;
 
-  /// The rows of both; where both name a label, or give its colour, the others win.
+  /// Returns the rows of both; where both name a label, or give its colour, the others win.
   [[nodiscard]] LabelNames merged_with(const LabelNames& others) const;
-  /// The rows of these labels.
+  /// Returns the rows of the labels for which wanted() is true.
   [[nodiscard]] LabelNames only(const std::function<bool(RawLabel)>& wanted) const;
-  /// What the rows take in memory.
+  /// Returns the bytes of memory that the rows take.
   [[nodiscard]] std::uint64_t bytes() const;
 
  private:
-  std::shared_ptr<const std::vector<LabelName>> rows_;  ///< null: none
+  std::shared_ptr<const std::vector<LabelName>> rows_;  ///< null if there are none
 };
 
 }  // namespace mw::io

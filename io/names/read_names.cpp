@@ -15,8 +15,8 @@ namespace {
 
 constexpr std::string_view kByteOrderMark = "\xEF\xBB\xBF";
 
-/// Whether the table is of separated values; lines that are neither are explained as such of a
-/// colour table.
+/// Whether the table is of separated values.  A first line of neither kind counts as one of a
+/// colour table, whose reader tells what is wrong with it.
 bool is_csv(std::string_view text) {
   for (std::size_t at = 0; at < text.size();) {
     const std::size_t end = std::min(text.find('\n', at), text.size());

@@ -12,17 +12,17 @@
 
 namespace mw::io {
 
-/// Largest file of names, unpacked.
+/// The most bytes of a file of names, unpacked.
 inline constexpr std::uint64_t kMaxNamesBytes = 64 << 20;
 
-/// By the first line that is no comment: label descriptions of ITK-SNAP and colour tables of
-/// FreeSurfer and Slicer (colour_table.h), else values separated by commas, semicolons or tabs
-/// (csv_names.h).  May be gzipped.
+/// Reads label descriptions of ITK-SNAP and colour tables of FreeSurfer and Slicer
+/// (colour_table.h), or values separated by commas, semicolons or tabs (csv_names.h).  The first
+/// line that is no comment decides which.  The file may be gzipped.
 /// ERRORS: mw::Error(kInput) naming file and line; also for a file without labels, above
 /// kMaxNamesBytes, or not of text.
 [[nodiscard]] LabelNames read_names(const std::filesystem::path& path);
 
-/// Reads names from text; `file` is what errors call it.
+/// Reads names from text, which errors call `file`.
 [[nodiscard]] LabelNames parse_names(std::string_view text, std::string_view file);
 
 /// The volume with these names added to its own; where both name a label, these win.

@@ -20,7 +20,7 @@ struct Buffer {
   std::string complaint;
 };
 
-/// libpng leaves by longjmp: nothing in the frames between may need a destructor.
+/// libpng leaves by longjmp, so that nothing in the frames between may need a destructor.
 [[noreturn]] void leave(png_structp png, png_const_charp complaint) {
   static_cast<Buffer*>(png_get_error_ptr(png))->complaint = complaint;
   png_longjmp(png, 1);
@@ -36,7 +36,7 @@ void keep_bytes(png_structp png, png_bytep bytes, std::size_t count) {
 
 void flush_nothing(png_structp /*png*/) {}
 
-/// Laid over white.
+/// Lays the pixels over white.
 void make_opaque(std::span<const std::uint8_t> rgba, std::vector<std::uint8_t>& rgb) {
   rgb.clear();
   for (std::size_t i = 0; i < rgba.size(); i += 4) {

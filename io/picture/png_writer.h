@@ -13,8 +13,8 @@ namespace mw::io {
 
 using TakeBytes = std::function<void(std::span<const std::byte>)>;
 
-/// Red, green, blue, alpha of 8 bits each (alpha kept only with `transparent`), sRGB, and nothing
-/// that would differ the next time.
+/// Writes red, green, blue and alpha of 8 bits each (alpha only with `transparent`) as sRGB.  The
+/// same rows always give the same bytes.
 /// Memory: some 300 KiB.  ERRORS: whatever take throws.  Thread safety: none.
 class PngWriter {
  public:
@@ -24,7 +24,7 @@ class PngWriter {
   PngWriter(const PngWriter&) = delete;
   PngWriter& operator=(const PngWriter&) = delete;
 
-  /// The next row from the top.  Without `transparent` it is laid over white.
+  /// Writes the next row from the top.  Without `transparent` it is laid over white.
   /// REQUIRES: rgba.size() == 4 * width; called at most height times.
   void write_row(std::span<const std::uint8_t> rgba);
   /// REQUIRES: all rows are written; called once.

@@ -32,7 +32,7 @@ void append_encoded(std::string& out, char c) {
   out += kDigits[byte & 15U];
 }
 
-/// A name in a path, all but what may stand there unencoded.
+/// Returns a name in a path with all characters encoded that must not stand there as they are.
 std::string encoded(std::string_view name) {
   std::string out;
   for (const char c : name) {
@@ -45,7 +45,7 @@ std::string encoded(std::string_view name) {
   return out;
 }
 
-/// What a user gave may be encoded already.
+/// Encodes only what no address may have, since a user's address may be encoded already.
 std::string mended(std::string_view address) {
   std::string out;
   for (const char c : address) {
@@ -78,7 +78,7 @@ std::string decoded(std::string_view name) {
   return out;
 }
 
-/// Where the path begins.
+/// Returns where the path begins.
 std::size_t end_of_host(std::string_view address) {
   return std::min(address.find('/', scheme_of(address).size()), address.size());
 }
@@ -87,7 +87,8 @@ std::size_t end_of_host(std::string_view address) {
   throw Error(ErrorKind::kUsage, text("the address ", scheme, "...: ", reason));
 }
 
-/// Names with a dot in them are not covered by the certificate of BUCKET.s3.amazonaws.com.
+/// Puts a bucket with a dot in its name into the path, as the certificate of
+/// BUCKET.s3.amazonaws.com does not cover it.
 std::string amazon_address(std::string_view bucket, std::string_view path) {
   if (bucket.find('.') != bucket.npos) return text("https://s3.amazonaws.com/", bucket, path);
   return text("https://", bucket, ".s3.amazonaws.com", path);

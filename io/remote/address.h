@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The mwmesh authors
 // SPDX-License-Identifier: Apache-2.0
-// Addresses of remote volumes, and what is below and above them.
+// Addresses of remote volumes, and the addresses below and above them.
 #pragma once
 
 #include <optional>
@@ -10,25 +10,25 @@
 
 namespace mw::io {
 
-/// Whether the text begins like one: https://, http://, gs:// or s3://.
+/// Whether the text begins as a remote address does, with https://, http://, gs:// or s3://.
 [[nodiscard]] bool is_remote_address(std::string_view text);
 
-/// The address of the web that it stands for, without '/' at its end: gs://BUCKET/PATH and
+/// Returns the web address that an address stands for, without '/' at its end: gs://BUCKET/PATH and
 /// s3://BUCKET/PATH become those at which Google and Amazon serve public buckets.  Blanks and
-/// letters beyond ASCII are percent-encoded. REQUIRES: is_remote_address(address). ERRORS:
-/// mw::Error(kUsage) without a host or a bucket, and for a user, a password, a query or a fragment
-/// in it: such parts may be secret, and addresses stand in messages and reports.
+/// letters beyond ASCII are percent-encoded.  REQUIRES: is_remote_address(address).
+/// ERRORS: mw::Error(kUsage) without a host or a bucket, and for a user, a password, a query or a
+/// fragment in it, as such parts may be secret, and addresses stand in messages and reports.
 [[nodiscard]] std::string web_address(std::string_view address);
 
 /// Appends a path, percent-encoded; its parts "." and ".." mean what they do in paths, and do not
-/// lead above the host.  REQUIRES: address is of web_address().
+/// lead above the host.  REQUIRES: address is one that web_address() returned.
 [[nodiscard]] std::string address_below(const std::string& address, std::string_view path);
 
-/// The address of the folder and the name in it, decoded; nothing for the host itself.
+/// Returns the address of the folder and the name in it, decoded; nothing for the host itself.
 [[nodiscard]] std::optional<std::pair<std::string, std::string>> split_address(
     const std::string& address);
 
-/// Whether what is sent there can be read on the way: http:// to another machine.
+/// Whether others can read on the way what is sent there, as with http:// to another machine.
 [[nodiscard]] bool is_open_to_all(const std::string& address);
 
 }  // namespace mw::io

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The mwmesh authors
 // SPDX-License-Identifier: Apache-2.0
-// Files of a cache: the bytes, the version, then a tail that tells how many these are.
+// Files of a cache, which have the bytes, the version, and a tail that tells how many these are.
 #include "io/remote/disk_cache.h"
 
 #include <fcntl.h>
@@ -28,16 +28,16 @@ using Seconds = std::chrono::seconds;
 
 constexpr std::uint64_t kCacheMagic = 0x314548434143574DU;  // "MWCACHE1"
 constexpr std::size_t kPieceBytes = 1U << 20U;
-/// A digest has 32 digits: the first are the name of a folder, the others that of a file in it.
+/// A digest has 32 digits; the first ones name a folder, the others a file in it.
 constexpr std::size_t kFolderDigits = 2;
 constexpr std::size_t kFileDigits = 30;
 constexpr std::string_view kUnfinished = ".unfinished";
-/// The largest answer that is kept, and what is left when some have to go, as shares of the bytes
-/// that the files may have.
+/// Shares of the bytes that the files may have: the largest answer that is kept has at most one in
+/// kLargestShare of them, and at most kLeftShare is left when some answers are removed.
 constexpr std::uint64_t kLargestShare = 8;
 constexpr double kLeftShare = 0.9;
-/// A use within this time of the last one is not noted; an unfinished file that is older was left
-/// by a process that was killed.
+/// A use within kFreshUse of the last one is not noted.  An unfinished file that is older than
+/// kAbandoned was left by a process that was killed.
 constexpr Seconds kFreshUse{60};
 constexpr Seconds kAbandoned{3600};
 
@@ -46,7 +46,7 @@ struct Tail {
   std::uint64_t bytes = 0;
   std::uint64_t version_bytes = 0;
   std::uint64_t file_bytes = 0;
-  ContentDigest digest;  ///< of all that is before the tail, and of the lines above
+  ContentDigest digest;  ///< of all that is before the tail, and of the three counts
 
   using Bytes = std::array<std::byte, 48>;
 
@@ -66,7 +66,7 @@ struct Tail {
   }
 };
 
-/// Calls use for all bytes, piece by piece.
+/// Calls use(offset, bytes) on all bytes, piece by piece.
 template <typename Use>
 void each_piece(const ByteSource& source, std::uint64_t size, Use use) {
   std::vector<std::byte> piece;
@@ -87,7 +87,7 @@ ContentDigest digest_of(const ByteSource& before_tail, const Tail& tail) {
   return maker.finish();
 }
 
-/// Nothing when the file is not whole.
+/// Returns the answer in a file; nothing when the file is not whole.
 std::optional<CachedAnswer> read_answer(const fs::path& path, const std::string& name) {
   auto file = std::make_shared<const FileSource>(path);
   Tail::Bytes stored;
@@ -106,7 +106,7 @@ std::optional<CachedAnswer> read_answer(const fs::path& path, const std::string&
   return out;
 }
 
-/// False when the disk does not take them.
+/// Writes an answer to a file; false when the disk does not take it.
 bool write_answer(int file, const CachedAnswer& answer) {
   Tail tail{.bytes = answer.bytes->size(),
             .version_bytes = answer.version.size(),
@@ -144,8 +144,8 @@ bool is_hexadecimal(const std::string& text, std::size_t digits) {
   return text.size() == digits && text.find_first_not_of("0123456789abcdef") == std::string::npos;
 }
 
-/// Adds the files of one of the folders in a cache's folder.  Only those that have the names that a
-/// cache gives count: the folder may be one that holds other things, which must not be removed.
+/// Adds the files of one of the folders in a cache's folder.  Only files with names that a cache
+/// gives count, since the folder may hold other files, which must not be removed.
 void add_files_in(const fs::path& folder, std::vector<KeptFile>& out) {
   std::error_code error;
   const auto now = fs::file_time_type::clock::now();
@@ -255,13 +255,13 @@ bool DiskCache::write(const fs::path& path, const CachedAnswer& answer) {
   return file.valid() && write_answer(file.get(), answer);
 }
 
-/// REQUIRES: the lock.
+/// REQUIRES: the caller has the lock.
 void DiskCache::count(std::uint64_t bytes) {
   bytes_ += bytes;
   if (bytes_ > folder_.bytes) make_room();
 }
 
-/// Other processes may do the same at the same time: then more goes than has to.
+/// When other processes do the same at the same time, more is removed than has to be.
 void DiskCache::make_room() {
   std::vector<KeptFile> files = files_in(folder_.path);
   std::sort(files.begin(), files.end(), [](const KeptFile& a, const KeptFile& b) {

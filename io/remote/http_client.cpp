@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The mwmesh authors
 // SPDX-License-Identifier: Apache-2.0
-// Requests by libcurl, and judging what comes back.
+// Sends requests by libcurl, and judges what comes back.
 #include "io/remote/http_client.h"
 
 #include <curl/curl.h>
@@ -21,13 +21,13 @@
 #include "io/remote/address.h"
 
 namespace mw::io {
-/// What an attempt came to.
+/// The result of an attempt.
 struct HttpClient::Verdict {
   enum class Kind { kDone, kRetry, kFail } kind = Kind::kDone;
   ErrorKind error = ErrorKind::kInput;
   std::string reason;
   std::string way_out;
-  bool is_hopeless = false;  ///< a retry that hardly ever helps
+  bool is_hopeless = false;  ///< a retry hardly ever helps
 
   static Verdict retry(ErrorKind error, std::string reason, std::string way_out) {
     return {Kind::kRetry, error, std::move(reason), std::move(way_out)};
@@ -42,9 +42,9 @@ namespace {
 constexpr long kOk = 200;
 constexpr long kPartial = 206;
 constexpr long kRangeBeyondEnd = 416;
-/// What is read of the body of an error before the connection is closed.
+/// The most bytes that are read of an error's body before the connection is closed.
 constexpr std::uint64_t kMaxErrorBody = 64U << 10U;
-/// What is read in front of a part where the server sends whole files only.
+/// The most bytes that are read up to the end of a part where the server sends whole files only.
 constexpr std::uint64_t kMaxUnasked = 64ULL << 20U;
 constexpr const char* kTryLater = "try again later; a run that was saved goes on with --resume";
 constexpr const char* kBrokenServer = "ask those who run the server, or copy the volume to a disk";
@@ -61,7 +61,7 @@ std::string_view trimmed(std::string_view text) {
   return text;
 }
 
-/// Takes a number off the front.
+/// Takes a number off the front of text; false when there is none.
 bool take_number(std::string_view& text, std::uint64_t& number) {
   const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
   if (error != std::errc()) return false;
@@ -75,7 +75,7 @@ bool take_letter(std::string_view& text, char letter) {
   return true;
 }
 
-/// "bytes 0-15/1024"
+/// The header Content-Range, such as "bytes 0-15/1024".
 struct ContentRange {
   std::uint64_t first = 0;
   std::uint64_t last = 0;
@@ -94,7 +94,7 @@ std::optional<ContentRange> parse_content_range(std::string_view text) {
   return is_whole && is_sound ? std::optional(out) : std::nullopt;
 }
 
-/// Headers of an answer; those of the last one behind redirects.
+/// The headers of an answer, which is the last one behind redirects.
 struct Headers {
   long status = 0;
   std::string content_range;
@@ -134,7 +134,7 @@ void start_library() {
   if (kStarted != CURLE_OK) throw Error(ErrorKind::kResource, "libcurl cannot be started");
 }
 
-/// The header with the value of the environment.
+/// Returns the header Authorization with the value of the environment variable.
 std::string authorization_header() {
   const char* value = std::getenv(kAuthorizationVariable);  // NOLINT(concurrency-mt-unsafe)
   if (value == nullptr || *value == '\0') return {};
@@ -144,7 +144,8 @@ std::string authorization_header() {
   return text("Authorization: ", value);
 }
 
-/// Certificates of authorities, where the library's own path (Debian's) is not on this system.
+/// Returns the file of certificates of authorities: that of SSL_CERT_FILE, none where the library's
+/// own path (Debian's) is on this system, else one at another system's path.
 std::string certificates() {
   std::error_code ignored;
   const char* chosen = std::getenv("SSL_CERT_FILE");  // NOLINT(concurrency-mt-unsafe)
@@ -223,13 +224,13 @@ class HttpClient::Connections {
   std::vector<Handle> idle_;
 };
 
-/// A request, and what came of it last.
+/// A request, and the result of its last attempt.
 struct HttpClient::Exchange {
   const std::string& address;
-  // What belongs to a request for a whole file.
+  // These are for a request for a whole file.
   std::uint64_t max = 0;
   BodySink* sink = nullptr;
-  // What belongs to a request for a part.
+  // These are for a request for a part.
   std::uint64_t offset = 0;
   std::span<std::byte> out{};
 
@@ -239,12 +240,12 @@ struct HttpClient::Exchange {
   bool is_too_large = false;
   bool is_enough = false;                     ///< the rest of the body is not wanted
   const char* lie = nullptr;                  ///< what is wrong with the answer
-  std::exception_ptr thrown{};                ///< by the sink
-  std::array<char, CURL_ERROR_SIZE> words{};  ///< the library's, about an error
-  std::chrono::seconds wanted_wait{0};        ///< by the server
+  std::exception_ptr thrown{};                ///< what the sink threw
+  std::array<char, CURL_ERROR_SIZE> words{};  ///< what the library says about an error
+  std::chrono::seconds wanted_wait{0};        ///< what the server asks for
 
   [[nodiscard]] bool is_part() const { return sink == nullptr; }
-  /// The whole file's size, as the answer tells; nothing: it does not.
+  /// Returns the whole file's size, or nothing when the answer does not tell it.
   [[nodiscard]] std::optional<std::uint64_t> file_bytes() const;
   [[nodiscard]] Verdict perform(CURL* curl, const HttpLimits& limits,
                                 const std::string& authorization);
@@ -273,7 +274,7 @@ void HttpClient::Exchange::begin() {
   if (sink != nullptr) sink->restart();
 }
 
-/// False to end the transfer.
+/// Takes bytes of the body; false to end the transfer.
 bool HttpClient::Exchange::take(std::span<const std::byte> bytes) {
   const std::uint64_t before = received;
   received += bytes.size();
@@ -347,7 +348,7 @@ HttpClient::Verdict HttpClient::Exchange::judge(CURLcode code) const {
   if (thrown) std::rethrow_exception(thrown);
   if (lie != nullptr) return Verdict::retry(ErrorKind::kInput, lie, kBrokenServer);
   if (is_too_large || is_enough) return {};
-  // What follows a status that is an error does not matter.
+  // The body behind a status that is an error does not matter.
   if (code != CURLE_OK && !(code == CURLE_WRITE_ERROR && headers.status >= 300)) {
     return judge_failure(code);
   }
@@ -407,7 +408,7 @@ HttpClient::Verdict HttpClient::Exchange::judge_status() const {
 
 HttpClient::Verdict HttpClient::Exchange::judge_part() const {
   const auto size = file_bytes();
-  // An empty body has not been looked at.
+  // take_part() has not looked at an empty body.
   if (!size || taken == 0) {
     return Verdict::retry(ErrorKind::kInput,
                           "the answer has no body, or does not say of which part", kBrokenServer);
@@ -422,7 +423,7 @@ HttpClient::Verdict HttpClient::Exchange::judge_part() const {
 
 namespace {
 
-/// For libcurl: what C++ throws must not pass it.
+/// libcurl calls this for each header; nothing that C++ throws may pass through it.
 std::size_t on_header(char* bytes, std::size_t /*one*/, std::size_t count, void* target) noexcept {
   try {
     static_cast<Headers*>(target)->add({bytes, count});
@@ -444,7 +445,7 @@ HttpClient::~HttpClient() = default;
 
 namespace {
 
-/// The settings of all requests.  REQUIRES: address outlives the transfer.
+/// Makes the settings of all requests.  REQUIRES: address outlives the transfer.
 void set_up(CURL* curl, const HttpLimits& limits, const std::string& address) {
   static const std::string kCertificates = certificates();
   const bool is_safe = address.starts_with("https://");
@@ -471,7 +472,7 @@ std::size_t HttpClient::Exchange::on_body(char* bytes, std::size_t /*one*/, std:
   return static_cast<Exchange*>(target)->take(arrived) ? count : 0;
 }
 
-/// One attempt.  ERRORS: what the sink throws.
+/// Makes one attempt.  ERRORS: what the sink throws.
 HttpClient::Verdict HttpClient::Exchange::perform(CURL* curl, const HttpLimits& limits,
                                                   const std::string& authorization) {
   begin();
@@ -491,7 +492,7 @@ HttpClient::Verdict HttpClient::Exchange::perform(CURL* curl, const HttpLimits& 
   curl_off_t wait = 0;
   curl_easy_getinfo(curl, CURLINFO_RETRY_AFTER, &wait);
   wanted_wait = std::chrono::seconds(std::clamp<curl_off_t>(wait, 0, 3600));
-  // The library must not keep pointers to what goes now.
+  // The library must not keep pointers to what ends here.
   curl_easy_setopt(curl, CURLOPT_HTTPHEADER, nullptr);
   curl_easy_setopt(curl, CURLOPT_ERRORBUFFER, nullptr);
   return judge(code);

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: The mwmesh authors
 // SPDX-License-Identifier: Apache-2.0
-// Files of a web server, whole or in parts, by libcurl.  What a server may do wrong ends here: what
-// comes out of this is what was asked for, or an error.
+// Files of a web server, whole or in parts, by libcurl.  Whatever a server does wrong, callers get
+// what they asked for, or an error.
 #pragma once
 
 #include <chrono>
@@ -20,7 +20,8 @@ inline constexpr const char* kAuthorizationVariable = "MW_HTTP_AUTHORIZATION";
 struct HttpLimits {
   int connections = 16;  ///< at most, at a time
   int attempts = 9;      ///< of a request
-  /// Between the first two attempts; doubled from then on, unless the server asks for more.
+  /// The wait between the first two attempts.  It doubles from then on; a wait is longer where the
+  /// server asks for that, but at most max_wait.
   std::chrono::milliseconds first_wait{100};
   std::chrono::seconds max_wait{60};
   long connect_seconds = 30;
@@ -32,7 +33,7 @@ struct HttpLimits {
 class BodySink {
  public:
   virtual ~BodySink() = default;
-  /// Forgets what has come: another attempt begins.
+  /// Forgets what has come, as another attempt begins.
   virtual void restart() = 0;
   virtual void take(std::span<const std::byte> bytes) = 0;
 };
@@ -41,14 +42,15 @@ enum class Presence { kThere, kAbsent, kTooLarge };
 
 /// What is known of a file after a part of it has come.
 struct RemotePart {
-  std::uint64_t bytes = 0;       ///< that have come
+  std::uint64_t bytes = 0;       ///< of the part
   std::uint64_t file_bytes = 0;  ///< of the whole file
   std::string version;  ///< its strong ETag or else the time of its last change; may be empty
 };
 
-/// Requests are repeated, with growing waits, after 408, 429, 5xx, failed connections, bodies that
-/// end early and wrong parts.  The authorization is of kAuthorizationVariable, else of .netrc; it
-/// goes to the host of the address only, not to where that redirects, and is in no message.
+/// Requests are repeated, with growing waits, after 408, 416, 425, 429, 5xx, failed connections,
+/// bodies that end early and wrong parts.  The authorization is that of kAuthorizationVariable,
+/// else of .netrc; it goes to the host of the address only, not to where that redirects, and is in
+/// no message.
 /// ERRORS (all members): mw::Error(kInput), naming the address, when the server refuses, redirects
 /// without end, or sends what was not asked for; kResource when it does not answer.
 /// Thread safety: any; more threads than connections wait for each other.
@@ -64,9 +66,8 @@ class HttpClient {
   /// ENSURES: with kThere the body had at most max bytes, all of which are in the sink.
   [[nodiscard]] Presence get(const std::string& address, std::uint64_t max, BodySink& sink) const;
 
-  /// Fetches bytes from offset on: as many as out has, or those up to the end of the file.
-  /// A server that does not know parts sends the file up to there, as long as that is no more than
-  /// 64 MiB.
+  /// Fetches bytes from offset on: as many as out has, or those up to the end of the file.  From a
+  /// server that does not know parts it takes the file up to there, if that is at most 64 MiB.
   /// ENSURES: empty when there is no such file.
   [[nodiscard]] std::optional<RemotePart> get_part(const std::string& address, std::uint64_t offset,
                                                    std::span<std::byte> out) const;
@@ -80,7 +81,7 @@ class HttpClient {
   void run(Exchange& exchange) const;
 
   HttpLimits limits_;
-  std::string authorization_;  ///< a whole header; empty: none
+  std::string authorization_;  ///< a whole header; empty if there is none
   std::unique_ptr<Connections> connections_;
 };
 

@@ -18,9 +18,9 @@ namespace mw::io {
 namespace {
 
 constexpr std::uint64_t kHeldBytes = 4ULL << 20U;
-/// The front of a file that is read in parts; indices of shards are there.
+/// The bytes that are read first of a file in parts; indices of shards are there.
 constexpr std::size_t kFrontBytes = 16U << 10U;
-/// The largest document that is remembered, and how many answers are.
+/// The bytes of the largest document that is remembered, and the most answers that are.
 constexpr std::uint64_t kMaxRemembered = 256U << 10U;
 constexpr std::size_t kMaxAnswers = 256;
 constexpr std::size_t kMaxVersions = 4096;
@@ -47,7 +47,7 @@ class HeldBytes : public ByteSource {
   std::string name_;
 };
 
-/// A body in memory, as far as it is small.
+/// A body, in memory if it is small and else in a file.
 class Body : public BodySink {
  public:
   void restart() override {
@@ -77,7 +77,7 @@ class Body : public BodySink {
   std::optional<ScratchFile> file_;
 };
 
-/// Files by their parts, each of which has to be of the same version of its file.
+/// Reads parts of files, all of which must be of the same version of their file.
 class PartReader {
  public:
   PartReader(const HttpLimits& limits, const CacheFolder* folder) : client_(limits) {
@@ -85,9 +85,9 @@ class PartReader {
   }
 
   [[nodiscard]] const HttpClient& client() const { return client_; }
-  /// Null: there is none.
+  /// Returns the cache; null when there is none.
   [[nodiscard]] DiskCache* cache() const { return cache_.get(); }
-  /// ENSURES: empty when there is no such file.
+  /// Reads bytes from offset on.  ENSURES: empty when there is no such file.
   [[nodiscard]] std::optional<RemotePart> read(const std::string& address, std::uint64_t offset,
                                                std::span<std::byte> out) const {
     auto part = cached(address, offset, out);
@@ -101,8 +101,9 @@ class PartReader {
     return part;
   }
 
-  /// Documents that tell how a store is to be read are asked for in every run, and are part of the
-  /// keys of all that lies below them: answers from before they changed are not found again.
+  /// Notes a document that tells how a store is to be read.  These are fetched in every run and are
+  /// part of the keys of all that lies below them, so that answers that were kept when they were
+  /// different are not found.
   void add_document(const std::string& address, std::span<const std::byte> bytes) const {
     const auto slash = address.rfind('/');
     const std::lock_guard lock(mutex_);
@@ -126,7 +127,7 @@ class PartReader {
   }
 
  private:
-  /// From the cache, else from the server.
+  /// Reads from the cache, else from the server.
   std::optional<RemotePart> cached(const std::string& address, std::uint64_t offset,
                                    std::span<std::byte> out) const {
     if (!cache_) return client_.get_part(address, offset, out);
@@ -157,14 +158,14 @@ class PartReader {
   std::unique_ptr<DiskCache> cache_;
   mutable std::mutex mutex_;
   mutable std::map<std::string, std::string> versions_;  ///< by address
-  /// Digests of documents by address, by the folder that they are in.
+  /// The digests of documents by their address, by the folder that they are in.
   mutable std::map<std::string, std::map<std::string, ContentDigest>> documents_;
 };
 
 /// Some bytes of a file on the server.
 class RemoteBytes : public ByteSource {
  public:
-  /// front: bytes from offset on that are there already.
+  /// front has bytes from offset on that were read already.
   RemoteBytes(std::shared_ptr<const PartReader> reader, std::string address, std::uint64_t offset,
               std::uint64_t size, std::string label, std::vector<std::byte> front = {})
       : reader_(std::move(reader)),
@@ -246,7 +247,7 @@ class RemoteStore : public Store {
   [[nodiscard]] std::uint64_t held_bytes(std::uint64_t max) const override {
     return std::min(max, kHeldBytes) + kFrontBytes;
   }
-  /// What metadata say is asked for right afterwards, so it is remembered.
+  /// Remembers the metadata that it fetches, since callers open them right afterwards.
   [[nodiscard]] bool has_file(const std::string& name) const override {
     if (const auto known = remembered(name)) return known->has_value();
     Body body;
@@ -279,7 +280,7 @@ class RemoteStore : public Store {
   }
 
  private:
-  /// Null: there is no such file.
+  /// Fetches a whole file; null when there is no such file.
   [[nodiscard]] std::unique_ptr<ByteSource> fetch(const std::string& name,
                                                   std::uint64_t max) const {
     Body body;
@@ -294,7 +295,7 @@ class RemoteStore : public Store {
     }
     return body.source(name);
   }
-  /// Bytes of a document, or that there is none.
+  /// The bytes of a document, or nothing when there is no such file.
   using Answer = std::optional<std::vector<std::byte>>;
 
   [[nodiscard]] std::optional<Answer> remembered(const std::string& name) const {

@@ -22,9 +22,9 @@ class Store {
  public:
   virtual ~Store() = default;
 
-  /// Opens what is read as a whole; null when there is nothing of this name.  max: the most bytes
-  /// that it can have.  A server's body is refused while it arrives when it has more; the size of a
-  /// file is for the caller to judge.
+  /// Opens what is read as a whole; null when there is nothing of this name.  max is the most bytes
+  /// that it may have: a server's body is refused while it arrives if it has more, but the caller
+  /// must check the size of a file.
   /// ERRORS: mw::Error(kInput) naming it when it is there and cannot be read, or has more bytes;
   /// kResource when a server does not answer.
   [[nodiscard]] virtual std::unique_ptr<ByteSource> open(const std::string& name,
@@ -32,32 +32,32 @@ class Store {
   /// Opens what is read in parts, of any size; null when there is nothing of this name.
   /// ERRORS: those of open().
   [[nodiscard]] virtual std::unique_ptr<ByteSource> open_parts(const std::string& name) const = 0;
-  /// Opens [offset, offset + size) of what is there; label: what errors call it.
-  /// ERRORS: mw::Error(kInput) when it is not there; when it has fewer bytes, then or when they are
-  /// read.
+  /// Opens [offset, offset + size) of what is there; errors call it label.
+  /// ERRORS: mw::Error(kInput) when it is not there, or has fewer bytes; the latter may come only
+  /// when they are read.
   [[nodiscard]] virtual std::shared_ptr<const ByteSource> open_part(const std::string& name,
                                                                     std::uint64_t offset,
                                                                     std::uint64_t size,
                                                                     std::string label) const = 0;
-  /// Returns what open() may hold in memory of that many bytes.
+  /// Returns how many of that many bytes open() may hold in memory.
   [[nodiscard]] virtual std::uint64_t held_bytes(std::uint64_t max) const = 0;
   /// Whether there is a file of this name.  ERRORS: those of open().
   [[nodiscard]] virtual bool has_file(const std::string& name) const = 0;
   /// Whether there is a folder of this name; nothing where the store has no folders.
   [[nodiscard]] virtual std::optional<bool> has_folder(const std::string& name) const = 0;
-  /// The names of folders in a folder, sorted; nothing where the store cannot list them.
+  /// Returns the names of folders in a folder, sorted; nothing where the store cannot list them.
   [[nodiscard]] virtual std::optional<std::vector<std::string>> folders_in(
       const std::string& name) const = 0;
-  /// Whether looking for thousands of files takes no time to speak of.
+  /// Whether looking for thousands of files takes little time.
   [[nodiscard]] virtual bool is_near() const = 0;
-  /// The name of what is below another.
+  /// Returns the name of what is called `more` below a name.
   [[nodiscard]] virtual std::string below(const std::string& name, std::string_view more) const = 0;
-  /// The name of the folder that holds it, and its own in there; nothing at the top.
+  /// Returns the name of the folder that holds it, and its own in there; nothing at the top.
   [[nodiscard]] virtual std::optional<std::pair<std::string, std::string>> above(
       const std::string& name) const = 0;
 };
 
-/// A name with its store.  See Store for members that have the name of one of its.
+/// A name with its store.  Store describes the members that call one of its own.
 class Place {
  public:
   /// A path of the file system; a '/' at its end is left out.
@@ -65,19 +65,20 @@ class Place {
   Place(std::shared_ptr<const Store> store, std::string name)
       : store_(std::move(store)), name_(std::move(name)) {}
 
-  /// The path, or the address.
+  /// Returns the path, or the address.
   [[nodiscard]] const std::string& string() const { return name_; }
-  /// The part behind the last '/'.
+  /// Returns the part behind the last '/'.
   [[nodiscard]] std::string last_part() const;
-  /// The place below it; an absolute path of the file system is that path.
+  /// Returns the place below it; in the file system an absolute path gives that path itself.
   [[nodiscard]] Place operator/(std::string_view more) const {
     return {store_, store_->below(name_, more)};
   }
-  /// The place with more letters at its end.
+  /// Returns the place with more letters at the end of its name.
   [[nodiscard]] Place operator+(std::string_view more) const {
     return {store_, name_ + std::string(more)};
   }
-  /// The folder that holds it, links not followed, and its name in there; nothing at the top.
+  /// Returns the folder that holds it and its name in there, or nothing at the top.  Links are not
+  /// followed.
   [[nodiscard]] std::optional<std::pair<Place, std::string>> parent() const;
 
   /// Opens what is there, as open() and open_parts() of the store do.

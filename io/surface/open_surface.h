@@ -11,12 +11,12 @@
 
 namespace mw::io {
 
-/// The extensions that are written, as ".stl, .ply".
+/// Returns the extensions that are written, as ".stl, .ply".
 [[nodiscard]] std::string surface_extensions();
 [[nodiscard]] bool is_surface_path(const std::filesystem::path& path);
 
-/// By extension.  ERRORS: mw::Error(kUsage) for one that is not known, or a path that cannot be
-/// written.
+/// Opens the sink for a path's extension.
+/// ERRORS: mw::Error(kUsage) for one that is not known, or a path that cannot be written.
 [[nodiscard]] std::unique_ptr<SurfaceSink> open_surface_sink(const std::filesystem::path& path);
 
 }  // namespace mw::io

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The mwmesh authors
 // SPDX-License-Identifier: Apache-2.0
-// Which facets of a mesh make a surface, and these one after the other.
+// Which facets of a mesh make a surface, and a walk over these facets.
 #pragma once
 
 #include <optional>
@@ -12,25 +12,25 @@
 
 namespace mw::io {
 
-/// Memory of each sort that the surface of a mesh is put together with.
+/// The memory of each sort by which the surface of a mesh is made.
 inline constexpr std::size_t kSortBytes = 8 << 20;
 
-/// Facets of one group.
+/// The facets of one group.
 struct ShellPart {
-  std::size_t group = 0;  ///< of GroupedMesh::facet_groups()
+  std::size_t group = 0;  ///< its index in GroupedMesh::facet_groups()
   bool turned = false;    ///< normals are to point out of its second label
 };
 
 /// Facets that make one shell.
 struct ShellPlan {
-  std::optional<Label> label;    ///< the surface of this one; empty: of interfaces
+  std::optional<Label> label;    ///< the label whose surface it is; empty for interfaces
   std::vector<ShellPart> parts;  ///< ascending by group
 };
 
 /// Finds the facets of labels and pairs.  Memory: 32 bytes a group of facets.
 class ShellPlans {
  public:
-  /// closed: surfaces of labels have their facets on the sides of the box.
+  /// If closed, surfaces of labels have their facets on the sides of the box too.
   /// REQUIRES: mesh outlives it.
   ShellPlans(const GroupedMesh& mesh, bool closed);
 
@@ -38,8 +38,8 @@ class ShellPlans {
   [[nodiscard]] ShellPlan of_label(Label rank) const;
   /// Returns the interface of two labels, with normals out of the lower; empty if there is none.
   [[nodiscard]] ShellPlan of_pair(Label one, Label other) const;
-  /// Returns all interfaces of two labels, with normals out of the lower one, and where labels meet
-  /// what was left out of the mesh.  The sides of the box are no interfaces.
+  /// Returns all interfaces of two labels, with normals out of the lower one, and the facets where
+  /// labels meet what was left out of the mesh.  The sides of the box are no interfaces.
   [[nodiscard]] ShellPlan of_interfaces() const;
   /// Returns these interfaces, each as a shell of its own.
   [[nodiscard]] std::vector<ShellPlan> of_each_interface() const;
@@ -49,19 +49,19 @@ class ShellPlans {
   std::vector<std::vector<ShellPart>> by_label_;
 };
 
-/// Temporary files and the mesh that they are about.
+/// A mesh, and the folder of the temporary files from which its surface is made.
 struct SurfaceSource {
   GroupedMesh& mesh;
   std::filesystem::path folder;  ///< of temporary files
 };
 
-/// The label that the normals of a part point out of.
+/// Returns the label that the normals of a part point out of.
 [[nodiscard]] inline Label inside_of(const GroupedMesh& mesh, const ShellPart& part) {
   const FacetGroup& group = mesh.facet_groups()[part.group];
   return part.turned ? group.second : group.first;
 }
 
-/// Calls visit(rows of the mesh) on every facet, normals as planned.
+/// Calls visit on the rows of the mesh that are each facet's corners, with normals as planned.
 template <class Visit>
 void for_each_facet(GroupedMesh& mesh, const ShellPlan& plan, Visit visit) {
   for (const ShellPart& part : plan.parts) {

@@ -11,9 +11,9 @@
 namespace mw::io {
 namespace {
 
-/// Row of the mesh, sheet, corner.
+/// Records of a row of the mesh, a sheet and a corner.
 using CornersByVertex = ExternalSort<3>;
-/// Corner, vertex of the surface.
+/// Records of a corner and a vertex of the surface.
 using VerticesByCorner = ExternalSort<2>;
 
 void add_corners(const SurfaceSource& source, const ShellPlan& plan, CornersByVertex& corners) {

@@ -11,15 +11,15 @@ namespace mw::io {
 class Surface {
  public:
   /// Vertices of a shell ascend by their row in the mesh, triangles are as planned.
-  /// manifold: see each_sheet_corner(), for every shell.  REQUIRES: all parts of a shell have the
-  /// same label inside then.
+  /// With manifold, the vertices of each shell are those of each_sheet_corner().
+  /// REQUIRES: with manifold, all parts of a shell have the same label inside.
   /// Memory: 32 MiB, and with manifold what each_sheet_corner() takes.
   /// Cost: two sorts of three numbers a corner.
   Surface(const SurfaceSource& source, std::shared_ptr<const SurfaceLabels> labels,
           const std::vector<ShellPlan>& plans, bool manifold);
 
   [[nodiscard]] const SurfaceHeader& header() const { return header_; }
-  /// Begin to finish.
+  /// Writes all of the surface, from begin() to finish().
   void write(SurfaceSink& sink);
 
  private:

@@ -24,7 +24,7 @@ namespace mw::io {
 class GroupedMesh;
 struct SurfaceHeader;
 
-/// Shown where a label has no colour of its own: grey.
+/// Grey, which is shown where a label has no colour of its own.
 inline constexpr Colour kPlainColour{160, 160, 160, 255};
 
 /// What the ranks of labels stand for.
@@ -36,31 +36,31 @@ struct SurfaceLabels {
   [[nodiscard]] Colour colour(Label rank) const;
 };
 
-/// All labels of a mesh; titles are those of GroupNames.
+/// Returns all labels of a mesh; titles are those of GroupNames.
 [[nodiscard]] std::shared_ptr<const SurfaceLabels> surface_labels(const GroupedMesh& mesh);
 
-/// The labels that a surface's triangles are between, ascending.
+/// Returns the labels on both sides of a surface's triangles, ascending.
 [[nodiscard]] std::vector<Label> ranks_of(const SurfaceHeader& header);
 
-/// What is known of these.
+/// Returns the names and colours of these labels, as far as they are known.
 [[nodiscard]] LabelNames names_of(const SurfaceHeader& header);
 
-/// Whether the colour of one of them is known.
+/// Whether the colour of one of these labels is known.
 [[nodiscard]] bool has_colours(const SurfaceHeader& header);
 
 using Triangle = std::array<std::uint64_t, 3>;  ///< vertices of a surface, from 0
 
-/// Triangles one after the other that bound the same.
+/// Triangles one after the other that have the same side and labels.
 struct SurfaceRun {
   Side side = Side::kInterface;
   Label inside = 0;           ///< normals point out of it
-  Label outside = kExterior;  ///< where side is kInterface: what they point into
+  Label outside = kExterior;  ///< what they point into, where side is kInterface
   std::uint64_t triangles = 0;
 };
 
 /// Runs that share vertices; no other shell has these vertices.
 struct SurfaceShell {
-  std::optional<Label> label;  ///< it is the surface of this one; empty: interfaces of two
+  std::optional<Label> label;  ///< the label whose surface it is; empty for interfaces
   std::vector<SurfaceRun> runs;
   std::uint64_t vertices = 0;
 };
@@ -75,11 +75,12 @@ struct SurfaceHeader {
   [[nodiscard]] std::uint64_t triangles() const;
 };
 
-/// Receives a surface: begin, then all vertices, then all triangles, each in the order of shells
-/// and runs, finish.  A sink holds buffers whose size does not grow with the surface.  Nothing
-/// appears under the final name before finish() returns; a sink destroyed earlier leaves no file
-/// behind. ERRORS: mw::Error(kResource) on a full disk, kUsage when the path cannot be written or
-/// the surface has more vertices than the format has numbers for.
+/// Receives a surface: first begin(), then all vertices, then all triangles, each in the order of
+/// shells and runs, and last finish().  A sink holds buffers whose size does not grow with the
+/// surface, unless it says otherwise.  Nothing appears under the final name before finish()
+/// returns; a sink that is destroyed earlier leaves no file behind.
+/// ERRORS: mw::Error(kResource) on a full disk, kUsage when the path cannot be written or the
+/// surface has more vertices than the format has numbers for.
 class SurfaceSink {
  public:
   virtual ~SurfaceSink() = default;
@@ -110,11 +111,11 @@ class RunCursor {
   bool begun_ = false;
 };
 
-/// "SPACE=RAS" or "SPACE=LPS", as 3D Slicer finds it in comments of files; empty where the frame is
-/// not known.
+/// Returns "SPACE=RAS" or "SPACE=LPS", which 3D Slicer looks for in comments of files; empty where
+/// the frame is not known.
 [[nodiscard]] std::string space_comment(const SurfaceHeader& header);
 
-/// At the end of a file or text, least significant byte first.
+/// Appends a number to a file or text, least significant byte first.
 template <class Out, class T>
 void append_little(Out& out, T value) {
   std::array<std::byte, sizeof value> bytes;

@@ -10,18 +10,18 @@
 namespace mw::io {
 namespace {
 
-/// Facets at an edge: third corner, and whether the facet runs along the edge as its rows ascend.
+/// The facets at an edge, by their third corner: whether each runs along it as its rows ascend.
 using EdgeFacets = std::map<std::uint64_t, bool>;
 using SharedEdges = std::map<EdgeRows, EdgeFacets>;
 
-/// Records of one edge after the other: its two rows, and two more numbers.
+/// Records of edges, each with the edge's two rows and two more numbers.
 using EdgeRecords = ExternalSort<4>;
 
 EdgeRows edge_of(std::uint64_t a, std::uint64_t b) {
   return {std::min(a, b), std::max(a, b)};
 }
 
-/// Calls visit(edge, its records) on every edge, ascending.  Memory: the records of one.
+/// Calls visit(edge, its records) on every edge, ascending.  Memory: the records of one edge.
 template <class Visit>
 void each_edge(EdgeRecords& records, Visit visit) {
   std::vector<EdgeRecords::Record> same;
@@ -72,7 +72,7 @@ class EdgeFilter {
   std::vector<bool> bits_ = std::vector<bool>(std::size_t{1} << kBits);
 };
 
-/// For each tet of the label that may be at a shared edge, the edge and the other two corners.
+/// Adds, for each tet of the label that may be at a shared edge, the edge and its other corners.
 void add_tets(GroupedMesh& mesh, Label label, const SharedEdges& shared, EdgeRecords& records) {
   EdgeFilter filter;
   for (const auto& [edge, facets] : shared) filter.insert(edge);
@@ -95,7 +95,7 @@ void add_tets(GroupedMesh& mesh, Label label, const SharedEdges& shared, EdgeRec
 /// Corners around an edge, joined where a tet of the label has both.
 using Link = std::map<std::uint64_t, std::vector<std::uint64_t>>;
 
-/// The other end of the fan of tets that begins at the facet of this corner.
+/// Returns the other end of the fan of tets that begins at the facet of this corner.
 std::uint64_t far_end(const Link& link, std::uint64_t corner) {
   std::uint64_t before = kNoCorner;
   for (;;) {
@@ -146,8 +146,8 @@ struct Star {
   std::vector<StarCorner> corners;
 };
 
-/// The corner of the facet that leaves along the edge to `to` and has `from` as third corner; with
-/// kNoCorner the first that leaves there.  Null when there is none.
+/// Returns the corner of the facet that leaves along the edge to `to` and has `from` as third
+/// corner, or, if that is kNoCorner, of the first that leaves there; null when there is none.
 StarCorner* leaving(Star& star, std::uint64_t to, std::uint64_t from) {
   auto at = std::lower_bound(star.corners.begin(), star.corners.end(), to,
                              [](const StarCorner& c, std::uint64_t row) { return c.to < row; });
@@ -157,7 +157,8 @@ StarCorner* leaving(Star& star, std::uint64_t to, std::uint64_t from) {
   return nullptr;
 }
 
-/// The facet that follows around the vertex: the partner at the edge by which this one comes back.
+/// Returns the facet that follows around the vertex, the partner at the edge by which `at` comes
+/// back; null when there is none.
 StarCorner* next_corner(Star& star, const StarCorner& at, const EdgeStrands& strands) {
   const auto shared = strands.find({std::min(star.row, at.from), std::max(star.row, at.from)});
   if (shared == strands.end()) return leaving(star, at.from, kNoCorner);
@@ -170,7 +171,7 @@ StarCorner* next_corner(Star& star, const StarCorner& at, const EdgeStrands& str
   return nullptr;
 }
 
-/// Gives the corners from here on their sheet, if they have none.
+/// Gives a sheet to the corners that follow around the vertex from `first` on and have none.
 void name_sheet(Star& star, StarCorner& first, const EdgeStrands& strands) {
   std::vector<StarCorner*> fan;
   std::uint64_t min = kUnknown;
@@ -183,7 +184,7 @@ void name_sheet(Star& star, StarCorner& first, const EdgeStrands& strands) {
   for (StarCorner* const at : fan) at->sheet = min;
 }
 
-/// Every sheet is called by the least corner in it.
+/// Finds the sheets of a star, each of which has the number of the least corner in it.
 void find_sheets(Star& star, const EdgeStrands& strands) {
   std::vector<bool> begins(star.corners.size(), true);
   for (StarCorner& corner : star.corners) {
@@ -191,7 +192,7 @@ void find_sheets(Star& star, const EdgeStrands& strands) {
     const StarCorner* next = next_corner(star, corner, strands);
     if (next != nullptr) begins[static_cast<std::size_t>(next - star.corners.data())] = false;
   }
-  // Open fans from their beginning on, then those that are closed.
+  // Open fans come first, from their beginning on, then those that are closed.
   for (const bool open : {true, false}) {
     for (std::size_t i = 0; i < star.corners.size(); ++i) {
       if (begins[i] == open) name_sheet(star, star.corners[i], strands);
@@ -199,10 +200,10 @@ void find_sheets(Star& star, const EdgeStrands& strands) {
   }
 }
 
-/// Stars of the ends of shared edges, by row.
+/// The stars of the ends of shared edges, by row.
 using Stars = std::map<std::uint64_t, Star>;
 
-/// The sheet of a strand's facets at one end of the edge.
+/// Returns the sheet of a strand's facets at one end of the edge.
 std::uint64_t sheet_at(Star& star, std::uint64_t other_end, const Strand& strand) {
   const bool ascends = star.row < other_end;
   // The facet that leaves along the edge, or else the one that comes back.
@@ -225,7 +226,8 @@ bool clash(Stars& stars, const EdgeRows& edge, const Strand& one, const Strand& 
   return true;
 }
 
-/// To change partners splits the sheet at either end in two, so what does not clash never will.
+/// Lets strands that clash change partners.  This splits the sheet at either end in two, so that
+/// strands that do not clash never will.
 void part_clashes(Stars& stars, EdgeStrands& strands) {
   for (auto& [edge, here] : strands) {
     for (std::size_t i = 0; i < here.size(); ++i) {
@@ -242,7 +244,7 @@ void pass_on(const Star& star, const std::function<void(const SheetCorner&)>& vi
   for (const StarCorner& corner : star.corners) visit({star.row, corner.sheet, corner.corner});
 }
 
-/// Row, next corner's row, third corner's row, corner.
+/// Records of a corner: its row, the next corner's row, the third corner's row, and its number.
 using Corners = ExternalSort<4>;
 
 void add_corners(const SurfaceSource& source, const ShellPlan& plan, Corners& corners) {

@@ -61,8 +61,8 @@ std::uint64_t payload_bytes(const VolumeInfo& info) {
 void check_payload(const ByteSource& source, const VolumeInfo& info, std::uint64_t offset,
                    BytesBehind behind, std::uint64_t copies) {
   const std::uint64_t wanted = saturating_product(payload_bytes(info), copies);
-  // One byte more, since the end of a packed source has a checksum, which is compared there; what
-  // is refused is counted further, so that it tells which type the voxels may have.
+  // One byte more, as a packed source compares its checksum at its end.  Where more bytes are
+  // refused, they are counted further, which shows the type that the voxels may have.
   const std::uint64_t max =
       behind == BytesBehind::kIgnored ? wanted + 1 : saturating_product(wanted, 16);
   const std::uint64_t size = source.size_within(saturating_sum(offset, max));

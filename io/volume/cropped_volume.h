@@ -12,11 +12,11 @@
 
 namespace mw::io {
 
-/// Thread safety: as the volume below.  Chunks keep their size; where the box does not begin at
-/// one they are no longer aligned, which costs time only.
+/// A box of a volume.  Chunks keep their size; where the box does not begin at one they are not
+/// aligned, which costs time only.  Thread safety: that of the volume below.
 class CroppedVolume : public VolumeView {
  public:
-  /// moves_origin: the origin is the first corner of the whole volume, not yet of the box.
+  /// moves_origin says whether to move the origin from the first corner of the volume to the box's.
   /// REQUIRES: box not empty and inside the volume.
   CroppedVolume(std::unique_ptr<LabelVolume> volume, const Box3& box, bool moves_origin);
 
@@ -48,8 +48,8 @@ class CroppedVolume : public VolumeView {
 /// outside.
 void check_crop(std::string_view file, const Box3& crop, Index3 shape);
 
-/// The part that options.crop asks for, if it does.  The origin of the options, if given, is that
-/// of the part.
+/// Returns the part of the volume that options.crop asks for, or all of it without a crop.  The
+/// origin of the options, if they have one, is that of the part.
 /// ERRORS: those of check_crop().
 [[nodiscard]] std::unique_ptr<LabelVolume> cropped(std::unique_ptr<LabelVolume> volume,
                                                    std::string_view file,

@@ -84,14 +84,14 @@ auto with_type(VoxelType type, Run run) {
   return run(double{});
 }
 
-/// The whole number that x is, if 64 signed bits hold it.
+/// Returns x as a whole number if it is one that 64 signed bits hold.
 std::optional<std::int64_t> whole(double x) {
   if (!(x >= -0x1p63 && x < 0x1p63) || x != std::floor(x)) return std::nullopt;
   return static_cast<std::int64_t>(x);
 }
 
-/// The whole number that slope * value + intercept is, if 64 signed bits hold it; computed in
-/// integers where all three are, so that no bit is lost.
+/// Returns slope * value + intercept if it is a whole number that 64 signed bits hold.  It is
+/// computed in integers where all three are, so that no bit is lost.
 template <class T>
 std::optional<std::int64_t> scaled(T value, const VoxelScaling& scaling) {
   if constexpr (std::is_integral_v<T>) {
@@ -111,7 +111,7 @@ RawLabel label_of(T value) {
   return static_cast<RawLabel>(value);  // NOLINT(bugprone-signed-char-misuse): with signs
 }
 
-// The byte order is a template parameter and neighbours a loop of its own, for the vectoriser.
+// The byte order is a template parameter, and neighbours have their own loop, to be vectorised.
 template <class T, ByteOrder kOrder>
 void decode_integers(const std::byte* bytes, std::size_t count, std::size_t step, RawLabel* out,
                      std::size_t stride) {

@@ -14,7 +14,7 @@
 
 namespace mw::io {
 
-/// "u8" .. "i64", "f32", "f64" as name() gives them.
+/// Returns the type that name() calls so: "u8" .. "i64", "f32", "f64".
 [[nodiscard]] std::optional<VoxelType> parse_voxel_type(std::string_view text);
 
 /// REQUIRES: bytes is 1, 2, 4 or 8.
@@ -36,21 +36,22 @@ struct VoxelCoding {
   VoxelType type = VoxelType::kU8;
   ByteOrder order = ByteOrder::kLittle;
   VoxelScaling scaling{};
-  /// Voxels are numbers of any kind: what is decoded are the bits of doubles, not labels.
+  /// Whether voxels are numbers of any kind, so that they become the bits of doubles, not labels.
   bool as_numbers = false;
 };
 
-/// Decodes `count` voxels, `step` of them apart at `bytes`, to out[0], out[stride], ...; signed
-/// types are sign-extended, floats and scaled numbers must be whole and within 64 signed bits,
-/// unless coding.as_numbers. ENSURES: returns the index of the first that is not, or count.
+/// Decodes `count` voxels at `bytes`, each `step` voxels behind the last, to out[0], out[stride]
+/// and so on.  Signed types are sign-extended.  Floats and scaled numbers must be whole and within
+/// 64 signed bits, unless coding.as_numbers.  ENSURES: returns the index of the first that is not,
+/// or count.
 [[nodiscard]] std::size_t decode_voxels(const std::byte* bytes, std::size_t count, std::size_t step,
                                         const VoxelCoding& coding, RawLabel* out,
                                         std::size_t stride);
 
-/// The doubles whose bits these are (VoxelCoding::as_numbers).  REQUIRES: sizes are equal.
+/// Turns bits into the doubles that they are (VoxelCoding::as_numbers).  REQUIRES: sizes are equal.
 void numbers_of_bits(std::span<const RawLabel> bits, std::span<double> out);
 
-/// Why the voxel at `bytes` is no label: "value 1.5 is not a whole number".
+/// Says why the voxel at `bytes` is no label, such as "value 1.5 is not a whole number".
 [[nodiscard]] std::string why_no_label(const std::byte* bytes, const VoxelCoding& coding);
 
 /// Throws mw::Error(kInput) for a voxel that is no label: "FILE: voxel (x, y, z): value 1.5 is not
@@ -58,10 +59,10 @@ void numbers_of_bits(std::span<const RawLabel> bits, std::span<double> out);
 [[noreturn]] void fail_voxel(std::string_view file, Index3 voxel, const std::byte* bytes,
                              const VoxelCoding& coding);
 
-/// Encodes labels, least significant byte first.  REQUIRES: an integer type; out.size() == size of
-/// the voxels.
-/// ENSURES: returns the index of the first label that the type cannot hold (nothing is written
-/// from there on), or labels.size().
+/// Encodes labels, least significant byte first.  REQUIRES: the type is one of integers, and out
+/// has the size of the voxels.
+/// ENSURES: returns the index of the first label that the type cannot hold (nothing is written from
+/// there on), or labels.size().
 [[nodiscard]] std::size_t encode_voxels(std::span<const RawLabel> labels, VoxelType type,
                                         std::span<std::byte> out);
 

@@ -23,8 +23,8 @@ bool is_direction(const Vector3& step) {
   return std::isfinite(length) && length > 0;
 }
 
-/// Rounded to 14 digits, as lengths of turned steps are good to no more: 1.25 for a rotation of
-/// 1.25, so that a volume is meshed the same in all its directions.
+/// Rounds to 14 digits, which is all that lengths of turned steps are good for: a turned spacing of
+/// 1.25 is 1.25 again, so that a volume is meshed the same in all its directions.
 double tidied(double length) {
   std::array<char, 32> text{};
   const char* end = std::to_chars(text.data(), text.data() + text.size(), length,
@@ -36,7 +36,7 @@ double tidied(double length) {
 }
 
 double length_of(const FileSpace& space, std::size_t axis) {
-  constexpr double kAgree = 1e-5;  // of floats, or of texts with six digits
+  constexpr double kAgree = 1e-5;  // error of floats, or of six digits
   const Vector3& step = space.steps[axis];
   const double length = std::hypot(step[0], step[1], step[2]);
   if (std::count(step.begin(), step.end(), 0.0) == 2) return length;
@@ -53,8 +53,8 @@ void check_steps(std::string_view file, const FileSpace& space) {
   }
 }
 
-/// The nearest axes at right angles: half-way to the inverse of the transpose, again and again, by
-/// Higham (SIAM J. Sci. Stat. Comput. 7, 1986); signed permutations stay as they are to the bit.
+/// Returns the nearest axes at right angles by Higham (SIAM J. Sci. Stat. Comput. 7, 1986): steps
+/// go half-way to the inverse of the transpose.  Signed permutations stay as they are to the bit.
 std::array<Vector3, 3> straightened(std::array<Vector3, 3> axes) {
   constexpr int kSteps = 6;  // each squares the error
   for (int step = 0; step < kSteps; ++step) {

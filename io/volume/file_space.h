@@ -13,12 +13,12 @@ namespace mw::io {
 
 /// A volume's place in the world as a header has it, not checked.
 struct FileSpace {
-  /// steps[i]: the way from a voxel to its neighbour along axis i of the array (x, y, z).
+  /// steps[i] is the way from a voxel to its neighbour along axis i of the array (x, y, z).
   std::array<Vector3, 3> steps{{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}};
-  /// The lengths of the steps where the file has them by themselves as well: they are taken where
-  /// both agree, as those of turned steps are rounded (to 14 digits if nothing else is known).
+  /// The lengths of the steps where the file states them, too.  They replace the lengths of turned
+  /// steps that agree with them, which have rounding errors.
   std::optional<Vector3> lengths;
-  /// Where the first voxel is; empty: the file places nothing, and its first corner is at 0.
+  /// Where the first voxel is; empty: the file does not say it, and its first corner is at 0.
   std::optional<Vector3> first;
   bool first_is_centre = true;  ///< `first` is the centre of that voxel, else its first corner
   std::string unit;
@@ -27,18 +27,18 @@ struct FileSpace {
   const char* first_field = "origin";
 };
 
-/// Steps along the axes of the array, of these lengths.
+/// Returns steps along the axes of the array, of these lengths.
 [[nodiscard]] std::array<Vector3, 3> steps_of(const Vector3& spacing);
 
-/// "file", "ras", "lps", "voxel".
+/// Returns the choice called "file", "ras", "lps" or "voxel".
 [[nodiscard]] std::optional<FrameChoice> parse_frame_choice(std::string_view text);
 
-/// The options' spacing replaces the lengths of the steps, their origin the first corner, their
-/// frame the axes: in kRas and kLps a file of the other turns its x and y; kVoxel keeps nothing but
-/// the spacing.  What the options replace is not looked at.
+/// The options' spacing replaces the lengths of the steps, their origin the first corner, and their
+/// frame the axes: kRas and kLps turn x and y of a file of the other frame; kVoxel keeps the
+/// spacing only.  What the options replace is not looked at.
 /// ERRORS: mw::Error(kInput) naming file and field for steps that are not finite, 0, or not at
-/// right angles (beyond 1e-4: coordinates are kept in float by many tools; within it the axes are
-/// straightened); kUsage when the frame that is asked for is none that the file's can be turned to.
+/// right angles (beyond 1e-4, as many tools keep coordinates in float; within it the axes are
+/// straightened); kUsage when the axes cannot be turned to the frame that is asked for.
 [[nodiscard]] VolumeSpace placed(std::string_view file, const FileSpace& space,
                                  const OpenOptions& options);
 

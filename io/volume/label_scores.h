@@ -11,8 +11,8 @@
 
 namespace mw::io {
 
-/// A score for each label and voxel: a voxel has the label of the highest score, the smallest label
-/// of several.  So two labels meet where their scores are equal.
+/// A score for each label and voxel.  The label of a voxel is the one of the highest score, and the
+/// smallest of several, so that two labels meet where their scores are equal.
 /// Thread safety: const members may be called from many threads.
 class LabelScores {
  public:
@@ -20,7 +20,7 @@ class LabelScores {
   [[nodiscard]] virtual Index3 shape() const = 0;
   /// Labels are 0 to labels() - 1.
   [[nodiscard]] virtual std::size_t labels() const = 0;
-  /// Reads the scores of a label, x fastest.  REQUIRES: as LabelVolume::read().
+  /// Reads the scores of a label, x fastest.  REQUIRES: what LabelVolume::read() requires.
   virtual void read_scores(RawLabel label, const Box3& box, std::span<double> out) const = 0;
 };
 

@@ -22,7 +22,7 @@ class LabelScores;
 enum class VoxelType { kU8, kU16, kU32, kU64, kI8, kI16, kI32, kI64, kF32, kF64 };
 
 [[nodiscard]] int byte_size(VoxelType type);
-[[nodiscard]] bool is_signed(VoxelType type);    ///< whether labels are: floats are
+[[nodiscard]] bool is_signed(VoxelType type);    ///< whether labels may be negative, as in floats
 [[nodiscard]] bool is_float(VoxelType type);     ///< labels stored as whole numbers in floats
 [[nodiscard]] const char* name(VoxelType type);  ///< "u8" .. "i64", "f32", "f64"
 
@@ -34,8 +34,8 @@ struct VolumeInfo {
   std::string format;               ///< "npy", "nifti", "nrrd", "raw" and so on
   bool scaled = false;              ///< labels are slope * stored + intercept, hence signed
   bool z_fastest = false;           ///< order in the file; to read all, go along x
-  /// What is read at once anyhow: boxes that begin and end at multiples of it are the cheapest.  0
-  /// along an axis: any box is.
+  /// The extents of what is read as one: boxes that begin and end at multiples of it are the
+  /// cheapest.  0 along an axis means that any box is.
   Index3 chunk{0, 0, 0};
   Index3 first{0, 0, 0};  ///< which voxel of the file is the first of these
   bool is_placed = true;  ///< false: the format cannot say where voxels are
@@ -69,7 +69,7 @@ class LabelVolume {
   [[nodiscard]] virtual const LabelScores* scores() const { return nullptr; }
 };
 
-/// Everything as the volume below has it; read() is the heir's.
+/// Shows another volume as it is, except for read(), which a subclass defines.
 class VolumeView : public LabelVolume {
  public:
   /// The volume must outlive it.

@@ -9,8 +9,8 @@
 
 namespace mw::io {
 
-/// What some LabelVolumes are as well.  Thread safety: read_numbers() may be called from many
-/// threads.
+/// An interface of those LabelVolumes whose voxels can be read as numbers.
+/// Thread safety: read_numbers() may be called from many threads.
 class NumberVolume {
  public:
   virtual ~NumberVolume() = default;

@@ -31,7 +31,7 @@ enum class FrameChoice {
   kVoxel,  ///< the array's axes: spacing * corner, the first corner at 0
 };
 
-/// What a voxel becomes that is in several masks.
+/// What becomes of a voxel that is in several masks.
 enum class Overlap {
   kRefused,  ///< an error
   kFirst,    ///< the label of the first of them
@@ -39,7 +39,7 @@ enum class Overlap {
   kAll,      ///< a label that each such set of masks has for itself
 };
 
-/// kFirst of "first" and so on; none for other names.
+/// Returns kFirst for "first" and so on, and nothing for other names.
 [[nodiscard]] inline std::optional<Overlap> parse_overlap(std::string_view name) {
   if (name == "first") return Overlap::kFirst;
   if (name == "last") return Overlap::kLast;
@@ -54,7 +54,7 @@ enum class VoxelValues {
   kDistances,      ///< one signed distance a voxel for each label, negative inside
 };
 
-/// kLabels of "labels" and so on; none for other names.
+/// Returns kLabels for "labels" and so on, and nothing for other names.
 [[nodiscard]] inline std::optional<VoxelValues> parse_voxel_values(std::string_view name) {
   if (name == "labels") return VoxelValues::kLabels;
   if (name == "probabilities") return VoxelValues::kProbabilities;
@@ -67,19 +67,19 @@ struct OpenOptions {
   std::optional<std::array<double, 3>> spacing;  ///< instead of the file's, which is not looked at
   std::optional<std::array<double, 3>> origin;   ///< instead of the file's, which is not looked at
   FrameChoice frame = FrameChoice::kFile;
-  /// The array within a file or store that may hold several; empty: found by convention.
+  /// The array within a file or store that may hold several.  Empty: conventions choose it.
   std::string dataset;
   std::optional<int> scale;             ///< resolution level, 0 the finest; empty: the finest
-  Overlap overlap = Overlap::kRefused;  ///< of masks
+  Overlap overlap = Overlap::kRefused;  ///< what masks that overlap become
   VoxelValues values = VoxelValues::kLabels;
   std::optional<Box3> crop;  ///< part of the volume, voxels
-  /// Labels that alone matter: all others become 0, and the volume ends around these
-  /// (open_object()), within `crop`.  Empty: all matter.
+  /// The only labels that matter: all others become 0, and the volume ends around these
+  /// (open_object()), within `crop`.  Where there are none, all labels matter.
   std::vector<RawLabel> object;
   std::optional<CacheFolder> cache;  ///< for what servers send; see remote_place()
   /// Whether files that headers and metadata name may be anywhere, not only in their folder.
   bool trust_paths = false;
-  std::uint64_t cache_bytes = 64ULL << 20U;  ///< of decoded chunks that a chunked volume may keep
+  std::uint64_t cache_bytes = 64ULL << 20U;  ///< bytes of decoded chunks that may be kept
 };
 
 }  // namespace mw::io

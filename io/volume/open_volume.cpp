@@ -60,7 +60,7 @@ struct VolumeFormat {
   bool has_datasets = false;  ///< --dataset chooses in it
   bool has_scales = false;    ///< --scale chooses in it
   bool has_masks = false;     ///< --overlap says what masks become that overlap
-  /// Null where there are none.
+  /// Null where the format has no scales.
   std::size_t (*count_scales)(const Place& place, const OpenOptions& options) = nullptr;
 };
 
@@ -118,7 +118,7 @@ constexpr std::array kFormats{
 };
 /// Masks that are listed instead of being in a folder of their own.
 constexpr VolumeFormat kMaskList{.name = "masks", .has_masks = true};
-/// Whatever the content, where the caller says how the voxels lie.
+/// The format of any content where the caller says how the voxels lie.
 constexpr VolumeFormat kRawFormat{.name = "raw"};
 
 /// The names of the formats that are meant, as "A, B, C".
@@ -140,7 +140,7 @@ bool has_ending(const VolumeFormat& format, const std::string& ending) {
   return text(format.endings, " ").find(ending + " ") != std::string::npos;
 }
 
-/// By content, else by extension, so that the right reader explains what is wrong.
+/// Tells the format by content, else by extension, so that the right reader says what is wrong.
 const VolumeFormat& format_of(std::span<const std::byte> head, std::filesystem::path path) {
   for (const VolumeFormat& format : kFormats) {
     if (format.is_file != nullptr && format.is_file(head)) return format;
@@ -317,7 +317,7 @@ std::vector<VolumeScale> scales_of(const std::filesystem::path& path, const Open
 
 namespace {
 
-/// The object of the options, in a box around it.
+/// Opens the object that the options name, in a box around it.
 std::unique_ptr<LabelVolume> open_object_of(const std::filesystem::path& path,
                                             const OpenOptions& options) {
   std::vector<VolumeScale> coarser = scales_of(path, options);

@@ -20,17 +20,17 @@ namespace mw::io {
 /// The formats in which OpenOptions::overlap decides.
 [[nodiscard]] std::string formats_with_masks();
 
-/// What a caller says of the place, instead of the file.
+/// Checks the place that a caller gives instead of that of the file.
 /// ERRORS: mw::Error(kUsage) unless spacing is finite and positive, and origin finite.
 void check_place(const std::optional<Vector3>& spacing, const std::optional<Vector3>& origin);
 
-/// A path, or the address of a remote volume (io/remote/address.h), whose format its metadata tell.
-/// Tells the format of a file by content, then by extension, whether it is gzipped or not, and that
-/// of a folder by what is in it; raw when options.raw is given.  The numbers of the options are
-/// checked like the file's.
-/// ERRORS: mw::Error(kInput) naming file, field, reason and way out; kResource when a gzipped
-/// file does not fit into $TMPDIR, or a server does not answer; kUsage when the options make no
-/// sense, also those that the format does not have: --scale of a file without scales.
+/// Opens a path, or the address of a remote volume (io/remote/address.h).  The content of a file
+/// tells its format, else its extension does, whether it is gzipped or not; a folder or a remote
+/// volume tells it by what is in it.  With options.raw the format is raw.  The numbers of the
+/// options are checked like the file's.
+/// ERRORS: mw::Error(kInput) naming file, field, reason and way out; kResource when a gzipped file
+/// does not fit into $TMPDIR, or a server does not answer; kUsage when the options make no sense,
+/// also those that the format does not have, such as --scale of a file without scales.
 [[nodiscard]] std::unique_ptr<LabelVolume> open_volume(const std::filesystem::path& path,
                                                        const OpenOptions& options = {});
 
@@ -40,9 +40,9 @@ struct VolumeScale {
   VolumeInfo info;
 };
 
-/// The scales of a volume, the finest first, from its metadata alone; empty when its format has
-/// none, or one of them is chosen already (by options.dataset of a precomputed volume).  Those that
-/// a copy of the volume lacks are left out.
+/// The scales of a volume, the finest first, from its metadata alone.  There are none where its
+/// format has none, or where options.dataset chooses one already (the key of a precomputed volume).
+/// Scales that cannot be opened, as in a partial copy of the volume, are left out.
 /// ERRORS: those of open_volume().
 [[nodiscard]] std::vector<VolumeScale> scales_of(const std::filesystem::path& path,
                                                  const OpenOptions& options);

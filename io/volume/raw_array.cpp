@@ -46,7 +46,7 @@ class Rows {
 
   [[nodiscard]] std::int64_t count() const { return extents_[order_[1]] * extents_[order_[2]]; }
   [[nodiscard]] std::size_t length() const { return static_cast<std::size_t>(extents_[order_[0]]); }
-  /// From a voxel of a row to the next, in voxels of the file and of the output.
+  /// The way from a voxel of a row to the next, in voxels of the file and of the output.
   [[nodiscard]] std::size_t step() const { return static_cast<std::size_t>(strides_[order_[0]]); }
   [[nodiscard]] std::size_t out_stride() const {
     const Index3 n = box_.shape();
@@ -81,7 +81,7 @@ class Rows {
   std::array<std::size_t, 3> order_{0, 1, 2};  ///< axes, the fastest of the file first
 };
 
-/// One past the last row that is worth reading together with `first`.
+/// Returns one past the last row that is worth reading together with `first`.
 std::int64_t group_end(const Rows& rows, std::int64_t first) {
   const std::uint64_t start = rows.file_offset(first);
   std::uint64_t end = start + rows.bytes();

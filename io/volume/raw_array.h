@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: The mwmesh authors
 // SPDX-License-Identifier: Apache-2.0
-// A dense array of voxels somewhere in a ByteSource, read by region: what all formats end in that
-// keep one, and files that are nothing else.
+// A dense array of voxels somewhere in a ByteSource, read by region.  All formats that keep one are
+// read by it, and so are files that are nothing else.
 #pragma once
 
 #include <filesystem>
@@ -42,7 +42,7 @@ struct ReadBox {
   std::span<RawLabel> labels;
 };
 
-/// Reads the voxels of a part, which is in the array and in the box that they go to.
+/// Reads the voxels of a part, which lies in the array and in the box that the labels go to.
 /// REQUIRES: strides not negative, all voxels within the source.
 /// Cost: one read for each run of rows that lie close together; at most 1 MiB or one row of memory.
 /// ERRORS: those of the source; mw::Error(kInput) for a voxel that is no label.
@@ -68,12 +68,12 @@ class RawArrayVolume : public LabelVolume, public NumberVolume {
   ArrayLayout position_;
 };
 
-/// The bytes of a file that holds such voxels, unpacked where it is gzipped: one of the right size
-/// may begin with gzip's magic by chance, and is then not inflated.
+/// Opens a file that holds such voxels, and unpacks it where it is gzipped.  A file of the right
+/// size may begin with gzip's magic by chance, and is not inflated.
 [[nodiscard]] std::unique_ptr<ByteSource> open_raw_bytes(const std::filesystem::path& path,
                                                          const RawLayout& layout);
 
-/// REQUIRES: options.raw.  Spacing and origin are the options', else 1 and 0.
+/// Opens a raw file.  Spacing and origin are the options', else 1 and 0.  REQUIRES: options.raw.
 /// ERRORS: mw::Error(kInput) when the layout does not match the file's size to the byte.
 [[nodiscard]] std::unique_ptr<LabelVolume> open_raw(std::unique_ptr<ByteSource> source,
                                                     const OpenOptions& options);

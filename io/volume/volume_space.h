@@ -47,12 +47,12 @@ struct VolumeSpace {
 
 /// Whether the array's axes are those of the world: then coordinates are origin + spacing * corner.
 [[nodiscard]] bool is_upright(const VolumeSpace& space);
-/// Whether the world sees the array in a mirror: what is positive in one is negative in the other.
+/// Whether the array's axes are left-handed in the world, which turns the sign of volumes.
 [[nodiscard]] bool is_mirrored(const VolumeSpace& space);
 
-/// A point of the array, in voxels from the first corner, in the world.  Three products a
-/// coordinate, of which upright spaces have one that is not 0: there it is origin + spacing *
-/// corner to the bit.
+/// Returns where a point of the array, in voxels from the first corner, is in the world.  In
+/// upright spaces only one of the three products of a coordinate is not 0, so that it is origin +
+/// spacing * corner to the bit.
 [[nodiscard]] inline Vector3 to_world(const VolumeSpace& space, const Vector3& corner) {
   Vector3 out{};
   for (std::size_t k = 0; k < 3; ++k) {
@@ -63,14 +63,14 @@ struct VolumeSpace {
   return out;
 }
 
-/// The other way round, to rounding.
+/// Inverts to_world(), up to rounding.
 [[nodiscard]] Vector3 to_corner(const VolumeSpace& space, const Vector3& world);
 
-/// Returns that place in another world frame: x and y are turned between kRas and kLps; kOwn is
-/// taken for any.
+/// Returns that place in another world frame: x and y change their sign between kRas and kLps.
+/// From and to kOwn nothing changes.
 [[nodiscard]] VolumeSpace in_frame(VolumeSpace space, WorldFrame frame);
 
-/// The space of a box of the volume: it begins at the corner `first`.
+/// Returns the space of a box of the volume that begins at the corner `first`.
 [[nodiscard]] VolumeSpace moved_to(const VolumeSpace& space, Index3 first);
 
 /// Whether two places are one, up to what is lost when text and floats of 32 bits are written.

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The mwmesh authors
 // SPDX-License-Identifier: Apache-2.0
-// Bytes one after the other, as they are or from base64 text: what VTK arrays are read from.
+// Bytes one after the other, as they are or from base64 text, from which VTK arrays are read.
 #pragma once
 
 #include <array>
@@ -17,8 +17,8 @@ class ByteStream {
   virtual ~ByteStream() = default;
   /// ERRORS: mw::Error(kInput) when there are fewer bytes or the text is no base64.
   virtual void read(std::span<std::byte> out) = 0;
-  /// An upper bound on the bytes left, counted up to `max`, to refuse absurd lengths before memory
-  /// is taken.
+  /// Returns an upper bound on the bytes left, counted up to `max`, to refuse absurd lengths before
+  /// memory is taken.
   [[nodiscard]] virtual std::uint64_t left(std::uint64_t max) const = 0;
 };
 
@@ -39,8 +39,8 @@ class SourceStream : public ByteStream {
   std::uint64_t next_;
 };
 
-/// Groups of four characters; a padded group may stand in the middle, as VTK encodes the header of
-/// an array and its data apart.  Blanks are skipped.
+/// Decodes groups of four characters.  A padded group may stand in the middle, as VTK encodes the
+/// header of an array and its data apart.  Blanks are skipped.
 class Base64Stream : public ByteStream {
  public:
   Base64Stream(std::string_view text, std::string file) : text_(text), file_(std::move(file)) {}

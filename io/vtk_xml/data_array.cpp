@@ -14,10 +14,10 @@
 namespace mw::io {
 namespace {
 
-/// No packing is tighter than that of zlib.
+/// The most bytes that a packed byte unpacks to; no packing is tighter than that of zlib.
 constexpr std::uint64_t kMaxRatio = 1040;
 constexpr std::uint64_t kPieceBytes = 1 << 20;
-/// Packed bytes of an array whose size is not known from elsewhere.
+/// The most packed bytes of an array whose size is not known from elsewhere.
 constexpr std::uint64_t kMaxAnnounced = std::uint64_t{1} << 40U;
 
 [[noreturn]] void fail(const ArrayName& name, std::string_view reason) {
@@ -63,22 +63,23 @@ void inflate_lz4(const std::vector<std::byte>& packed, std::span<std::byte> out,
   }
 }
 
-/// What is there by now shows that the rest is credible: no growing by doubling.
+/// Appends a piece.  The first one shows that the expected size is credible, so that memory for all
+/// of it is taken then.
 void append(std::vector<std::byte>& all, const std::vector<std::byte>& piece,
             std::uint64_t expected) {
   if (all.empty()) all.reserve(expected);
   all.insert(all.end(), piece.begin(), piece.end());
 }
 
-/// [blocks][bytes of a block][bytes of the last, 0 when whole][packed bytes of each] and then the
-/// packed blocks.
+/// Reads [blocks][bytes of a block][bytes of the last, 0 when whole][packed bytes of each] and then
+/// the packed blocks.
 std::vector<std::byte> read_compressed(ByteStream& stream, const VtkEncoding& encoding,
                                        std::uint64_t expected, const ArrayName& name) {
   const std::uint64_t blocks = read_word(stream, encoding);
   const std::uint64_t block_bytes = read_word(stream, encoding);
   const std::uint64_t last_bytes = read_word(stream, encoding);
   const std::uint64_t last = blocks == 0 || last_bytes != 0 ? last_bytes : block_bytes;
-  // Divisions, not products: the numbers of a damaged file may be anything.
+  // The numbers of a damaged file may be anything, so that no product may overflow.
   const auto word = static_cast<std::uint64_t>(encoding.header_bytes);
   if (!may_hold(stream, saturating_product(blocks, word)) ||
       !may_hold(stream, expected / kMaxRatio) || last > block_bytes ||

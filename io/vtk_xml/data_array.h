@@ -14,7 +14,7 @@
 
 namespace mw::io {
 
-/// Int8 .. UInt64, Float32, Float64.
+/// The type of an array's numbers: "Int8" .. "UInt64", "Float32" or "Float64".
 struct NumberType {
   int bytes = 0;
   bool is_float = false;
@@ -31,23 +31,23 @@ struct VtkEncoding {
   VtkPacking packing = VtkPacking::kNone;
 };
 
-/// For error messages: the file and the array.
+/// The names of the file and the array in error messages.
 struct ArrayName {
   std::string file;
   std::string array;
 };
 
-/// The bytes of an array of `expected` bytes, decompressed.
-/// ERRORS of all: mw::Error(kInput) naming file and array.
+/// Returns the `expected` bytes of an array, decompressed.
+/// ERRORS (here and below): mw::Error(kInput) naming file and array.
 [[nodiscard]] std::vector<std::byte> read_payload(ByteStream& stream, const VtkEncoding& encoding,
                                                   std::uint64_t expected, const ArrayName& name);
 
-/// The bytes of an array of unknown length: what its own head announces, no more than the stream
+/// Returns the number of bytes that an array's own head announces, which is no more than the stream
 /// could hold.  Takes the head off the stream.
 [[nodiscard]] std::uint64_t announced_bytes(ByteStream& stream, const VtkEncoding& encoding,
                                             const ArrayName& name);
 
-/// Integers as two's complement 64 bits.  REQUIRES: !type.is_float.
+/// Returns the integers in two's complement of 64 bits.  REQUIRES: !type.is_float.
 [[nodiscard]] std::vector<std::uint64_t> integers_of_bytes(const std::vector<std::byte>& bytes,
                                                            NumberType type, ByteOrder order);
 [[nodiscard]] std::vector<double> reals_of_bytes(const std::vector<std::byte>& bytes,

@@ -24,8 +24,8 @@ constexpr std::uint64_t kMaxStringBytes = 64 << 20;
              "save the arrays as binary data: appended, raw");
 }
 
-/// Adds at most `count` bytes of the source from start on, behind those that text has of it; false
-/// at the end.
+/// Appends to text, which has the source's bytes from start on, at most `count` of those that
+/// follow; false at the end of the source.
 bool append_chunk(const ByteSource& source, std::uint64_t start, std::uint64_t count,
                   std::string& text) {
   const std::size_t before = text.size();
@@ -58,7 +58,7 @@ void check_count(std::uint64_t found, std::uint64_t expected, const ArrayName& n
 }  // namespace
 
 VtkDocument::VtkDocument(const ByteSource& source, VtkKind kind) : source_(source), kind_(kind) {
-  // XML up to the appended data, which may be binary; all of it when there are none.
+  // Read the XML up to the appended data, which may be binary, or all of it when there are none.
   std::string head;
   std::size_t found = std::string::npos;
   while (found == std::string::npos) {
@@ -71,7 +71,7 @@ VtkDocument::VtkDocument(const ByteSource& source, VtkKind kind) : source_(sourc
     found = head.find(kAppendedTag, before - std::min(before, kAppendedTag.size()));
   }
   if (found != std::string::npos) {
-    // The tag, its '_' and some slack: the start tag may have been cut by the chunk.
+    // Read the rest of the start tag and its '_', since the chunk may have cut them.
     append_chunk(source, 0, 4096, head);
     appended_ = true;
     appended_start_ = found;
@@ -138,7 +138,7 @@ std::uint64_t VtkDocument::number(pugi::xml_node node, const char* attribute,
              "the file is damaged");
 }
 
-/// Reads from there to the next tag once; positions in it are the arrays' offsets.
+/// Reads the appended data, once, up to the next tag; positions in it are the arrays' offsets.
 std::string_view VtkDocument::appended_text() {
   if (appended_text_.empty()) {
     std::size_t end = std::string::npos;
@@ -190,7 +190,7 @@ std::vector<std::uint64_t> VtkDocument::integers(pugi::xml_node array, std::uint
   return numbers;
 }
 
-/// In text they are numbers, too.
+/// Returns the characters of an array of strings, which are numbers in ascii format.
 std::string VtkDocument::characters(pugi::xml_node array, const ArrayName& name) {
   std::string out;
   if (std::string_view(array.attribute("format").as_string("ascii")) == "ascii") {

@@ -21,7 +21,7 @@ struct VtkKind {
 /// or not.
 class VtkDocument {
  public:
-  /// ERRORS of all: mw::Error(kInput) naming file and place.
+  /// ERRORS (all members): mw::Error(kInput) naming file and place.
   VtkDocument(const ByteSource& source, VtkKind kind);
 
   [[nodiscard]] pugi::xml_node grid() const;
@@ -29,11 +29,11 @@ class VtkDocument {
   [[nodiscard]] std::uint64_t number(pugi::xml_node node, const char* attribute,
                                      std::optional<std::uint64_t> fallback = {}) const;
   [[nodiscard]] const std::string& file() const { return source_.name(); }
-  /// REQUIRES: array is a DataArray of the document.
+  /// Return the `count` numbers of an array.  REQUIRES: array is a DataArray of the document.
   [[nodiscard]] std::vector<std::uint64_t> integers(pugi::xml_node array, std::uint64_t count);
   [[nodiscard]] std::vector<double> reals(pugi::xml_node array, std::uint64_t count);
-  /// REQUIRES: array is an Array of strings, or a DataArray of bytes; each string has a NUL behind
-  /// it. At most 64 MiB of them.
+  /// Returns strings, of at most 64 MiB if they are binary.
+  /// REQUIRES: array is an Array of strings, or a DataArray of bytes; a NUL ends each string.
   [[nodiscard]] std::vector<std::string> strings(pugi::xml_node array);
 
  private:

@@ -19,7 +19,7 @@ std::string change_text(const char* region, const Betti& before, const Betti& af
   return std::string(" ") + region + text_of(before) + " -> " + text_of(after);
 }
 
-/// Nothing is known of labels that are not kept, and then of the exterior.
+/// Clears the rows of labels that are not kept and of the exterior, of which nothing is known.
 void forget_left_out(const KeptLabels& kept, AuditReport& report) {
   if (kept.empty()) return;
   report.mesh.resize(report.voxels.size());
@@ -33,12 +33,12 @@ bool has_no_more(const Betti& after, const Betti& before) {
   return after.b0 <= before.b0 && after.b1 <= before.b1 && after.b2 <= before.b2;
 }
 
-/// Open regions of parts that share no face add up, so what is left has no more of anything.
+/// Betti numbers of parts that share no face add up, so those that are left have no larger ones.
 bool is_kept(const RegionBetti& before, const RegionBetti& after, bool is_partial) {
   return is_partial ? has_no_more(after.open, before.open) : before == after;
 }
 
-/// looked_at: rows that are compared.
+/// looked_at is the number of rows that are compared.
 Check compare_topology(AuditReport& report, std::size_t looked_at, const AuditOptions& options) {
   const LabelText& names = options.label_text;
   const std::size_t exterior = report.voxels.size() - 1;
@@ -65,7 +65,7 @@ Check compare_topology(AuditReport& report, std::size_t looked_at, const AuditOp
   return {"P1 topology", changed.count() == 0, detail};
 }
 
-/// "3, 5, exterior".
+/// Returns text such as "3, 5, exterior".
 std::string labels_text(const JunctionLabels& labels, std::size_t label_count,
                         const LabelText& names) {
   std::string out;
@@ -114,7 +114,7 @@ std::string distance_text(const DistanceReport& distance, const LabelText& names
          (distance.is_finite() ? ", mean " + number(distance.mean_voxels) : "");
 }
 
-/// Without the labels that were left out, whole or in part.
+/// Drops the labels that were left out, whole or in part.
 VolumeReport only_kept(VolumeReport report, const AuditOptions& options) {
   if (options.kept.empty() && options.partial.empty()) return report;
   std::erase_if(report.per_label, [&](const VolumeRow& row) {
@@ -145,7 +145,7 @@ Check judge_distance(const DistanceReport& distance, const AuditOptions& options
   return {"P4 distance", passed, detail};
 }
 
-/// Tells of the label that uses most of what it may be off.
+/// Names the label whose error is the largest share of its bound.
 Check judge_volumes(const VolumeReport& volumes, double bound, const LabelText& names) {
   const auto share = [&](const VolumeRow& row) {
     return row.voxels < kMinJudgedVoxels ? -1 : std::abs(row.error) / volume_bound(row, bound);

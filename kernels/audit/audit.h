@@ -1,7 +1,6 @@
 // SPDX-FileCopyrightText: The mwmesh authors
 // SPDX-License-Identifier: Apache-2.0
-// An independent second opinion on a finished mesh: promises P1 to P4 and P8 (`mwmesh
-// verify`).
+// An independent second opinion on a finished mesh: promises P1 to P4 and P8 (`mwmesh verify`).
 #pragma once
 
 #include <cstddef>
@@ -23,29 +22,29 @@ namespace mw::audit {
 
 struct AuditOptions {
   double radius_ratio_floor = kSliverRadiusRatio;  ///< P3 fails below this
-  bool count_junctions = false;                    ///< P1 also of interfaces and meetings
-  bool measure_distance = true;                    ///< false: only when max_distance is set
-  std::optional<double> max_distance;              ///< voxels; P4 is checked, and fails above this
+  bool count_junctions = false;                    ///< P1 also for interfaces and meetings
+  bool measure_distance = true;                    ///< if false, only with max_distance
+  std::optional<double> max_distance;              ///< in voxels; if set, P4 fails above this
   Index3 layers{1, 1, 1};  ///< distances are in voxels cut into these layers along each axis
-  /// The labels that the mesh is to hold; empty: all.  With some left out P1, P4 and P8 are about
-  /// the others, P2 as check_validity() says.  Then REQUIRES: !count_junctions.
+  /// The labels that the mesh is to hold; empty for all.  If some are left out, P1, P4 and P8 are
+  /// about the others, and P2 as check_validity() says.  REQUIRES: empty, or !count_junctions.
   KeptLabels kept = {};
-  /// Kept labels of which parts were left out: for these P1 says that the open region has no more
-  /// components, tunnels and cavities than that of the voxels, P4 is one-sided, from the mesh to
-  /// the voxels, and P8 says nothing.  Empty: none.
+  /// Kept labels of which parts were left out; empty for none.  For these P1 says that the open
+  /// region has no more components, tunnels and cavities than that of the voxels, P4 is one-sided,
+  /// from the mesh to the voxels, and P8 says nothing.
   KeptLabels partial = {};
   /// Names labels in the details of checks.
   LabelText label_text = {};
-  /// P8 fails above this share (volume_bound()), for labels of at least kMinJudgedVoxels; empty: no
-  /// check.
+  /// P8 fails above this share (volume_bound()), for labels of at least kMinJudgedVoxels; if empty,
+  /// P8 is not checked.
   std::optional<double> max_volume_error = 0.05;
 };
 
 /// Everything an audit found.  Rows of Betti numbers are dense labels, then the exterior.
 struct AuditReport {
-  /// Those of validity, then "P4 place" and "P1 topology", as AuditOptions ask "P1 interfaces" and
-  /// "P1 meetings", "P3 radius ratio", "P4 distance" and "P8 volumes"; "P4 distance" only with
-  /// a bound, or when a label has an interface on one side only, which fails without a bound too.
+  /// The checks of validity, then "P4 place", "P1 topology", "P1 interfaces" and "P1 meetings" if
+  /// asked for, "P3 radius ratio", "P4 distance", and "P8 volumes" if asked for.  "P4 distance"
+  /// needs a bound, or a label with an interface on one side only, which fails without a bound too.
   std::vector<Check> checks;
   std::vector<RegionBetti> voxels;
   std::vector<RegionBetti> mesh;  ///< empty when the mesh could not be read as one
@@ -65,10 +64,10 @@ struct AuditReport {
   [[nodiscard]] bool passed() const;
 };
 
-/// What was found, before it is judged.  validity: with "P2 input" first.
+/// What was found, before it is judged.  The first check of `validity` is "P2 input".
 struct AuditFindings {
   std::vector<RegionBetti> voxels;
-  std::vector<RegionBetti> mesh;  ///< with gaps, without the exterior
+  std::vector<RegionBetti> mesh;  ///< a mesh with gaps has no row of the exterior
   ValidityReport validity;
   std::optional<JunctionReport> junctions;
   Check place;  ///< see judge_places()
@@ -78,7 +77,7 @@ struct AuditFindings {
   ShapeReport shape;
 };
 
-/// The verdict.  Only voxels and validity are looked at when "P2 input" failed.
+/// Judges what was found.  If "P2 input" failed, only voxels and validity are looked at.
 [[nodiscard]] AuditReport judge(AuditFindings findings, const AuditOptions& options);
 
 }  // namespace mw::audit

@@ -11,7 +11,7 @@
 
 namespace mw::audit {
 
-/// One line of a report.  detail: what was counted, and the first offenders if any.
+/// One line of a report.  detail says what was counted, and names the first offenders if any.
 struct Check {
   std::string name;
   bool passed = false;
@@ -23,7 +23,7 @@ struct Check {
 /// Counts offenders and remembers the first few by name.
 class Offenders {
  public:
-  /// noun: "tets", "triangles"; used in text().
+  /// noun is what text() calls the offenders, such as "tets".
   explicit Offenders(std::string_view noun) : noun_(noun) {}
 
   /// describe() -> std::string is called for the first few only.
@@ -32,7 +32,7 @@ class Offenders {
   void add(Describe&& describe) {
     if (count_++ < kNamed) first_.push_back(describe());
   }
-  /// Those that somebody else counted come after one's own.
+  /// Adds the offenders that another one has counted, after its own.
   void add(const Offenders& others) {
     count_ += others.count_;
     for (const std::string& name : others.first_) {
@@ -51,8 +51,8 @@ class Offenders {
   std::vector<std::string> first_;
 };
 
-/// For people: four significant digits, and all that are before the point: "0.5", "24312",
-/// "4.242e-07"; independent of the locale.
+/// A number as people read it, with four significant digits and all that are before the point:
+/// "0.5", "24312", "4.242e-07".  It does not depend on the locale.
 [[nodiscard]] std::string number(double value);
 
 }  // namespace mw::audit

@@ -33,7 +33,7 @@ struct MeshFace {
 class MeshStars {
  public:
   /// Errors: kInput when labels and tets differ in number or a vertex row is out of range,
-  /// kResource above 2^31 tets or 2^32 - 1 vertices.
+  /// kResource above 2^31 tets or from 2^32 - 1 vertices on.
   explicit MeshStars(const MeshTile& tile);
   explicit MeshStars(const AuditMesh& mesh) : MeshStars(MeshTile{.mesh = mesh}) {}
 
@@ -43,7 +43,7 @@ class MeshStars {
   [[nodiscard]] std::uint32_t vertex_count() const {
     return static_cast<std::uint32_t>(begin_.size() - 1);
   }
-  /// Ascending.
+  /// The tets at a vertex, ascending.
   [[nodiscard]] std::span<const std::uint32_t> star(std::uint32_t vertex) const {
     return std::span(tets_).subspan(begin_[vertex], begin_[vertex + 1] - begin_[vertex]);
   }
@@ -84,7 +84,7 @@ void for_each_face(const MeshStars& stars, Visit&& visit) {
   }
 }
 
-/// Visits every triangle with a vertex that the tile owns: all tets on it are there.
+/// Visits every triangle with a vertex that the tile owns; the tile has all tets on it.
 template <class Visit>
 void visit_whole_faces(const MeshStars& stars, Visit&& visit) {
   std::vector<FaceSide> scratch;

@@ -31,10 +31,10 @@ inline constexpr Label kLeftOut = 0xfffffffdU;
 
 /// What people call a dense label of the volume.
 using LabelText = std::function<std::string(Label)>;
-/// In the details of checks; without names "dense 3".
+/// What the details of checks call a label; without names it is "dense 3".
 [[nodiscard]] std::string label_text(Label label, const LabelText& names);
 
-/// Which labels of the volume a mesh is to hold, by dense label; empty: all.
+/// Which labels of the volume a mesh is to hold, by dense label; empty for all.
 using KeptLabels = std::vector<bool>;
 
 [[nodiscard]] inline bool keeps(const KeptLabels& kept, Label label) {
@@ -46,7 +46,7 @@ using KeptLabels = std::vector<bool>;
   return label < partial.size() && partial[label];
 }
 
-/// The input.  labels: shape.product() dense labels, x fastest.
+/// The input.  labels holds shape.product() dense labels, x fastest.
 struct VoxelLabels {
   Index3 shape;
   std::span<const Label> labels;
@@ -65,9 +65,9 @@ struct AuditMesh {
 /// What is counted once (an edge, a triangle, a tet) is counted where its first vertex is owned.
 struct MeshTile {
   AuditMesh mesh;                             ///< rows of its own, in the order of the whole
-  std::span<const std::uint64_t> vertex_ids;  ///< by row, ascending; empty: the rows
-  std::span<const std::uint64_t> tet_ids;     ///< by row, ascending; empty: the rows
-  std::span<const std::uint8_t> owned;        ///< by row of vertex; empty: all are
+  std::span<const std::uint64_t> vertex_ids;  ///< by row, ascending; empty if they are the rows
+  std::span<const std::uint64_t> tet_ids;     ///< by row, ascending; empty if they are the rows
+  std::span<const std::uint8_t> owned;        ///< by row of vertex; empty if all are owned
 
   [[nodiscard]] bool owns(std::uint64_t vertex) const {
     return owned.empty() || owned[vertex] != 0;
@@ -87,10 +87,10 @@ struct MeshTile {
 /// A box of a volume's voxels, and the lattice vertices that are counted with it.  Each vertex is
 /// owned by one tile, which has all voxels around it, except those outside of the volume.
 struct VoxelTile {
-  VoxelLabels voxels;  ///< of `loaded`
-  Index3 shape;        ///< of the whole volume
+  VoxelLabels voxels;  ///< the voxels of `loaded`
+  Index3 shape;        ///< shape of the whole volume
   Box3 loaded;
-  Box3 owned;  ///< of vertices, from 0 to shape
+  Box3 owned;  ///< a box of vertices, from 0 to shape
 };
 
 /// All of a volume.
@@ -99,7 +99,7 @@ struct VoxelTile {
   return {volume, s, {{0, 0, 0}, s}, {{0, 0, 0}, s + Index3{1, 1, 1}}};
 }
 
-/// Where the volume lies, physical units: the box is [origin, origin + shape * spacing].
+/// Where the volume lies, in physical units: the box is [origin, origin + shape * spacing].
 struct Frame {
   std::array<double, 3> spacing{1, 1, 1};
   std::array<double, 3> origin{0, 0, 0};

@@ -16,12 +16,12 @@ inline constexpr unsigned kSamplesPerFace = 4;
 /// Largest distance of a point of a voxel face to the nearest of its four samples: sqrt(2) / 4.
 /// It is also how far the samples are from the centre of the face.
 inline constexpr double kSampleCoveringRadius = 0.35355339059327379;
-/// Voxels along an axis that samples can number.
+/// The most voxels along an axis that samples can number.
 inline constexpr std::int64_t kMaxSampledVoxels = 1 << 19;
 
-/// Some of the four samples of a voxel face, in 8 bytes: from the highest bit but one on z, y and x
-/// (19 bits each) of the voxel on the face's lower side, the face's axis (2 bits), and one bit for
-/// each quarter.
+/// Some of the four samples of a voxel face, packed into 8 bytes.  From bit 62 down these hold z, y
+/// and x (19 bits each) of the voxel on the face's lower side, the face's axis (2 bits), and one
+/// bit for each quarter.
 using FaceSamples = std::uint64_t;
 
 /// One bit for each quarter, 0 to 3.
@@ -61,7 +61,8 @@ inline constexpr QuarterBits kAllQuarters = 15;
   return (samples & ~FaceSamples{kAllQuarters}) | quarters;
 }
 
-/// The point of the face at these places, in lattice units, along its two axes, ascending.
+/// Returns the point of the face that is `first` units from its lowest corner along the lower of
+/// its two axes, and `second` along the higher.
 [[nodiscard]] inline Point point_on_face(FaceSamples samples, std::int32_t first,
                                          std::int32_t second) {
   constexpr FaceSamples kCoordinate = kMaxSampledVoxels - 1;
@@ -80,8 +81,8 @@ inline constexpr QuarterBits kAllQuarters = 15;
   return point_on_face(samples, kUnitsPerVoxel / 2, kUnitsPerVoxel / 2);
 }
 
-/// Where the sample of a quarter lies.  Quarter bit 0 is the upper half along the face's first
-/// axis, bit 1 along its second (axes in ascending order).
+/// Returns where the sample of a quarter lies.  Bit 0 of the quarter's number is set in the upper
+/// half along the face's first axis, bit 1 along its second (axes in ascending order).
 [[nodiscard]] inline Point sample_position(FaceSamples samples, unsigned quarter) {
   constexpr std::int32_t kQuarter = kUnitsPerVoxel / 4, kHalf = kUnitsPerVoxel / 2;
   return point_on_face(samples, kQuarter + static_cast<std::int32_t>(quarter & 1U) * kHalf,

@@ -85,7 +85,7 @@ void for_each_index(Index3 shape, Visit visit) {
   for_each_index(Box3{{0, 0, 0}, shape}, visit);
 }
 
-/// The cells that a box meets, cell c being the voxels from c * cell on.
+/// The cells that a box meets; cell c is the box of shape `cell` that begins at c * cell.
 /// REQUIRES: box.lo not negative, cell positive on every axis.
 [[nodiscard]] inline Box3 cells_of(const Box3& box, Index3 cell) {
   const auto rounded_up = [](std::int64_t a, std::int64_t b) { return (a + b - 1) / b; };
@@ -94,9 +94,9 @@ void for_each_index(Index3 shape, Visit visit) {
       {rounded_up(box.hi.x, cell.x), rounded_up(box.hi.y, cell.y), rounded_up(box.hi.z, cell.z)}};
 }
 
-/// Voxels along an axis of a volume that is made, read or described.  It is twice what one run can
-/// mesh (kMaxSampledVoxels in face_sample.h, where samples number voxels in 19 bits): a run may
-/// take a part of the file (--crop), and says so before any work when its part is too long.
+/// The most voxels along an axis of a volume that is made, read or described.  It is twice what one
+/// run can mesh (kMaxSampledVoxels in face_sample.h, where samples number voxels in 19 bits): a run
+/// may take a part of the file (--crop), and says so before any work when its part is too long.
 /// Within it coordinates fit int32 in units of 1/1024 voxel, and no product of extents overflows.
 inline constexpr std::int64_t kMaxAxisVoxels = std::int64_t{1} << 20;
 

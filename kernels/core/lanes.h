@@ -11,8 +11,9 @@
 
 #include "kernels/core/metric.h"
 
-/// Compiles a function for wide registers too; the loader picks.  Lanes never mix and nothing is
-/// fused: all versions give the same bits.  (Clang and sanitizers cannot do it.)
+/// Compiles a function for wide registers too; the loader picks what fits the processor.  Lanes
+/// never mix and nothing is fused, so all versions give the same bits.  (Clang and sanitizers do
+/// not support this.)
 #if defined(__x86_64__) && !defined(__clang__) && !defined(__SANITIZE_THREAD__) && \
     !defined(__SANITIZE_ADDRESS__)
 #define MW_WIDE __attribute__((target_clones("avx2", "default")))
@@ -24,9 +25,9 @@ namespace mw {
 
 inline constexpr std::size_t kLanes = 4;
 using Lanes = double __attribute__((vector_size(kLanes * sizeof(double))));
-/// All bits set in lanes where something holds, else none.  (How far the compiler aligns these
-/// types depends on the processor that it compiles for, so they stay out of what is kept in
-/// memory.)
+/// The result of a comparison: all bits of a lane are set where it holds, none elsewhere.  (How far
+/// the compiler aligns these types depends on the processor that it compiles for, so they stay out
+/// of what is kept in memory.)
 using LaneMask = std::int64_t __attribute__((vector_size(kLanes * sizeof(std::int64_t))));
 using LaneInts = std::int32_t __attribute__((vector_size(kLanes * sizeof(std::int32_t))));
 
@@ -38,7 +39,7 @@ struct Lanes3 {
 using StoredInts = std::array<std::int32_t, kLanes>;
 using StoredLanes = std::array<double, kLanes>;
 
-// Always inline: what a function of MW_WIDE calls must be compiled along with it.
+// A function that an MW_WIDE function calls must be compiled along with it, hence always inline.
 #define MW_LANES [[gnu::always_inline, nodiscard]] inline
 
 MW_LANES Lanes lanes(double value) {
@@ -63,11 +64,11 @@ MW_LANES Lanes load(const StoredLanes& s) {
 MW_LANES Lanes to_lanes(const StoredInts& s) {
   return __builtin_convertvector(load(s), Lanes);
 }
-/// Where a stored number is another one than `value`.
+/// Marks the lanes whose stored number differs from `value`.
 MW_LANES LaneMask differs(const StoredInts& s, std::int32_t value) {
   return __builtin_convertvector(load(s) != value, LaneMask);
 }
-/// x, y or z, by the number of an axis in each lane.
+/// Picks x, y or z in each lane, by the number of the axis there.
 MW_LANES Lanes by_axis(const LaneInts& axes, const Lanes& x, const Lanes& y, const Lanes& z) {
   const LaneMask is_x = __builtin_convertvector(axes == 0, LaneMask),
                  is_y = __builtin_convertvector(axes == 1, LaneMask);
@@ -98,7 +99,7 @@ MW_LANES Lanes root(const Lanes& v) {
 MW_LANES bool any(const LaneMask& m) {
   return (m[0] | m[1] | m[2] | m[3]) != 0;
 }
-/// One bit for each lane of a comparison that holds.
+/// One bit for each lane, set where the comparison holds.
 MW_LANES unsigned lane_bits(const LaneInts& m) {
 #ifdef __SSE__
   using Floats = float __attribute__((vector_size(sizeof(LaneInts))));
@@ -117,7 +118,7 @@ MW_LANES unsigned lane_bits(const LaneInts& a, const LaneInts& b, const LaneInts
   return lane_bits(a) | lane_bits(b) << 4 | lane_bits(c) << 8 | lane_bits(d) << 12;
 #endif
 }
-/// In a fixed order.
+/// Adds the lanes in a fixed order.
 MW_LANES double sum(const Lanes& v) {
   return (v[0] + v[1]) + (v[2] + v[3]);
 }

@@ -15,9 +15,9 @@ namespace mw {
 /// number along an axis does not overflow.
 inline constexpr std::int64_t kMaxLayers = std::int64_t{1} << 20;
 
-/// Layers that a voxel is cut into along each axis: its spacing over the smallest, rounded (halves
-/// up).  What results is within 2/3 and 3/2 of the smallest spacing along each axis, and the same
-/// solid, so topology and volumes stay what they are.
+/// Returns how many layers a voxel is cut into along each axis: its spacing over the smallest one,
+/// rounded (halves up).  The layers' spacing is between 2/3 and 3/2 of the smallest one, and layers
+/// fill the same solid as voxels, so topology and volumes do not change.
 /// REQUIRES: spacing finite and positive.  ENSURES: from 1 to kMaxLayers; 1 along the finest axis.
 [[nodiscard]] inline Index3 layers_of(const std::array<double, 3>& spacing) {
   const double smallest = *std::min_element(spacing.begin(), spacing.end());

@@ -46,8 +46,8 @@ class Metric {
   }
 
   /// The lattice point nearest to origin + offset.  ERRORS: none; offsets are clamped to the
-  /// largest extent of a tetrahedron, beyond which no move is accepted anyway, and so is what is
-  /// not a number.
+  /// largest extent of a tetrahedron, beyond which no move is accepted anyway, and an offset that
+  /// is not a number counts as this extent.
   [[nodiscard]] Point moved(Point origin, const Vec3& offset) const {
     return {origin.x + nearest(offset[0] / unit_[0]), origin.y + nearest(offset[1] / unit_[1]),
             origin.z + nearest(offset[2] / unit_[2])};
@@ -56,9 +56,9 @@ class Metric {
  private:
   static std::int32_t nearest(double units) {
     constexpr double kLimit = kMaxTetExtent;
-    // In this order of arguments the limit is the smaller of itself and NaN.
+    // With its arguments in this order, std::min returns the limit where `units` is NaN.
     const double within = std::max(-kLimit, std::min(kLimit, units));
-    // Rounded down from the limit's far side, where all is positive and a cast rounds down.
+    // A cast rounds down where numbers are positive, so the limit is added first.
     return static_cast<std::int32_t>(within + (0.5 + kLimit)) - kMaxTetExtent;
   }
 

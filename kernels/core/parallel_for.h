@@ -11,11 +11,11 @@ namespace mw {
 /// Work on the indices of [first, last).
 using RangeBody = std::function<void(std::size_t first, std::size_t last)>;
 
-/// Calls the body for disjoint ranges that together are [0, n), in any order, also at the same
-/// time, and returns when all are done.  Ranges are few: a body may set up scratch of size n.
+/// Calls the body for disjoint ranges that together are [0, n), in any order and possibly at the
+/// same time, and returns when all are done.  Ranges are few, so a body may use scratch of size n.
 using ParallelFor = std::function<void(std::size_t n, const RangeBody& body)>;
 
-/// All in one range.
+/// Calls the body once, for the whole range.
 inline void serial_for(std::size_t n, const RangeBody& body) {
   if (n != 0) body(0, n);
 }

@@ -13,9 +13,9 @@ namespace mw {
 inline constexpr std::array<std::array<std::size_t, 2>, 6> kTetEdges{
     {{0, 1}, {1, 2}, {2, 0}, {0, 3}, {1, 3}, {2, 3}}};
 
-/// The straight tets between the ten nodes of a tet, positive where it is straight and positive:
-/// one at each corner, which has that corner's number in it, and four around the edge between the
-/// middles of the edges 2 0 and 1 3.  Triangles are cut alike from both of their sides.
+/// The straight tets between the ten nodes of a tet; they are positive if it is straight and
+/// positive.  Part i, for i from 0 to 3, is at corner i, and four parts lie around the line between
+/// the middles of the edges 2 0 and 1 3.  Both tets at a triangle cut it in the same way.
 inline constexpr std::array<std::array<std::size_t, 4>, 8> kTetParts{{{0, 4, 6, 7},
                                                                       {4, 1, 5, 8},
                                                                       {6, 5, 2, 9},

@@ -45,8 +45,8 @@ double volume6_of(const QuadraticTet& nodes, const std::array<std::size_t, 4>& p
 double least_jacobian(const QuadraticTet& nodes) {
   const std::array<Slopes, 3> slopes{slopes_towards(nodes, 1), slopes_towards(nodes, 2),
                                      slopes_towards(nodes, 3)};
-  // The product of three linear forms: what the orders of the same three corners add to a
-  // coefficient, and how many orders there are.
+  // Multiplies three linear forms.  The orders of the same three corners add to one coefficient;
+  // sums has what they add, and orders how many there are.
   std::array<double, 64> sums{};
   std::array<int, 64> orders{};
   for (std::size_t m = 0; m < 4; ++m) {

@@ -19,7 +19,7 @@ using QuadraticTet = std::array<Vec3, 10>;
 /// volume.
 [[nodiscard]] double least_jacobian(const QuadraticTet& nodes);
 
-/// Returns six times the least volume of kTetParts.
+/// Returns six times the volume of the least of the straight parts kTetParts.
 [[nodiscard]] double least_part(const QuadraticTet& nodes);
 
 }  // namespace mw

@@ -8,9 +8,9 @@ namespace {
 
 using Weights = std::array<double, 6>;
 
-/// A point of the triangle with what the six nodes have to say there.
+/// A point of the triangle, and the shape functions of the six nodes there.
 struct QuadraturePoint {
-  double weight = 0;             ///< of the area
+  double weight = 0;             ///< share of the area
   std::array<double, 3> hats{};  ///< barycentric coordinates
   Weights shapes{};
   Weights along1{};  ///< derivatives of the shapes towards corner 1, and towards corner 2

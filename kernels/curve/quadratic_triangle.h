@@ -16,8 +16,8 @@ using QuadraticTriangle = std::array<Vec3, 6>;
 /// Returns the signed volume that the surface sweeps over while its nodes go straight from `from`
 /// to `to`, weighted by the hat function of each corner; positive where it moves along the normal
 /// by the right hand.  The three add up to the volume between the two, sides included, so that sums
-/// over a closed surface are the difference of the volumes that it encloses.  Exact except
-/// for rounding: the quadrature is of degree 5 in the triangle (Radon 1948) and Simpson's rule in
+/// over a closed surface are the difference of the volumes that it encloses.  They are exact except
+/// for rounding, with a quadrature of degree 5 in the triangle (Radon 1948) and Simpson's rule in
 /// time.
 [[nodiscard]] std::array<double, 3> swept_volumes(const QuadraticTriangle& from,
                                                   const QuadraticTriangle& to);

@@ -35,7 +35,7 @@ std::size_t CarriedSamples::find(const TriangleKey& key) const {
   return at;
 }
 
-/// The slot of the triangle, which is made when there is none; the caller fills it.
+/// Returns the slot of the triangle and makes one if there is none; the caller fills its list.
 CarriedSamples::Slot& CarriedSamples::open(const TriangleKey& key, Label side) {
   if (2 * (used_ + 1) > slots_.size()) grow();
   Slot& slot = slots_[find(key)];
@@ -53,7 +53,7 @@ void CarriedSamples::add(const TriangleKey& key, Label side, FaceSamples sample)
   pool_[list.begin + list.size++] = sample;
 }
 
-/// For one more sample.
+/// Makes sure that the list has room for one more sample.
 void CarriedSamples::make_room(Taken& list) {
   if (list.size < list.capacity) return;
   const bool is_last = list.capacity > 0 && list.begin + list.capacity == pool_.size();
@@ -71,7 +71,7 @@ void CarriedSamples::make_room(Taken& list) {
   live_ += more;
 }
 
-/// Drops what no list has.
+/// Drops the parts of the pool that belong to no list.
 void CarriedSamples::compact() {
   std::vector<FaceSamples> pool;
   pool.reserve(live_ + live_ / 2);

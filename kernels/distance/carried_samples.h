@@ -24,8 +24,8 @@ using TriangleKey = std::array<LocalVertex, 3>;
   return {a, b, c};
 }
 
-/// Lists of samples by triangle: a hash table with linear probing over ranges of one pool, so that
-/// nothing is allocated while a window is worked on, but when the pool grows.
+/// Lists of samples by triangle: a hash table with linear probing over ranges of one pool.  While a
+/// window is worked on, memory is allocated only when the table or the pool grows.
 /// Nothing depends on the order of triangles in the table.  A list keeps the order in which it was
 /// filled, hence is a function of the window's content.
 /// Memory: some 32 bytes a sample, and 64 a triangle, or three times that while the table grows.
@@ -46,7 +46,7 @@ class CarriedSamples {
     const Slot& slot = slots_[find(key)];
     return slot.list.size != 0 && slot.list.side == side;
   }
-  /// The samples of the triangle, until the next change.
+  /// The samples of the triangle; the span is valid until the next change.
   [[nodiscard]] std::span<const FaceSamples> of(const TriangleKey& key) const {
     if (used_ == 0) return {};
     const Taken& list = slots_[find(key)].list;
@@ -56,19 +56,19 @@ class CarriedSamples {
   void add(const TriangleKey& key, Label side, FaceSamples sample);
   void erase(const TriangleKey& key) { static_cast<void>(take(key)); }
 
-  /// Removes the triangle; its list waits to be given to another, or is forgotten.
-  /// REQUIRES: give() or no call at all before the next one of add().
+  /// Removes the triangle.  Its list may be given to another triangle, or is forgotten.
+  /// REQUIRES: if give() is called with the list, it is called before the next add().
   [[nodiscard]] Taken take(const TriangleKey& key);
   /// Appends a list that was taken to that of a triangle.
   void give(const TriangleKey& key, const Taken& list);
-  /// Leaves the triangle the samples of its list that these bits say, in order; without any it is
-  /// removed.  REQUIRES: a bit for each.
+  /// Keeps those samples of the triangle's list whose bit is set, in order; a triangle that keeps
+  /// none is removed.  REQUIRES: `kept` has one bit for each sample of the list.
   void keep(const TriangleKey& key, const std::vector<bool>& kept);
 
  private:
   struct Slot {
     TriangleKey key{};
-    Taken list;  ///< empty: the slot is free
+    Taken list;  ///< an empty list marks a free slot
   };
 
   [[nodiscard]] std::size_t home(const TriangleKey& key) const;
@@ -83,7 +83,7 @@ class CarriedSamples {
   std::vector<Slot> slots_;
   std::size_t used_ = 0;
   std::vector<FaceSamples> pool_;
-  std::size_t live_ = 0;  ///< capacities of the lists in slots_
+  std::size_t live_ = 0;  ///< sum of the capacities of the lists in slots_
 };
 
 }  // namespace mw

@@ -22,39 +22,39 @@ namespace mw {
 /// Input to output: every voxel face between two labels has samples; each is carried by one output
 /// triangle between the same labels at a distance of at most D less the covering radius, which
 /// proves all of the face.  A change hands the samples of the triangles that it replaces to the
-/// nearest new ones between the same labels, and is refused when one ends too far.  Where it can, a
-/// triangle takes samples of faces only that look its own way, from the smaller label to the
-/// larger: samples of one side of a thin sheet that hang on the other would pin both.  What no
-/// changed triangle takes, unchanged ones next to them may.
+/// nearest new ones between the same labels, and is refused when one ends too far.  Where possible,
+/// a triangle takes only samples of faces that look its own way, from the smaller label to the
+/// larger: samples of one side of a thin sheet that hang on the other would pin both.  Samples that
+/// no changed triangle takes may go to unchanged ones next to them.
 ///
 /// Contractions of an inner vertex and flips inside a label change no interface triangle;
 /// everything else comes here.
 class DistanceGuard {
  public:
-  /// `labels` as LabelReach asks; keeps references.
+  /// Keeps references.  REQUIRES: `labels` is as LabelReach requires.
   DistanceGuard(const LabelBox& labels, double max_distance, CarriedSamples& samples);
 
-  /// From now on pieces lie on the source surface.  Keeps the reference.
-  /// REQUIRES: it has all faces whose samples are carried.
+  /// Puts pieces on the source surface.  Keeps the reference.
+  /// REQUIRES: `source` has all faces whose samples are carried.
   void aim_at(const SourceSurface& source) { source_ = &source; }
 
-  /// Smallest bound that the samples can prove anything for.
+  /// The smallest bound for which the samples can prove anything.
   [[nodiscard]] static constexpr double min_distance() { return 2.0 * kSampleCoveringRadius; }
 
   /// The quarters of one voxel face that a triangle carries.
   struct Piece {
     Vec3 middle;            ///< mean of the quarters' samples, in voxels
-    double quarters = 0.0;  ///< how many
-    unsigned axis = 0;      ///< of the face
-    double sign = 1.0;      ///< of the way along the axis from the smaller label to the larger
+    double quarters = 0.0;  ///< number of quarters
+    unsigned axis = 0;      ///< axis of the face
+    double sign = 1.0;      ///< 1 if the larger label is above the face along the axis, else -1
   };
-  /// Calls visit(piece) for what a triangle carries whose smaller label is `low`; in an order that
-  /// depends on the window's content only.
+  /// Calls visit(piece) for each piece that a triangle carries, in an order that depends on the
+  /// window's content only.  low is the smaller label at the triangle.
   template <typename Visit>
   void for_each_piece(const TriangleKey& key, Label low, Visit visit) const {
     for (const FaceSamples s : samples_.of(key)) visit(piece(s, low));
   }
-  /// True if holds(piece) is true for all pieces of for_each_piece(); stops at the first other one.
+  /// True if holds(piece) is true for all pieces of for_each_piece(); stops when one fails.
   template <typename Holds>
   [[nodiscard]] bool all_pieces(const TriangleKey& key, Label low, Holds holds) const {
     const std::span<const FaceSamples> all = samples_.of(key);
@@ -69,8 +69,8 @@ class DistanceGuard {
     }
   }
 
-  /// Would contracting (keep, drop) to `target` keep the bound?  Remembers where the samples go.
-  /// REQUIRES: both ends free; not yet contracted.
+  /// Returns whether contracting (keep, drop) to `target` keeps the bound, and remembers where the
+  /// samples go.  REQUIRES: both ends are free, and the edge is not yet contracted.
   [[nodiscard]] bool allows_contraction(const TetMesh& mesh, LocalVertex keep, LocalVertex drop,
                                         Point target);
   /// Judges the contraction when the interface triangles at both ends are at hand.
@@ -98,10 +98,10 @@ class DistanceGuard {
     Label high = 0;
     bool vanishes = false;
     bool stays = false;  ///< not changed at all; may receive samples
-    /// Rows of kept_ that say which of its samples it keeps; none: all of them.
+    /// The rows of kept_ that say which of its samples it keeps; without rows it keeps them all.
     std::size_t kept_begin = 0;
     std::size_t kept_end = 0;
-    CarriedSamples::Taken taken{};  ///< while samples change hands
+    CarriedSamples::Taken taken{};  ///< its list while samples change hands
   };
   struct Handover {
     std::size_t to = 0;
@@ -112,9 +112,9 @@ class DistanceGuard {
   struct Wanderer {
     Vec3 point;        ///< in voxels
     std::size_t from;  ///< row of the triangle that carries it
-    unsigned axis;     ///< of its face
+    unsigned axis;     ///< axis of its face
     double sign;       ///< as in Piece
-    double limit;      ///< of the distance
+    double limit;      ///< the largest distance allowed
   };
 
   [[nodiscard]] Piece piece(FaceSamples samples, Label low) const;
@@ -146,12 +146,12 @@ class DistanceGuard {
   InterfaceFan fan_;
   std::vector<FanTriangle> triangles_;
   std::vector<FanTriangle> other_triangles_;
-  const TetMesh* mesh_ = nullptr;      ///< of the change in question; null: a flip
-  std::array<LocalVertex, 2> ends_{};  ///< what changes: both ends of an edge, or twice a vertex
+  const TetMesh* mesh_ = nullptr;      ///< the mesh to be changed; null for a flip
+  std::array<LocalVertex, 2> ends_{};  ///< both ends of the edge, or twice the vertex
   std::vector<LocalVertex> ring_;      ///< the other vertices of the changed triangles
   NearTriangle near_triangle_;
-  std::vector<Changed> changed_;  ///< and behind them neighbours that stay
-  std::size_t neighbours_ = 0;    ///< row of the first of those; 0: not looked for
+  std::vector<Changed> changed_;  ///< changed triangles, then neighbours that stay
+  std::size_t neighbours_ = 0;    ///< row of the first neighbour; 0 until they are added
   std::vector<Handover> handovers_;
   std::vector<bool> kept_;
 };

@@ -8,7 +8,7 @@ namespace {
 
 using LaneWords = std::uint64_t __attribute__((vector_size(kLanes * sizeof(std::uint64_t))));
 
-/// Lower voxels and axes.
+/// The lower voxels and the axes of four faces.
 struct Unpacked {
   LaneInts x, y, z;
   LaneInts axis;
@@ -26,7 +26,7 @@ MW_LANES Unpacked unpack(const FaceGroup& faces) {
           field(words, 44, kCoordinate), field(words, 4, 3)};
 }
 
-/// Where the voxels on the lower sides bear the label.
+/// Marks the faces whose lower voxel has the label.
 MW_LANES LaneMask is_label(const Unpacked& faces, const LabelBox& labels, Label label) {
   const Index3 shape = labels.box.shape(), lo = labels.box.lo;
   const LaneInts rows =
@@ -39,7 +39,8 @@ MW_LANES LaneMask is_label(const Unpacked& faces, const LabelBox& labels, Label 
   return found == static_cast<std::int64_t>(label);
 }
 
-/// Sums over the samples of some quarters: of the places along the face's two axes, and of ones.
+/// Sums of the samples of some quarters: of their coordinates along the face's two axes, in voxels
+/// from its lowest corner, and their number.
 struct QuarterSums {
   double first = 0.0;
   double second = 0.0;

@@ -49,8 +49,8 @@ void InterfaceFan::collect_of_any(const TetMesh& mesh, LocalVertex v,
   }
 }
 
-/// Where a closed star has two labels, a side that no second tet of one label has is one of the
-/// other: the label with fewer tets tells all.
+/// In a closed star of two labels, a triangle that only one tet of a label has is an interface
+/// triangle.  So it is enough to look at the tets of the label that has fewer.
 void InterfaceFan::collect_of_two(const TetMesh& mesh, LocalVertex v,
                                   std::vector<FanTriangle>& out) {
   const auto star = mesh.star(v);
@@ -80,7 +80,7 @@ void InterfaceFan::collect_of_two(const TetMesh& mesh, LocalVertex v,
   }
 }
 
-/// For a new call; at most half of the table gets used.
+/// Empties the table for a new call and makes it so large that at most half of it gets used.
 void InterfaceFan::make_room(std::size_t sides) {
   const std::size_t wanted = std::bit_ceil(std::max(kFirstSides, 2 * sides));
   if (wanted > sides_.size() || ++stamp_ == 0) {
@@ -89,7 +89,7 @@ void InterfaceFan::make_room(std::size_t sides) {
   }
 }
 
-/// Where the edge is in the table, or would be.
+/// Returns where the edge is in the table, or would be.
 std::size_t InterfaceFan::place_of(std::uint64_t edge) const {
   constexpr std::uint64_t kOdd = 0x9E3779B97F4A7C15ULL;
   const std::size_t mask = sides_.size() - 1;

@@ -19,8 +19,9 @@ struct FanTriangle {
   bool faces_high = false;  ///< the normal (a - v) x (b - v) points to the side of high
 };
 
-/// Collects the triangles at v that have different labels of the volume on their two sides (the
-/// box is no interface), ascending.  At a vertex that is not free: those with both tets loaded.
+/// Collects the triangles at v that have different labels of the volume on their two sides,
+/// ascending; the sides of the box are no interface.  At a vertex that is not free, only triangles
+/// with both tets loaded are found.
 class InterfaceFan {
  public:
   void collect(const TetMesh& mesh, LocalVertex v, std::vector<FanTriangle>& out);
@@ -29,10 +30,10 @@ class InterfaceFan {
   /// One side of triangle (v, a, b), until the other one comes.
   struct Side {
     std::uint64_t edge = 0;   ///< its smaller vertex in the upper half
-    std::uint32_t stamp = 0;  ///< of the call that it belongs to
+    std::uint32_t stamp = 0;  ///< number of the call that filled it
     Label label = 0;
     bool ascends = false;  ///< the normal of (v, smaller, larger) points into the tet
-    bool is_open = true;   ///< the other one did not come
+    bool is_open = true;   ///< the other side has not come
   };
 
   void make_room(std::size_t sides);
@@ -42,8 +43,8 @@ class InterfaceFan {
   void pair_sides(LocalVertex a, LocalVertex b, Label label, std::vector<FanTriangle>& out);
   void open_or_close(LocalVertex a, LocalVertex b);
 
-  std::vector<Side> sides_;  ///< hash table with linear probing; what bears another stamp is free
-  std::vector<std::size_t> opened_;  ///< places in it
+  std::vector<Side> sides_;          ///< hash table, linear probing; free where stamps differ
+  std::vector<std::size_t> opened_;  ///< places in sides_ that hold a side of this call
   std::uint32_t stamp_ = 0;
 };
 

@@ -11,13 +11,13 @@
 namespace mw {
 namespace {
 
-/// Against rounding in the last bits: proofs aim this much below the bound.
+/// Proofs aim this much below the bound, against rounding in the last bits.
 constexpr double kRoundingGuard = 1e-9;
 
 /// Pieces with no edge longer than this share of the bound are not halved again.
 constexpr double kSmallestPiece = 1.0 / 16.0;
 
-/// k-th of [lo, hi) from the middle outwards: what is near all corners lies there.
+/// The k-th index of [lo, hi) from the middle outwards; voxels near all corners are in the middle.
 std::int64_t from_middle(std::int64_t lo, std::int64_t hi, std::int64_t k) {
   const std::int64_t middle = lo + (hi - lo - 1) / 2;
   return k % 2 == 0 ? middle - k / 2 : middle + (k + 1) / 2;
@@ -37,8 +37,8 @@ MW_LANES Lanes squared_gap(const Lanes& x, std::int64_t lo) {
   return gap * gap;
 }
 
-/// Bits 0 and 1: labels `wanted` that a voxel of `near` bears which is near all corners.  Stops
-/// when all in `missing` are found.
+/// Sets bit i where a voxel of `near` that is near all corners has label wanted[i].  Stops when all
+/// bits of `missing` are found.
 MW_WIDE unsigned find_labels(const LabelReach::Triangle& t, const LabelBox& labels,
                              const Box3& near, double squared_distance,
                              const std::array<Label, 2>& wanted, unsigned missing) {
@@ -85,7 +85,7 @@ Box3 LabelReach::voxels_near(const Triangle& t) const {
   std::array<std::int64_t, 3> lo{}, hi{};
   for (int i = 0; i < 3; ++i) {
     const auto k = static_cast<std::size_t>(i);
-    // Without branches: which corner is the least cannot be foretold.
+    // Written without branches, as which corner is the least cannot be foretold.
     const double min = std::min(std::min(t[0][i], t[1][i]), t[2][i]);
     const double max = std::max(std::max(t[0][i], t[1][i]), t[2][i]);
     lo[k] = floor_index(max - max_distance_);

@@ -23,18 +23,18 @@ class LabelReach {
   using Triangle = std::array<Vec3, 3>;
 
   /// REQUIRES: max_distance > 0; `labels` covers every triangle asked for and search_reach() around
-  /// it (voxels outside it count as neither label).
+  /// it (voxels outside of `labels` count as neither label).
   LabelReach(const LabelBox& labels, double max_distance);
 
-  /// How far around a triangle voxels are looked at.
+  /// How far around a triangle the search looks at voxels.
   [[nodiscard]] static std::int64_t search_reach(double max_distance);
 
-  /// ENSURES: never true where the bound does not hold; false within a small fraction of the bound
-  /// where it does.
+  /// ENSURES: true only where the bound holds; false only where some point of the triangle breaks
+  /// it, or comes within a small fraction of D of breaking it.
   [[nodiscard]] bool within(const Triangle& triangle, Label a, Label b) const;
 
  private:
-  /// Labels still to be found near a piece; kExterior: none.
+  /// Labels still to be found near a piece; kExterior stands for none.
   struct Wanted {
     Label a = kExterior;
     Label b = kExterior;
@@ -42,7 +42,7 @@ class LabelReach {
   };
 
   [[nodiscard]] bool prove(const Triangle& t, Wanted wanted) const;
-  /// What is left when labels of voxels near all three corners are taken away.
+  /// Returns those wanted labels of which no voxel is near all three corners.
   [[nodiscard]] Wanted unseen(const Triangle& t, Wanted wanted) const;
   [[nodiscard]] Box3 voxels_near(const Triangle& t) const;
 

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The mwmesh authors
 // SPDX-License-Identifier: Apache-2.0
-// Boxes first; then distances; then whether the triangle is an interface.
+// Tests boxes first, then distances, then whether the triangle is an interface.
 #include "kernels/distance/near_triangle.h"
 
 #include <algorithm>
@@ -9,14 +9,14 @@
 namespace mw {
 namespace {
 
-/// More than distances are rounded by.
+/// A factor that exceeds the rounding of distances.
 constexpr double kRoundedUp = 1.0 + 1e-9;
 
 std::int32_t units(double voxels) {
   return static_cast<std::int32_t>(std::lround(voxels * kUnitsPerVoxel));
 }
 
-/// Whether a tet of that label has the triangle (v, a, b).
+/// True if a tet of this label has the triangle (v, a, b).
 bool has_tet(const TetMesh& mesh, LocalVertex v, LocalVertex a, LocalVertex b, Label label) {
   const auto star = mesh.star(v);
   return std::any_of(star.begin(), star.end(), [&](const LinkTriangle& t) {

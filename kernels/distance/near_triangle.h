@@ -10,19 +10,20 @@
 
 namespace mw {
 
-/// Among the samples that no changed triangle takes nineteen in twenty find no unchanged one either
-/// (an abdomen CT), and listing those triangles costs more than this look.
+/// A quick test before the interface triangles around a change are listed.  Of the samples that no
+/// changed triangle takes, nineteen in twenty find no unchanged one either (an abdomen CT), and the
+/// list costs more than this test.
 class NearTriangle {
  public:
   struct Wanted {
     Vec3 point;          ///< in voxels
-    double limit = 0.0;  ///< of the distance
+    double limit = 0.0;  ///< the largest distance
     Label low = 0;
     Label high = 0;
   };
 
-  /// Whether a triangle between low and high at one of `vertices`, none of its corners being
-  /// `without`, may be within the limit: false only when none is.
+  /// Returns false only when no triangle between low and high is within the limit, of those that
+  /// are at one of `vertices` and have no corner in `without`.
   /// REQUIRES: no vertex of `vertices` is in `without`.
   [[nodiscard]] bool may_be_at(const TetMesh& mesh, std::span<const LocalVertex> vertices,
                                const std::array<LocalVertex, 2>& without, const Wanted& wanted);
@@ -33,7 +34,7 @@ class NearTriangle {
                                const Wanted& wanted) const;
   [[nodiscard]] unsigned sides_of(Point p) const;
 
-  Point lo_{}, hi_{};  ///< what is within the limit lies between
+  Point lo_{}, hi_{};  ///< corners of a box of all that is within the limit
 };
 
 }  // namespace mw

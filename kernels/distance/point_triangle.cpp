@@ -9,8 +9,8 @@
 namespace mw {
 namespace {
 
-/// Triangles narrower than this share of their longest edge count as their edges: their normal is
-/// noise.
+/// A triangle narrower than this share of its longest edge counts as its three edges, because its
+/// normal is noise.
 constexpr double kNarrow = 1e-9;
 
 /// Corners, edges, inward normals and inverse squares as in DistanceTriangle.
@@ -45,8 +45,8 @@ MW_WIDE unsigned within_squared(const Flat& t, const PointLanes& points, double 
   return lane_bits(__builtin_convertvector(near, LaneInts));
 }
 
-/// Share of the way from `from` to `to` of the point that is nearest to p.
-/// along: the product with an edge of this squared length.
+/// The share of an edge at which it is nearest to a point.  along is the product of the edge and
+/// the vector from its start to the point; square is the edge's squared length.
 double share_of_way(double along, double square) {
   return square > 0.0 ? std::clamp(along / square, 0.0, 1.0) : 0.0;
 }
@@ -114,7 +114,7 @@ unsigned DistanceTriangle::within(const PointLanes& points, double squared) cons
 Foot foot_on_triangle(const Vec3& p, const Vec3& a, const Vec3& b) {
   const double aa = a.squaredNorm(), ab = a.dot(b), bb = b.squaredNorm();
   const double pa = p.dot(a), pb = p.dot(b);
-  const double area = aa * bb - ab * ab;  // of the parallelogram, squared
+  const double area = aa * bb - ab * ab;  // squared area of the parallelogram
   const double u = bb * pa - ab * pb, v = aa * pb - ab * pa;
   if (area > 0.0 && u >= 0.0 && v >= 0.0 && u + v <= area) {
     const double along_a = u / area, along_b = v / area;

@@ -11,7 +11,7 @@
 
 namespace mw {
 
-/// Exact: units are a power of two to a voxel.
+/// The position in voxels; it is exact, as the units of a voxel are a power of two.
 [[nodiscard]] inline Vec3 in_voxels(Point p) {
   return Vec3(p.x, p.y, p.z) / static_cast<double>(kUnitsPerVoxel);
 }
@@ -19,19 +19,19 @@ namespace mw {
 /// x, y and z of some points.
 using PointLanes = std::array<StoredLanes, 3>;
 
-/// A triangle made ready for many distances; degenerate ones included.
+/// A triangle prepared for many distances to it; it may be degenerate.
 class DistanceTriangle {
  public:
   explicit DistanceTriangle(const std::array<Vec3, 3>& corners);
 
   [[nodiscard]] const std::array<Vec3, 3>& corners() const { return corners_; }
-  /// By the right-hand rule; zero where the triangle is too narrow to have one.
+  /// The normal by the right-hand rule, or zero where the triangle is too narrow to have one.
   [[nodiscard]] const Vec3& unit_normal() const { return unit_normal_; }
   /// Squared distance from p to the nearest point of the triangle.
   [[nodiscard]] double squared_distance(const Vec3& p) const;
   /// One bit for each point whose squared distance is at most `squared`.
   [[nodiscard]] unsigned within(const PointLanes& points, double squared) const;
-  /// True only when p is farther than `distance` away, and at little cost.
+  /// A quick test that is true only when p is farther than `distance` away.
   [[nodiscard]] bool is_beyond(const Vec3& p, double distance) const {
     const double reach = radius_ + distance;
     return (p - corners_[0]).squaredNorm() > reach * reach;
@@ -40,20 +40,20 @@ class DistanceTriangle {
  private:
   std::array<Vec3, 3> corners_;
   std::array<Vec3, 3> edges_;              ///< edge i starts at corner i
-  std::array<Vec3, 3> inward_;             ///< across edge i, in the plane
-  std::array<double, 3> inverse_squares_;  ///< of the edges' lengths; 0 for none
+  std::array<Vec3, 3> inward_;             ///< normal of edge i in the plane, to the inside
+  std::array<double, 3> inverse_squares_;  ///< 1 / squared length of edge i; 0 if that is 0
   Vec3 unit_normal_;
-  double radius_ = 0.0;   ///< around the first corner, rounded up
-  bool is_flat_ = false;  ///< so narrow that its edges are as near as it gets
+  double radius_ = 0.0;   ///< radius of a ball around corner 0 that holds it, rounded up
+  bool is_flat_ = false;  ///< so narrow that only distances to its edges count
 };
 
-/// Where a point's foot on a triangle is.
+/// A point's foot on a triangle: the nearest point of the triangle.
 struct Foot {
-  std::array<double, 3> weights{};  ///< of the corners, not negative; they add up to 1
+  std::array<double, 3> weights{};  ///< weights of the corners, not negative; they add up to 1
   double squared_distance = 0.0;
 };
 
-/// The foot of p on the triangle with corners 0, a and b; degenerate ones included.
+/// The foot of p on the triangle with corners 0, a and b, which may be degenerate.
 [[nodiscard]] Foot foot_on_triangle(const Vec3& p, const Vec3& a, const Vec3& b);
 
 /// Products of the corners a and b of a triangle whose third corner is 0.
@@ -70,8 +70,8 @@ struct CornerProducts {
 
 /// Feet of some points at once.
 struct FeetInside {
-  unsigned points = 0;      ///< one bit for each whose foot has positive weights
-  StoredLanes at_corner{};  ///< weights of corner 0, of those
+  unsigned points = 0;      ///< one bit for each point whose foot has positive weights
+  StoredLanes at_corner{};  ///< weights of corner 0, where that bit is set
 };
 
 /// Feet of four points.
@@ -81,7 +81,8 @@ struct FootLanes {
   LaneMask inside;  ///< all weights are positive
 };
 
-/// Share of the way along an edge of this squared length; along: products with the edge.
+/// The share of an edge, from 0 to 1, at which it is nearest to a point.  along holds the points'
+/// products with the edge, and square is its squared length.
 MW_LANES Lanes share_of_edge(const Lanes& along, double square) {
   if (!(square > 0.0)) return lanes(0.0);
   const Lanes share = along / square, zero = lanes(0.0), one = lanes(1.0);
@@ -89,7 +90,7 @@ MW_LANES Lanes share_of_edge(const Lanes& along, double square) {
   return one < positive ? one : positive;
 }
 
-/// Finds what foot_on_triangle() finds for each, to the last bit.  of: corner_products(a, b).
+/// Finds what foot_on_triangle() finds for each, to the last bit.  `of` is corner_products(a, b).
 MW_LANES FootLanes feet_on_triangle(const Lanes3& p, const Vec3& a, const Vec3& b,
                                     const CornerProducts& of) {
   const Lanes3 to_a = lanes(a), to_b = lanes(b), edge = lanes(Vec3(b - a)), from_a = p - to_a;
@@ -116,7 +117,7 @@ MW_LANES FootLanes feet_on_triangle(const Lanes3& p, const Vec3& a, const Vec3& 
   return out;
 }
 
-/// Those on the triangle with corners 0, a and b; none when it is degenerate.
+/// The feet inside the triangle with corners 0, a and b; none when it is degenerate.
 [[nodiscard]] FeetInside feet_inside(const PointLanes& p, const Vec3& a, const Vec3& b);
 
 }  // namespace mw

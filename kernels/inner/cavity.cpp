@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The mwmesh authors
 // SPDX-License-Identifier: Apache-2.0
-// Surface by pairs of triangles, place by a search along the axes.
+// Finds the surface from triangles that occur once, and the place by a search along the axes.
 #include "kernels/inner/cavity.h"
 
 #include <algorithm>
@@ -12,7 +12,7 @@
 namespace mw {
 namespace {
 
-/// Steps of the search, shares of the size of the cavity.
+/// Steps of the search, as shares of the size of the cavity.
 constexpr std::array<double, 4> kSteps{0.16, 0.08, 0.04, 0.02};
 
 }  // namespace
@@ -47,7 +47,7 @@ std::vector<LocalTet> Cavity::tets_around(LocalVertex row) const {
   return out;
 }
 
-/// The mean of the corners of the surface's triangles, each as often as it is one.
+/// The mean of the corners of the surface's triangles; a corner counts once for each triangle.
 Point Cavity::middle() const {
   std::array<std::int64_t, 3> sum{};
   for (const LinkTriangle& f : surface_) {

@@ -20,7 +20,7 @@ struct CavityPosition {
 /// What is asked of the new tets.
 struct CavityLimits {
   double min_ratio = 0.0;
-  const SizeField* sizes = nullptr;  ///< new edges are as short as after moves; null: any
+  const SizeField* sizes = nullptr;  ///< limits of new edges, as of moves; null means none
 };
 
 /// Tets of one label whose union is a ball with all their vertices on its surface.
@@ -29,14 +29,14 @@ class Cavity {
   Cavity(const TetMesh& mesh, const Metric& metric, std::vector<LocalTet> tets);
 
   [[nodiscard]] const std::vector<LocalTet>& tets() const { return tets_; }
-  /// The tets between a vertex and the surface: they cover the same points, once, if all are
-  /// positive, as old and new ones have one boundary.
+  /// The tets between a vertex and the surface.  If all are positive, they cover the same points,
+  /// once, as old and new ones have one boundary.
   [[nodiscard]] std::vector<LocalTet> tets_around(LocalVertex row) const;
 
-  /// The better place of `start` and the middle of the corners; none when some new tet would not be
-  /// exactly positive in both.
+  /// The better place of `start` and the middle of the corners; nothing when at both some new tet
+  /// would not be exactly positive.
   [[nodiscard]] std::optional<CavityPosition> first_position(Point start) const;
-  /// The best place that a search from there finds; none when it does not keep the limits.
+  /// The best place that a search from `first` finds; nothing when that breaks the limits.
   /// Cost: some 25 looks at the surface.
   [[nodiscard]] std::optional<CavityPosition> best_position(CavityPosition first,
                                                             const CavityLimits& limits) const;
@@ -44,7 +44,8 @@ class Cavity {
  private:
   void find_surface();
   [[nodiscard]] Point middle() const;
-  /// The worst radius ratio with the vertex at x, or less than `enough`; 0 when it is not allowed.
+  /// The worst radius ratio with the vertex at x.  May stop at one below `enough`; at most 0 when a
+  /// tet would not be exactly positive.
   [[nodiscard]] double worst_at(Point x, double enough) const;
   [[nodiscard]] bool keeps_lengths(Point x, const SizeField& sizes) const;
   void search(CavityPosition& best) const;

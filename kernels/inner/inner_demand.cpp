@@ -1,13 +1,13 @@
 // SPDX-FileCopyrightText: The mwmesh authors
 // SPDX-License-Identifier: Apache-2.0
-// Where a fixed vertex may be either, the worse is taken for true.
+// Where a fixed vertex may be inner or not, the worse case is assumed.
 #include "kernels/inner/inner_demand.h"
 
 #include <algorithm>
 
 namespace mw {
 
-/// Only an inner vertex that goes into one on a boundary is missed.
+/// Tets lose an inner vertex only where it is contracted into one on a boundary.
 bool InnerFilter::keeps_inner(LocalVertex keep, LocalVertex drop) const {
   if (!is_surely_inner(mesh_, drop) || is_surely_inner(mesh_, keep)) return true;
   for (const LinkTriangle& t : mesh_.star(drop)) {

@@ -15,7 +15,7 @@ namespace mw {
 /// (Linear tets without one lock when such a label is bent.)
 class InnerDemand {
  public:
-  /// wanted: by dense label.
+  /// wanted has an entry for each dense label.
   explicit InnerDemand(std::vector<bool> wanted) : wanted_(std::move(wanted)) {}
 
   [[nodiscard]] bool wants(Label label) const { return label < wanted_.size() && wanted_[label]; }
@@ -24,12 +24,12 @@ class InnerDemand {
   std::vector<bool> wanted_;
 };
 
-/// False where some of a fixed vertex's labels may not be loaded.
+/// True if v is known to be inner; not known of a fixed vertex, whose labels may not all be loaded.
 [[nodiscard]] inline bool is_surely_inner(const TetMesh& mesh, LocalVertex v) {
   return mesh.is_free(v) && mesh.order(v) == 1;
 }
 
-/// Labels that are loaded tell it of a fixed vertex too.
+/// True if v is known to be on a boundary; loaded labels can tell it of a fixed vertex too.
 [[nodiscard]] inline bool is_surely_on_boundary(const TetMesh& mesh, LocalVertex v) {
   return mesh.order(v) > 1;
 }
@@ -37,14 +37,14 @@ class InnerDemand {
 /// Judges changes of a mesh.  Without a demand everything is allowed, at no cost.
 class InnerFilter {
  public:
-  /// demand: null: none.
+  /// demand may be null, which means none.
   InnerFilter(const TetMesh& mesh, const InnerDemand* demand) : mesh_(mesh), demand_(demand) {}
 
-  /// Contraction of (keep, drop): no tet loses its last inner vertex.  REQUIRES: both free.
+  /// True if contracting (keep, drop) takes no tet's last inner vertex.  REQUIRES: both free.
   [[nodiscard]] bool allows_contraction(LocalVertex keep, LocalVertex drop) const {
     return demand_ == nullptr || keeps_inner(keep, drop);
   }
-  /// New tets for old ones with the same vertices: no more of them are without an inner vertex.
+  /// True if no more new tets lack an inner vertex than old ones, whose vertices they have.
   [[nodiscard]] bool allows_replacement(std::span<const LocalTet> old_tets,
                                         std::span<const LocalTet> new_tets) const {
     return demand_ == nullptr || lacks_no_more(old_tets, new_tets);
@@ -60,8 +60,8 @@ class InnerFilter {
 };
 
 struct TetDemands {
-  const SizeField* sizes = nullptr;    ///< edges keep to these limits; null: none
-  const InnerDemand* inner = nullptr;  ///< inner vertices that tets keep; null: none
+  const SizeField* sizes = nullptr;    ///< limits that edges keep to; null means none
+  const InnerDemand* inner = nullptr;  ///< inner vertices that tets keep; null means none
 };
 
 }  // namespace mw

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The mwmesh authors
 // SPDX-License-Identifier: Apache-2.0
-// Passes over the tets, each with cavities that share none, then a new mesh.
+// Each pass over the tets finds cavities that share no tet, and then makes a new mesh.
 #include "kernels/inner/inner_vertices.h"
 
 #include <algorithm>
@@ -13,9 +13,9 @@ namespace mw {
 namespace {
 
 constexpr int kPasses = 2;
-/// Cavities that leave at least this need no comparison with others.
+/// A cavity that leaves this radius ratio is taken without a look at others.
 constexpr double kGoodRatio = 0.45;
-/// Cavities of a tet in which a place is searched for.
+/// In this many cavities of a tet a place is searched for.
 constexpr std::size_t kSearches = 3;
 
 using TetKey = std::array<LocalVertex, 4>;
@@ -30,7 +30,7 @@ Point between(Point a, Point b) {
   return {a.x + (b.x - a.x) / 2, a.y + (b.y - a.y) / 2, a.z + (b.z - a.z) / 2};
 }
 
-/// One pass: reads the mesh, collects what is to be replaced.
+/// One pass, which reads the mesh and collects what is to be replaced.
 class Pass {
  public:
   Pass(const TetMesh& mesh, const Metric& metric, const InnerDemand& demand,
@@ -49,7 +49,7 @@ class Pass {
 
   [[nodiscard]] const std::vector<Point>& added() const { return added_; }
 
-  /// All tets, rows of added vertices after those of the mesh.
+  /// All tets; rows of added vertices follow those of the mesh.
   [[nodiscard]] std::vector<LocalTet> tets() const {
     std::vector<LocalTet> out = mesh_.tets();
     std::erase_if(out, [&](const LocalTet& t) { return gone_.contains(key_of(t)); });
@@ -68,7 +68,7 @@ class Pass {
            std::all_of(tet.vertices.begin(), tet.vertices.end(),
                        [&](LocalVertex v) { return is_surely_on_boundary(mesh_, v); });
   }
-  /// A later call sees all that this one does of the tet.
+  /// True if a later call sees all that this one sees of the tet.
   [[nodiscard]] bool waits(const LocalTet& tet) const {
     return std::any_of(options_.later.begin(), options_.later.end(), [&](const LatticeBox& box) {
       return std::all_of(tet.vertices.begin(), tet.vertices.end(),
@@ -194,7 +194,7 @@ std::uint64_t add_inner_vertices(TetMesh& mesh, CarriedSamples& samples, Point b
                                  const Metric& metric, const InnerDemand& demand,
                                  const InnerOptions& options) {
   if (mesh.vertex_count() == 0) return 0;
-  // In canonical order, whatever was done before.
+  // Canonical order makes the result independent of what was done to the mesh.
   rebuild(mesh, samples, mesh.tets(), {}, box);
   std::uint64_t given = 0;
   for (int i = 0; i < kPasses; ++i) {

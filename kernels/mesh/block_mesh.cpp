@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The mwmesh authors
 // SPDX-License-Identifier: Apache-2.0
-// Blocks become one, with rows of its own.
+// Merges blocks into one, with rows of its own.
 #include "kernels/mesh/block_mesh.h"
 
 #include <algorithm>
@@ -14,7 +14,7 @@
 namespace mw {
 namespace {
 
-/// Room for the lists of all blocks, which are many and long: no vector grows by doubling.
+/// Returns a list with room for those of all blocks, which are long, so that it need not grow.
 template <typename Item>
 std::vector<Item> room_for(std::span<const BlockMesh> blocks, std::vector<Item> BlockMesh::*list) {
   std::size_t size = 0;

@@ -41,8 +41,8 @@ struct BlockSample {
   friend auto operator<=>(const BlockSample&, const BlockSample&) = default;
 };
 
-/// Content of one block.  Canonical: vertices ascending by id, tets and samples ascending; every
-/// vertex is referenced; a triangle names a face once.  Equal content is equal bytes, whichever
+/// Content of one block in canonical form: vertices ascend by id, tets and samples ascend, every
+/// vertex is referenced, and a triangle names a face once.  Equal content is equal bytes, whichever
 /// window wrote it.
 struct BlockMesh {
   std::vector<BlockVertex> vertices;
@@ -58,8 +58,8 @@ struct BlockMesh {
 /// Memory: the result, and once more its longest list.
 [[nodiscard]] BlockMesh merge_blocks(std::vector<BlockMesh> blocks);
 
-/// The canonical order of a block's samples, with those of one face on one triangle joined.
-/// vertices: the number of the block's vertices, which the samples' triangles are rows of.
+/// Brings a block's samples into canonical order and joins those of one face on one triangle.
+/// vertices is the number of the block's vertices, which the samples' triangles are rows of.
 void make_canonical(std::vector<BlockSample>& samples, std::size_t vertices);
 
 }  // namespace mw

@@ -12,9 +12,10 @@
 
 namespace mw {
 
-/// Direct-mapped, of a size that follows from the mesh's and stays in the cache: a lost entry costs
-/// one more try, and the same one in every run.  An entry is a hash of the edge and the versions of
-/// its ends; one look in two thousand million finds another edge's and spares a try that was due.
+/// A direct-mapped table whose size follows from the mesh's and stays in the cache.  A lost entry
+/// costs one more try, and the same one in every run.  An entry is a hash of the edge and the
+/// versions of its ends; one look in two thousand million takes another edge's for it and spares a
+/// try that was due.
 class FailedPairs {
  public:
   explicit FailedPairs(std::size_t vertices)

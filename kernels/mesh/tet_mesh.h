@@ -22,7 +22,7 @@ class VertexMarks {
   explicit VertexMarks(std::size_t vertices) : marks_(vertices, 0) {}
 
   void clear() { ++epoch_; }
-  /// True when v was not yet in the set.
+  /// Adds v; true when it was not yet in the set.
   bool insert(std::uint32_t v) {
     const bool is_new = marks_[v] != epoch_;
     marks_[v] = epoch_;
@@ -78,7 +78,7 @@ using BoxPlanes = std::uint8_t;
 class TetMesh {
  public:
   /// Local vertices are the rows of `vertices`.
-  /// kept: planes of the box whose triangles stay as they are: no vertex on one of them is free.
+  /// kept are planes of the box whose triangles stay as they are: no vertex on one of them is free.
   /// REQUIRES: vertices ascending by id; tets by rows, in a canonical order, all within
   /// kMaxTetExtent and not flat; box = far corner of the volume in lattice units.
   TetMesh(std::span<const BlockVertex> vertices, std::span<const BlockTet> tets, Point box,
@@ -117,7 +117,7 @@ class TetMesh {
   [[nodiscard]] int order(LocalVertex v) const { return orders_[v]; }
   /// The bits of the labels at v; all bits at a fixed vertex, whose labels may not all be loaded.
   [[nodiscard]] std::uint64_t label_signature(LocalVertex v) const { return signatures_[v]; }
-  /// See LabelBits; several of more than 64 labels share a bit.
+  /// The label's bit (LabelBits); where there are more than 64 labels, several share one.
   [[nodiscard]] std::uint64_t label_bit(Label label) const { return bits_.of(label); }
   /// True when v lies between two labels of the volume (not merely on the box).
   [[nodiscard]] bool on_interface(LocalVertex v) const {
@@ -153,7 +153,7 @@ class TetMesh {
   void classify_labels(LocalVertex v);
   void append(LocalVertex v, LinkTriangle triangle);
   void reserve(LocalVertex v, std::uint32_t capacity);
-  /// Moves stars together, where most of the pool is what they left behind; `room` is free then.
+  /// Moves stars together, where most of the pool is what they left behind, and leaves `room` free.
   void compact(std::uint32_t room);
   void erase(LocalVertex v, std::uint32_t index);
   void replace_in_link(LocalVertex keep, LocalVertex drop);
@@ -167,7 +167,7 @@ class TetMesh {
   BoxPlanes kept_ = 0;
   std::vector<std::uint8_t> free_;
   std::vector<std::uint8_t> orders_;
-  LabelBits bits_;  ///< of all labels, the exterior among them
+  LabelBits bits_;  ///< bits of all labels, the exterior among them
   std::vector<std::uint64_t> signatures_;
   std::vector<std::uint32_t> versions_;
   std::vector<Star> stars_;

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The mwmesh authors
 // SPDX-License-Identifier: Apache-2.0
-// Moves, triangulation, proof, again.
+// Iterates vertex moves, a triangulation and the proof of what it changes.
 #include "kernels/odt/codt.h"
 
 #include <bit>
@@ -14,7 +14,7 @@ namespace {
 
 constexpr int kSteinerBit = 63;
 
-/// Positions of Steiner points on the lattice; as many as there are ids for.
+/// Positions of Steiner points on the lattice; only the first `ids` points can have one.
 std::vector<std::optional<Point>> on_lattice(const PlcFrame& frame, const Triangulation& made,
                                              std::uint64_t ids) {
   std::vector<std::optional<Point>> out;
@@ -50,7 +50,7 @@ class Window {
   }
 
  private:
-  /// One a point, so that rows stay; those not used are dropped with their ids.
+  /// Makes one vertex a point, so that rows stay.  Unused ones get no id; rebuild() drops them.
   std::vector<BlockVertex> new_vertices(std::span<const std::optional<Point>> added,
                                         std::span<const std::uint8_t> used) {
     std::vector<BlockVertex> out(added.size());

@@ -20,8 +20,8 @@ struct SteinerIds {
 [[nodiscard]] SteinerIds steiner_ids(std::uint64_t window, std::uint64_t windows);
 
 struct CodtOptions {
-  int iterations = 10;     ///< at most; the paper's number
-  double min_gain = 2e-3;  ///< the last one lowers the ODT energy by less than this share
+  int iterations = 10;     ///< the most iterations; the paper's number
+  double min_gain = 2e-3;  ///< iteration ends when the ODT energy falls by less than this share
   double quality_floor = 0.0;
   SteinerIds ids;
 };
@@ -31,19 +31,19 @@ struct CodtStats {
   std::uint64_t iterations = 0;
   std::uint64_t moves = 0;
   std::uint64_t added = 0;      ///< Steiner points
-  std::uint64_t fallbacks = 0;  ///< windows that kept what they had, for want of a triangulation
+  std::uint64_t fallbacks = 0;  ///< windows that stopped because a triangulation failed
   ReplacementStats replaced;
 
   CodtStats& operator+=(const CodtStats& other);
 };
 
-/// What ODT minimises, up to a constant: the sum over tets of volume times squared edges.  (The
-/// mean radius ratio is no guide: after local optimisation it falls first.)
+/// What ODT minimises, up to a factor: the sum over tets of volume times the sum of squared edges.
+/// (The mean radius ratio is no guide, because after local optimisation it falls at first.)
 [[nodiscard]] double odt_energy(const TetMesh& mesh, const Metric& metric);
 
 /// Iterates vertex moves (odt_sweep.h) and constrained Delaunay reconnection (replacement.h).
-/// Steiner points become vertices inside their label, with a point quadric as such have from the
-/// start (Eq (2)), and ids of the window in the triangulation's order.
+/// Steiner points become vertices inside their label.  They get the point quadric that such
+/// vertices have from the start (Eq (2)), and ids of the window in the triangulation's order.
 /// REQUIRES: `samples` are carried by the mesh; box as the mesh was made with; no vertex of the
 ///           volume has one of the ids.
 /// ENSURES: as optimise(), but rows may change: vertices that no tet uses are gone, samples follow.

@@ -36,7 +36,7 @@ bool may_be_at(const TetMesh& mesh, const Metric& metric, LocalVertex v, Point x
   return true;
 }
 
-/// star: scratch.
+/// star is scratch.
 bool move_vertex(TetMesh& mesh, const Metric& metric, LocalVertex v, double quality_floor,
                  StarBatch& star) {
   const Point start = mesh.position(v);

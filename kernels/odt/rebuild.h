@@ -10,11 +10,11 @@
 
 namespace mw {
 
-/// Makes the mesh anew from `tets`, whose rows are those of the mesh, then of `added`.  Vertices
-/// that no tet uses go; samples move to the new rows.
+/// Makes the mesh anew from `tets`, whose rows are those of the mesh, followed by those of `added`.
+/// Vertices that no tet uses are dropped; samples move to the new rows.
 /// REQUIRES: box as the mesh was made with; ids of `added` are new; triangles that carry samples
 ///           still have their tet on the samples' side.
-/// ENSURES: canonical order, whatever the order of tets.
+/// ENSURES: canonical order, whatever the order of tets; no plane is kept (TetMesh).
 void rebuild(TetMesh& mesh, CarriedSamples& samples, std::span<const LocalTet> tets,
              std::span<const BlockVertex> added, Point box);
 

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The mwmesh authors
 // SPDX-License-Identifier: Apache-2.0
-// Patches by union-find over triangles; verdicts by their roots.
+// Finds patches by union-find over triangles; verdicts are kept at their roots.
 #include "kernels/odt/replacement.h"
 
 #include "kernels/odt/tet_faces.h"
@@ -42,7 +42,7 @@ bool within_exact_range(const std::array<Point, 4>& p) {
          narrow([](Point q) { return std::int64_t{q.z}; });
 }
 
-/// The tet made positive; none when it is flat or not on the lattice.
+/// Returns the tet made positive, or nothing if it is flat, too large or not on the lattice.
 std::optional<LocalTet> positive_tet(const Positions& positions,
                                      const std::array<std::uint32_t, 4>& rows, Label label) {
   std::array<Point, 4> p;
@@ -58,7 +58,7 @@ std::optional<LocalTet> positive_tet(const Positions& positions,
   return tet;
 }
 
-/// Old tets first, then new ones.
+/// All tets, the old ones first.
 struct AllTets {
   std::vector<LocalTet> tets;
   std::vector<std::uint32_t> regions;
@@ -120,7 +120,7 @@ class Patches {
     });
   }
 
-  /// Joins who shares a triangle, refuses who lacks a neighbour.
+  /// Joins tets that share a triangle, and refuses those that lack a neighbour.
   void settle(const Meeting& at) {
     const auto& [old, made] = at;
     const auto is_between = [](const auto& pair) { return pair[0] != kNone && pair[1] != kNone; };
@@ -146,7 +146,7 @@ class Patches {
     }
   }
 
-  /// A vertex inside a patch could be left out by the new tets.
+  /// Refuses patches whose new tets leave out a vertex of the old ones.
   void refuse_lost_vertices() {
     using Use = std::pair<std::uint32_t, LocalVertex>;
     std::array<std::vector<Use>, 2> uses;
@@ -169,7 +169,7 @@ class Patches {
   std::vector<std::uint8_t> refused_;
 };
 
-/// Old and new tets of a patch, looked at together.
+/// The number of old and of new tets of a patch, and the worst radius ratio of each.
 struct PatchShape {
   std::array<std::uint32_t, 2> tets{};
   std::array<double, 2> worst{1.0, 1.0};
@@ -179,7 +179,7 @@ struct PatchShape {
     ++tets[i];
     worst[i] = std::min(worst[i], ratio);
   }
-  /// One old tet and one new one with the same four triangles.
+  /// True for one old and one new tet, which then have the same four triangles.
   [[nodiscard]] bool is_unchanged() const { return tets[0] == 1 && tets[1] == 1; }
   [[nodiscard]] bool is_allowed(double quality_floor) const {
     return worst[1] >= std::min(quality_floor, worst[0]);

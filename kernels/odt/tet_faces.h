@@ -38,7 +38,7 @@ struct TetFace {
   return face;
 }
 
-/// Calls visit(first, last) for the faces of each triangle; triangles ascend, and at one the tets.
+/// Calls visit(first, last) for the faces of each triangle; triangles ascend, and so do their tets.
 template <typename Visit>
 void for_each_triangle(std::vector<TetFace>& faces, Visit visit) {
   std::sort(faces.begin(), faces.end());

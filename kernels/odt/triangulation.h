@@ -11,8 +11,8 @@
 
 namespace mw {
 
-/// A point, in lattice units times the ratio of the voxel's edges, relative to the window's lower
-/// corner: whole numbers, exact, when voxels are cubes.
+/// A point relative to the window's lower corner, in lattice units times the ratio of the voxel's
+/// edges.  When voxels are cubes, its coordinates are whole numbers, and exact.
 using PlcPoint = std::array<double, 3>;
 
 /// A piecewise linear complex: facets that a triangulation must contain, and further points.
@@ -22,14 +22,14 @@ struct Plc {
   std::vector<PlcPoint> seeds;  ///< one inside each region that the facets bound
 };
 
-/// Nobody vouches for one: Replacement proves each tet before it is used.
+/// A triangulation is not trusted: replace_proved() proves each tet before it is used.
 struct Triangulation {
   std::vector<PlcPoint> added;  ///< Steiner points; rows follow those of the points asked for
   std::vector<std::array<std::uint32_t, 4>> tets;  ///< either orientation
-  std::vector<std::uint32_t> regions;  ///< of each tet the number of its seed; others: no region
+  std::vector<std::uint32_t> regions;  ///< number of each tet's seed; other numbers mean no region
 };
 
-/// Makes the triangulation; none when it cannot.  REQUIRES of an implementation: a pure function.
+/// Makes the triangulation, or nothing when it cannot.  An implementation must be a pure function.
 using Triangulate = std::function<std::optional<Triangulation>(const Plc&)>;
 
 }  // namespace mw

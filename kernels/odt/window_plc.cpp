@@ -39,7 +39,7 @@ TetSets join_regions(const std::vector<LocalTet>& tets, Plc& plc) {
   return sets;
 }
 
-/// Regions ascend with their first tets.
+/// Numbers regions in the order of their first tets.
 void number_regions(RegionTets& content, TetSets& sets) {
   std::vector<std::uint32_t> number(content.tets.size(), kNoRegion);
   for (std::uint32_t t = 0; t < content.tets.size(); ++t) {
@@ -52,7 +52,7 @@ void number_regions(RegionTets& content, TetSets& sets) {
   }
 }
 
-/// The middle of each region's largest tet: as far from facets as one gets cheaply.
+/// The middle of each region's largest tet, which is far from facets and cheap to find.
 std::vector<PlcPoint> seeds_of(const TetMesh& mesh, const RegionTets& content,
                                const PlcFrame& frame) {
   std::vector<PlcPoint> seeds(content.labels.size());

@@ -8,21 +8,21 @@
 
 namespace mw {
 
-/// The tets of a window, each in a region: tets of one label that hang together by triangles.
+/// The tets of a window and their regions: sets of tets of one label connected by triangles.
 struct RegionTets {
   std::vector<LocalTet> tets;          ///< positive
-  std::vector<std::uint32_t> regions;  ///< of each tet
-  std::vector<Label> labels;           ///< of each region
+  std::vector<std::uint32_t> regions;  ///< region of each tet
+  std::vector<Label> labels;           ///< label of each region
 };
 
-/// From lattice points to those of a Plc and back.
+/// Converts lattice points to those of a Plc and back.
 class PlcFrame {
  public:
   PlcFrame(Point lower_corner, const Metric& metric)
       : lower_(lower_corner), scale_(metric.voxel()) {}
 
   [[nodiscard]] PlcPoint to_plc(Point p) const;
-  /// The nearest lattice point; none when that is farther than a tet can reach.
+  /// Returns the nearest lattice point, or nothing when it is farther than a tet can reach.
   [[nodiscard]] std::optional<Point> to_lattice(const PlcPoint& p) const;
 
  private:

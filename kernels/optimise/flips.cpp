@@ -21,7 +21,7 @@ double Flipper::energy_of(const LocalTet& tet) const {
   return tet.label == kExterior ? 0.0 : shape_energy(radius_ratio(mesh_, metric_, tet), min_);
 }
 
-/// Also decides what new tets must reach: the worst present one, or `decent`.
+/// Also sets the radius ratio that new tets must reach, by the worst old one and `decent`.
 double Flipper::energy_of_old_tets(double decent) {
   double worst = 1.0, sum = 0.0;
   TetLanes group;
@@ -96,8 +96,8 @@ bool Flipper::collect_triangles(LocalVertex p, LocalVertex q, const Polygon& pol
   return collect_triangles(p, q, {i, j, label}) && collect_triangles(p, q, {j, k, label});
 }
 
-/// One polygon when all tets of the ring bear one label; two when there are two labels, each on one
-/// stretch of at least two tets.  The ring is turned so that the first stretch starts it.
+/// Makes one polygon when all tets of the ring bear one label, and two when there are two labels,
+/// each on one stretch of at least two tets.  Turns the ring so that the first stretch starts it.
 bool Flipper::cut_into_polygons() {
   polygons_.clear();
   const std::size_t n = ring_.size();

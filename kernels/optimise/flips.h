@@ -27,21 +27,20 @@ namespace mw {
 /// no further test).  Triangles on the box stay in their plane, and a guard keeps the distance
 /// bound on interfaces.
 ///
-/// Vertices may be fixed: a flip changes no vertex, and a closed ring of loaded tets is all it
-/// needs.
+/// Vertices may be fixed, because a flip moves none; it only needs a closed ring of loaded tets.
 ///
 /// A flip must gain at least kMinGain: the same tet listed in another order has a radius ratio
 /// that differs in the last bits, and a gain of that size would flip back and forth for ever.
 ///
-/// Rings of six and seven are left out: 94 of 151,000 tries succeeded on EM 64^3, those of three to
-/// five 26,600 of 297,000.  Without them, and with a limit to the search, flips take 29 % fewer
-/// instructions on EM 40^3.
+/// Rings of six and seven are left out: only 94 of 151,000 tries succeeded on EM 64^3, but 26,600
+/// of 297,000 on rings of three to five.  Without them, and with a limit to the search, flips take
+/// 29 % fewer instructions on EM 40^3.
 ///
 /// There is no 2-3 flip: three tets for two hardly ever have less energy (0 of 440,000 tries on
 /// EM), and edge removal makes the same meshes.
 class Flipper {
  public:
-  /// guard: keeps the distance bound; null: no bound.
+  /// guard keeps the distance bound; null means no bound.
   Flipper(TetMesh& mesh, const Metric& metric, double quality_floor, DistanceGuard* guard = nullptr,
           const TetDemands& demands = {})
       : mesh_(mesh),
@@ -52,12 +51,12 @@ class Flipper {
         inner_(mesh, demands.inner) {}
 
   /// Replaces the ring of edge (p, q) by the best triangulation of the ring's polygon, joined to
-  /// both ends (dynamic programming over at most kMaxRing vertices).  On a surface the polygon is
-  /// cut in two by the new edge (a, b).
+  /// both ends (dynamic programming over at most kMaxRing vertices), if that gains.  On a surface
+  /// the polygon is cut in two by the new edge (a, b).
   bool remove_edge(LocalVertex p, LocalVertex q);
 
-  /// Does so for an edge between two labels of the volume, when shapes and surface together gain:
-  /// the surface alone gains `surface_gain`, in units of the shape energy.  REQUIRES: a guard.
+  /// Flips an edge between two labels of the volume when shapes and surface together gain.
+  /// `surface_gain` is what the surface gains, in units of the shape energy.  REQUIRES: a guard.
   bool flip_surface(LocalVertex p, LocalVertex q, double surface_gain);
 
  private:
@@ -65,7 +64,7 @@ class Flipper {
   static constexpr std::size_t kMaxSurfaceRing = 8;
   static constexpr double kMinGain = 1e-2;
 
-  /// Ring vertices first .. last, a polygon of one label; last may be ring size, which is vertex 0.
+  /// Ring vertices first .. last, a polygon of one label; last may be as for ring_vertex().
   struct Polygon {
     std::size_t first = 0;
     std::size_t last = 0;
@@ -75,7 +74,7 @@ class Flipper {
   [[nodiscard]] bool collect_polygons(LocalVertex p, LocalVertex q, std::size_t max_ring);
   [[nodiscard]] bool cut_into_polygons();
   [[nodiscard]] bool surface_allows(LocalVertex p, LocalVertex q);
-  /// REQUIRES: at most the ring's size, which is vertex 0.
+  /// REQUIRES: i is at most the ring's size, which stands for vertex 0.
   [[nodiscard]] LocalVertex ring_vertex(std::size_t i) const {
     return ring_.vertices[i == ring_.size() ? 0 : i];
   }
@@ -84,7 +83,7 @@ class Flipper {
   /// less than 1.32 for each new tet.
   [[nodiscard]] double min_energy_worth_trying() const;
   [[nodiscard]] double energy_of(const LocalTet& tet) const;
-  /// Infinite unless below `limit`.
+  /// Returns the least energy of new tets for the polygon; infinite unless below `limit`.
   [[nodiscard]] double best_triangulation(LocalVertex p, LocalVertex q, const Polygon& polygon,
                                           double limit);
   bool collect_triangles(LocalVertex p, LocalVertex q, const Polygon& polygon);
@@ -99,7 +98,7 @@ class Flipper {
   DistanceGuard* guard_;
   EdgeLimits limits_;
   InnerFilter inner_;
-  double min_ = 0.0;  ///< what the new tets must reach
+  double min_ = 0.0;  ///< radius ratio that the new tets must reach
   EdgeRing ring_;
   std::vector<Polygon> polygons_;
   std::array<std::array<double, kMaxSurfaceRing + 1>, kMaxSurfaceRing + 1> energy_{};

@@ -47,11 +47,11 @@ bool star_is_in_one(const TetMesh& mesh, LocalVertex v, const std::vector<Lattic
 /// Which vertices have a turn in a sweep.
 class Turns {
  public:
-  /// All except those that earlier calls have seen as they are.
+  /// All vertices except those that earlier calls have treated and that have not changed since.
   static Turns of_first_sweep(const TetMesh& mesh, const OptimiseOptions& options) {
     return Turns(mesh, options.earlier, [&](LocalVertex v) { return mesh.version(v) == 0; });
   }
-  /// All except those of later calls.
+  /// All vertices except those that later calls can treat.
   static Turns of_later_sweeps(const TetMesh& mesh, const OptimiseOptions& options) {
     return Turns(mesh, options.later, [](LocalVertex) { return true; });
   }
@@ -68,10 +68,10 @@ class Turns {
     }
   }
 
-  std::vector<std::uint8_t> has_;  ///< empty: all have
+  std::vector<std::uint8_t> has_;  ///< empty when all vertices have a turn
 };
 
-/// Flips edges, but not one again that failed and did not change since.
+/// Flips edges.  One that failed is not tried again until one of its ends changes.
 class EdgeFlips {
  public:
   EdgeFlips(TetMesh& mesh, const Metric& metric, const OptimiseOptions& options,
@@ -104,8 +104,8 @@ class OwnTets {
  public:
   OwnTets(const TetMesh& mesh, const Metric& metric) : mesh_(mesh), metric_(metric) {}
 
-  /// Rows of v's star, from `first` on, of such tets with a radius ratio below `limit`; of the
-  /// first kLanes tets at most that are v's own.  ENSURES: `first` is behind those.
+  /// Looks at the next kLanes tets, at most, that are v's own, from row `first` of v's star on.
+  /// Returns the rows of those with a radius ratio below `limit`, and puts `first` behind them all.
   std::span<const std::size_t> poor(LocalVertex v, double limit, std::size_t& first) {
     const auto star = mesh_.star(v);
     const Point at = mesh_.position(v);
@@ -209,7 +209,7 @@ OptimiseStats optimise(TetMesh& mesh, const Metric& metric, const OptimiseOption
 std::uint64_t fit_interfaces(TetMesh& mesh, const Metric& metric, const OptimiseOptions& options,
                              DistanceGuard* guard) {
   if (guard == nullptr || !options.surface) return 0;
-  // Curvature of steps says nothing, and bends of steps are no faults yet
+  // The curvature of steps says nothing, and their bends are no faults at this point
   // (bench/parameters.md, "Constants").
   const SurfaceWeights weights{.fit = 1.25,
                                .junction_fit = 1.25,
@@ -217,7 +217,7 @@ std::uint64_t fit_interfaces(TetMesh& mesh, const Metric& metric, const Optimise
                                .junction_area = 0.03,
                                .bend = 0.0,
                                .with_pressure = false};
-  // A step a visit: vertices that contraction leaves come again.
+  // One step a visit is enough, because vertices that contraction leaves are visited again.
   Smoother smoother(mesh, metric,
                     {.smooth_below = options.smooth_below,
                      .quality_floor = options.quality_floor,

@@ -22,21 +22,21 @@ struct LatticeBox {
 
 struct OptimiseOptions {
   int sweeps = 1;
-  /// What earlier calls of this march have seen.  The first sweep, and fit_interfaces(), leave
-  /// vertices alone whose stars lie in one of these boxes and were not changed since this window's
-  /// mesh was made: those calls have done it.
+  /// Boxes that earlier calls of this march have seen.  The first sweep, and fit_interfaces(),
+  /// leave out vertices whose stars lie in one of these boxes, unless their TetMesh::version() has
+  /// changed in this window: those calls have treated them.
   std::vector<LatticeBox> earlier;
-  /// What later calls will see.  Sweeps after the first leave vertices alone whose stars lie in one
-  /// of these boxes: those calls can do it, when more of what is around is as it will stay.
+  /// Boxes that later calls will see.  Sweeps after the first leave out vertices whose stars lie in
+  /// one of these boxes: those calls can treat them when more of what is around them is final.
   std::vector<LatticeBox> later;
   double flip_below = 0.4;     ///< flips are tried on tets with a smaller radius ratio
-  double smooth_below = 0.8;   ///< smoothing, at vertices whose worst tet is below
-  double quality_floor = 0.1;  ///< no step creates a tet below, unless it replaces a worse one
-  std::optional<SurfaceWeights> surface;  ///< as SmoothOptions
-  /// False: interface vertices that are fitted stay where they are, for a later march to move. What
-  /// fit_interfaces() does before contraction is enough till then, at 10 to 15 % less time.
+  double smooth_below = 0.8;   ///< vertices are smoothed whose worst tet has a smaller one
+  double quality_floor = 0.1;  ///< no step creates a tet below this, unless it replaces a worse one
+  std::optional<SurfaceWeights> surface;  ///< see SmoothOptions
+  /// If false, interface vertices that are fitted stay until a later march moves them.  What
+  /// fit_interfaces() does before contraction is enough until then and takes 10 to 15 % less time.
   bool moves_fitted = true;
-  TetDemands demands;  ///< as SimplifyOptions
+  TetDemands demands;  ///< see SimplifyOptions
 };
 
 struct OptimiseStats {
@@ -46,16 +46,18 @@ struct OptimiseStats {
   OptimiseStats& operator+=(const OptimiseStats& other);
 };
 
-/// Improves tets in place of the paper's constrained ODT (Sec 5.5); every step lowers the shape
-/// energy of the tets that it replaces.  guard: as in simplify().
-/// ENSURES: as simplify(): exact positivity, labels as point sets kept by flips and as complexes by
-///          moves, box kept, fixed vertices do not move; depends on content only.
+/// Improves tets in place of the paper's constrained ODT (Sec 5.5).  Every step lowers the shape
+/// energy of the tets that it replaces, or, where interfaces are fitted, that and the surface's
+/// together; only moves to a flat plane (Smoother) may raise it.  guard is as in simplify().
+/// ENSURES: as simplify(): exact positivity, topology and box kept, fixed vertices do not move;
+///          flips inside labels keep these as point sets, moves keep them as complexes; the result
+///          depends on content only.
 OptimiseStats optimise(TetMesh& mesh, const Metric& metric, const OptimiseOptions& options,
                        DistanceGuard* guard = nullptr);
 
-/// One sweep of smoothing over interface vertices alone, to be done before contraction: what is
-/// contracted then lies on the surface that the input's faces mean, not on their steps.
-/// Without `guard` or options.surface it does nothing.  Returns how many moved.
+/// Runs one sweep of smoothing over interface vertices alone.  It belongs before contraction, so
+/// that what is contracted lies on the surface that the input's faces mean, not on their steps.
+/// Without `guard` or options.surface it does nothing.  Returns how many vertices moved.
 std::uint64_t fit_interfaces(TetMesh& mesh, const Metric& metric, const OptimiseOptions& options,
                              DistanceGuard* guard);
 

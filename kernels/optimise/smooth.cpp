@@ -17,7 +17,7 @@ namespace {
 
 constexpr double kInterfaceSlack = 0.25;
 
-/// Weight of the quadric beside the energy: at its limit it costs this share of the star.
+/// Weight of the quadric beside the energy: at its limit it costs this share of the star's energy.
 constexpr double kQuadricShare = 0.1;
 
 /// A move must lower the energy by this share: tiny moves would only keep stars from coming to
@@ -26,7 +26,7 @@ constexpr double kMinGain = 0.002;
 
 constexpr double kNoLimit = std::numeric_limits<double>::infinity();
 
-/// Steps of the search around a fold, shares of the mean edge.
+/// Steps of the search around a fold, as shares of the mean edge.
 constexpr std::array<double, 4> kSearchSteps{0.4, 0.2, 0.1, 0.05};
 constexpr int kHalvings = 2;
 /// How often the way to a plane is halved before it is given up.
@@ -35,7 +35,7 @@ constexpr int kHalvingsToPlane = 4;
 /// What a move of one vertex has to respect, and what it costs.
 class Mover {
  public:
-  /// surface: null where none is fitted.
+  /// surface is null where none is fitted.
   Mover(const TetMesh& mesh, const Metric& metric, StarBatch& star, SurfaceEnergy* surface,
         LocalVertex v, const StarShape& present, double min)
       : mesh_(mesh),
@@ -52,7 +52,7 @@ class Mover {
     }
   }
 
-  /// From now on moves go along a plane.
+  /// Restricts all further moves to a plane.
   void keep_to(const FlatPlane& plane) { fixed_ |= 1U << plane.axis; }
 
   /// The lattice point at `offset` from x, if the quadric and the planes of the vertex let it go
@@ -84,8 +84,8 @@ class Mover {
     return of_surface + star_.energy_at(at, min_, enough - of_surface);
   }
 
-  /// Newton's step for StarBatch::terms_at and the surface energy; without one, on interfaces, the
-  /// quadric is added.
+  /// Newton's step for StarBatch::terms_at and the surface energy.  At interface vertices without a
+  /// surface energy the quadric is added instead.
   [[nodiscard]] Vec3 newton_step(Point x) const {
     const Vec3 at = from_start(x);
     StarTerms terms = star_.terms_at(at);
@@ -143,8 +143,8 @@ Point between(Point a, Point b) {
   return {a.x + (b.x - a.x) / 2, a.y + (b.y - a.y) / 2, a.z + (b.z - a.z) / 2};
 }
 
-/// Begins with the foot in the plane, or as near to it as the tets stay good enough, and then moves
-/// along the plane only.
+/// Puts the vertex at its foot in the plane, or as near to it as the tets stay good enough, and
+/// restricts all further moves to the plane.
 void begin_in(const FlatPlane& plane, Mover& mover, Best& best) {
   mover.keep_to(plane);
   Point foot = with_coordinate(best.position, plane.axis, plane.place);
@@ -239,9 +239,9 @@ void Smoother::collect_surface(LocalVertex v) {
                           weights.with_pressure ? &curvature_ : nullptr, debts_);
 }
 
-/// The plane that v belongs to, if the faces that it carries are flat, and the ring is or what it
-/// carries.  A step that the ring carries is part of a slope, which must not become a staircase.
-/// REQUIRES: the surface is collected.
+/// Returns the plane that v belongs to: it has the faces that v carries, and the vertices of the
+/// ring or the faces that they carry.  If the ring carries other faces, v is on a step of a slope,
+/// which must not become a staircase.  REQUIRES: the surface is collected.
 std::optional<FlatPlane> Smoother::plane_to_keep(LocalVertex v) {
   const std::span<const FanTriangle> fan = surface_.fan();
   const std::optional<FlatPlane> plane = flat_plane(mesh_, *guard_, v, fan);
@@ -277,7 +277,7 @@ bool Smoother::smooth(LocalVertex v) {
   return moved;
 }
 
-/// If the distance bound and the limits on edges let it.
+/// Moves v if the distance bound and the limits on edges allow it; returns whether it did.
 bool Smoother::move_to(LocalVertex v, Point target) {
   if (!limits_.allow_star(v, v, target)) return false;
   const bool guarded = guard_ != nullptr && mesh_.on_interface(v);

@@ -17,12 +17,12 @@ namespace mw {
 
 struct SmoothOptions {
   double smooth_below = 0.8;   ///< vertices whose worst tet reaches this are left alone
-  double quality_floor = 0.1;  ///< no move creates a tet below, unless it replaces a worse one
-  /// With a guard: interface vertices, however good their tets, go where SurfaceEnergy and the
-  /// shape energy together are least.  None, or no guard: where shapes are best within the slack.
+  double quality_floor = 0.1;  ///< no move creates a tet below this, unless it replaces a worse one
+  /// With weights and a guard, interface vertices, however good their tets, go where SurfaceEnergy
+  /// and shape energy together are least; without, where shapes are best within the slack.
   std::optional<SurfaceWeights> surface;
-  int newton_steps = 2;              ///< the most that a vertex takes in a call
-  const SizeField* sizes = nullptr;  ///< edges keep to these limits; null: none
+  int newton_steps = 2;              ///< the most steps that a vertex takes in a call
+  const SizeField* sizes = nullptr;  ///< limits that edges keep to; null means none
 };
 
 /// Moves vertices to where the shape energy of their stars (kernels/quality/star_batch.h) is
@@ -38,12 +38,12 @@ struct SmoothOptions {
 /// keep the distance bound as well.
 class Smoother {
  public:
-  /// debts: those of the sweep before, which become those of this one; null: none.
+  /// debts holds those of the sweep before and gets those of this sweep; null means none.
   Smoother(TetMesh& mesh, const Metric& metric, const SmoothOptions& options,
            DistanceGuard* guard = nullptr, VolumeDebts* debts = nullptr);
 
-  /// REQUIRES: v free.  ENSURES: all tets exactly positive; connectivity unchanged, so topology is.
-  /// Returns true when v moved.
+  /// Returns true when v moved.  REQUIRES: v free.
+  /// ENSURES: all tets exactly positive; connectivity, and so topology, unchanged.
   bool smooth(LocalVertex v);
 
   [[nodiscard]] bool fits_interfaces() const { return guard_ != nullptr && options_.surface; }
@@ -62,7 +62,7 @@ class Smoother {
   StarBatch star_;
   InterfaceFan fan_;
   std::vector<FanTriangle> triangles_;  ///< at an interface vertex that is not fitted
-  SurfaceStar surface_;                 ///< of one that is
+  SurfaceStar surface_;                 ///< star of an interface vertex that is fitted
   SurfaceEnergy surface_energy_;
   WideFlatPlane wide_plane_;
   CurvatureField curvature_;  ///< as it was before the first move

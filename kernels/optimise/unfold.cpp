@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The mwmesh authors
 // SPDX-License-Identifier: Apache-2.0
-// Gain in bends and in fit by hand, gain in shapes by Flipper.
+// Computes the gain in bends and in fit; Flipper adds the gain in shapes.
 #include "kernels/optimise/unfold.h"
 
 #include <Eigen/Geometry>
@@ -12,7 +12,7 @@
 namespace mw {
 namespace {
 
-/// Less gain in bend energy is not worth a look.
+/// A smaller gain in bend energy is not worth a try.
 constexpr double kMinGain = 0.02;
 /// Energy of a bend, in shape energies of a tet, for each unit of SurfaceWeights::bend.
 constexpr double kBendFactor = 5.0;
@@ -26,7 +26,7 @@ double bend_between(const Vec3& m, const std::optional<Vec3>& n) {
 
 }  // namespace
 
-/// Positions are from v: q, and a and b on the two sides; (v, q, a) and (v, b, q) face high.
+/// Positions are relative to v: q, and a and b on the two sides; (v, q, a) and (v, b, q) face high.
 struct Unfolder::Hinge {
   const SurfaceTriangle* first = nullptr;   ///< (v, q, a)
   const SurfaceTriangle* second = nullptr;  ///< (v, b, q)
@@ -93,7 +93,7 @@ double Unfolder::misfit(const SurfaceTriangle& t, const Hinge& h) const {
   return sum;
 }
 
-/// Half of the spokes failed from their other end already: what is behind them need not be known.
+/// Half of the spokes have failed from their other end already; their rims need not be found.
 bool Unfolder::find_open_spokes() {
   open_.clear();
   at_open_.assign(star_.triangles().size(), 0);

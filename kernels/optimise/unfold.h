@@ -16,8 +16,8 @@
 namespace mw {
 
 /// Flips the edge between two interface triangles where the five edges of the two bend less
-/// afterwards.  What bends and the distance to the carried faces gain may be paid for by the shapes
-/// of the tets around the edge, down to the floor.
+/// afterwards.  The tets around the edge may lose in shape, down to the floor, what bends and the
+/// distance to the carried faces gain.
 class Unfolder {
  public:
   Unfolder(TetMesh& mesh, const Metric& metric, const SurfaceWeights& weights, double quality_floor,
@@ -48,8 +48,8 @@ class Unfolder {
   Flipper flipper_;
   FailedPairs failed_;
   SurfaceStar star_;
-  std::vector<Spoke> open_;            ///< spokes that did not fail before
-  std::vector<std::uint8_t> at_open_;  ///< triangles at one of them
+  std::vector<Spoke> open_;            ///< spokes that have not failed
+  std::vector<std::uint8_t> at_open_;  ///< by triangle, whether it is at one of them
 };
 
 }  // namespace mw

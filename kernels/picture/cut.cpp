@@ -6,8 +6,8 @@
 namespace mw::picture {
 namespace {
 
-/// Where the edge from a point that stays to one that goes meets the plane.  Always asked in this
-/// order, so all who share the edge get the same point.
+/// Where the edge from a point that stays to one that goes meets the plane.  The ends always come
+/// in this order, so that all tets and triangles that share the edge get the same point.
 Vec3 crossing(const Vec3& stays, const Vec3& goes, const CutPlane& plane) {
   const double a = plane.height(stays), b = plane.height(goes);
   return stays + (goes - stays) * (a / (a - b));
@@ -35,7 +35,7 @@ Piece cross_section(const std::array<Vec3, 4>& tet, const CutPlane& plane) {
   }
   Piece out;
   if (stays == 2) {
-    // Round the tet: neighbours share a face.
+    // The corners go around the tet, so that neighbours share a face.
     for (const auto& [s, g] : {std::pair(0, 0), std::pair(0, 1), std::pair(1, 1), std::pair(1, 0)})
       out.add(
           crossing(*stay[static_cast<std::size_t>(s)], *go[static_cast<std::size_t>(g)], plane));

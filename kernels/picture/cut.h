@@ -25,11 +25,11 @@ struct Piece {
   void add(const Vec3& corner) { corners[count++] = corner; }
 };
 
-/// What stays of a triangle, in its orientation.
+/// The part of a triangle that stays, in its orientation.
 [[nodiscard]] Piece clipped(const std::array<Vec3, 3>& triangle, const CutPlane& plane);
 
-/// The part of the plane that is in the tet.  Of tets that only touch the plane, those beyond it
-/// have it: the pieces of a mesh cover its cut once.
+/// The part of the plane that is in the tet.  Where faces of tets lie in the plane, only the tets
+/// beyond it have them, so that the pieces of a mesh cover its cut once.
 [[nodiscard]] Piece cross_section(const std::array<Vec3, 4>& tet, const CutPlane& plane);
 
 }  // namespace mw::picture

@@ -12,7 +12,7 @@
 namespace mw::picture {
 namespace {
 
-constexpr std::int64_t kUnits = 256;  // of a sample's side
+constexpr std::int64_t kUnits = 256;  // in a sample's side
 constexpr double kDepthSteps = 2147483648.0;
 
 struct Corner {
@@ -24,7 +24,7 @@ struct Corner {
   [[nodiscard]] auto key() const { return std::tuple(x, y, depth, lined); }
 };
 
-/// Positive for points at the inner side of a side that runs as those of a positive triangle.
+/// A side of a triangle; at() is positive on the inner side if the triangle is positive.
 struct Side {
   Side(const Corner& from, const Corner& to)
       : x(from.x), y(from.y), dx(to.x - from.x), dy(to.y - from.y) {}
@@ -47,8 +47,8 @@ std::int64_t to_units(double pixels, int samples) {
   return std::llround(pixels * samples * static_cast<double>(kUnits));
 }
 
-/// Sorted, then turned so that the area is positive: what is computed of a triangle does not
-/// depend on which corner comes first.
+/// Returns the corners sorted, then turned so that the area is positive: what is computed of a
+/// triangle does not depend on which corner comes first.
 std::array<Corner, 3> sorted_corners(const ScreenTriangle& triangle, int samples) {
   std::array<Corner, 3> out;
   for (std::size_t i = 0; i < 3; ++i) {
@@ -61,7 +61,7 @@ std::array<Corner, 3> sorted_corners(const ScreenTriangle& triangle, int samples
   return out;
 }
 
-/// One triangle as its samples ask about it.
+/// Answers for one triangle what its samples ask: coverage, line and depth.
 class Coverage {
  public:
   Coverage(const ScreenTriangle& triangle, int samples)
@@ -83,7 +83,7 @@ class Coverage {
   [[nodiscard]] std::array<std::int64_t, 2> range(std::size_t axis) const {
     const auto of = [&](std::size_t i) { return axis == 0 ? corners_[i].x : corners_[i].y; };
     const auto [low, high] = std::minmax({of(0), of(1), of(2)});
-    // Shifts round down, also what is negative.
+    // Shifts round down, negative numbers too.
     return {(low + kUnits / 2 - 1) >> 8, (high - kUnits / 2) >> 8};
   }
 
@@ -99,7 +99,7 @@ class Coverage {
     return true;
   }
 
-  /// Value at the sample asked for last.
+  /// Line and depth at the sample that was asked for last.
   [[nodiscard]] bool on_line() const { return on_line_; }
   [[nodiscard]] std::uint32_t depth() const {
     const double z = corners_[0].depth;
@@ -112,7 +112,7 @@ class Coverage {
  private:
   std::array<Corner, 3> corners_;
   std::array<Side, 3> sides_;  ///< opposite to each corner
-  std::int64_t area_;          ///< doubled
+  std::int64_t area_;          ///< twice the area
   std::array<std::int64_t, 3> min_{};
   std::array<double, 3> lined_{-1, -1, -1};
   std::array<std::int64_t, 3> weights_{};

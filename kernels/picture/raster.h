@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The mwmesh authors
 // SPDX-License-Identifier: Apache-2.0
-// Draws triangles into a band of a picture: z-buffer, thin lines, smooth edges.
+// Draws triangles into a band of a picture, with a z-buffer, thin lines and smooth edges.
 #pragma once
 
 #include <array>
@@ -36,16 +36,16 @@ struct Band {
 };
 
 /// A picture of opaque triangles, each pixel the mean of samples^2 points in it.
-/// Corners are rounded to 1/256 of a sample and everything else that decides is whole numbers, or
-/// double by + - * / and sqrt alone: the same pixels on every machine.  A sample is in a triangle
-/// when its centre is; of those on a side it has the ones of the upper or left side, so triangles
-/// that share a side leave no gap and no overlap.  The nearest triangle wins, of equally near ones
-/// that of the least colour: the order of triangles and of their corners does not matter, nor how
-/// the picture is cut into bands.
+/// Corners are rounded to 1/256 of a sample, and all else that decides is in whole numbers, or in
+/// double by + - * / and sqrt alone, so that every machine draws the same pixels.  A sample is in a
+/// triangle when its centre is; a centre on a side counts if that is an upper or left side, so that
+/// triangles that share a side leave no gap and no overlap.  The nearest triangle wins, and of
+/// equally near ones that of the least colour.  So neither the order of triangles and of their
+/// corners matters nor how the picture is cut into bands.
 /// Memory: 8 bytes a sample of the band.
 class Raster {
  public:
-  /// Largest x, y and distance between them that a corner may have, pixels.
+  /// The largest |x| and |y| that a corner may have, in pixels.
   static constexpr double kMaxPixels = 32768;
 
   /// REQUIRES: samples from 1 to 4.
@@ -54,13 +54,13 @@ class Raster {
   /// REQUIRES: |x|, |y| <= kMaxPixels; depth in [0, 1].
   void draw(const ScreenTriangle& triangle);
 
-  /// A row of the band as red, green, blue, alpha; what no triangle covers is transparent, and
-  /// colours are not multiplied by alpha.  REQUIRES: row < rows, out.size() == 4 * width.
+  /// Writes a row of the band as red, green, blue, alpha; what no triangle covers is transparent,
+  /// and colours are not multiplied by alpha.  REQUIRES: row < rows, out.size() == 4 * width.
   void read_row(int row, std::span<std::uint8_t> out) const;
 
  private:
   struct Sample {
-    std::uint32_t depth = 0xffffffffU;  ///< that of no triangle
+    std::uint32_t depth = 0xffffffffU;  ///< this depth stands for no triangle
     std::uint32_t colour = 0;           ///< red << 16 | green << 8 | blue
   };
 

@@ -33,7 +33,7 @@ double cosine(double degrees) {
   return sine(std::fmod(degrees, 360.0) + 90);
 }
 
-/// Muted, of like weight, neighbours unlike.
+/// Muted colours of similar weight; neighbours in the list differ.
 constexpr std::array<Colour, 16> kPalette{{{186, 176, 172},
                                            {78, 121, 167},
                                            {242, 142, 43},

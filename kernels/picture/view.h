@@ -18,9 +18,9 @@ struct View {
   Vec3 viewer;
 };
 
-/// The viewer stands at that angle from +x towards +y, and so far above the plane of both; z is up.
-/// With elevation 90 and azimuth -90 x is to the right and y up.  Degrees.
-/// Angles become sines by a series, not by the C library, whose last digits differ.
+/// The viewer stands `azimuth` degrees from +x towards +y and `elevation` degrees above the plane
+/// of both; z is up.  With elevation 90 and azimuth -90, x is to the right and y up.
+/// Angles become sines by a series, as the last digits of the C library differ between machines.
 /// REQUIRES: finite.
 [[nodiscard]] View view_from(double azimuth, double elevation);
 
@@ -47,22 +47,22 @@ class Camera {
   View view_;
   Vec3 middle_;
   double scale_;  ///< pixels a unit of length
-  double depth_;  ///< of the extent
-  double x_, y_;  ///< of the picture's middle
+  double depth_;  ///< depth of the extent
+  double x_, y_;  ///< middle of the picture
 };
 
-/// The colour of a label that has none of its own: a function of the label alone, the labels
-/// 0 to 15 all different.
+/// The colour of a label that has none of its own.  It follows from the label alone, and the labels
+/// 0 to 15 are all different.
 [[nodiscard]] Colour palette_colour(RawLabel label);
 
-/// Twice the area long; its corners are counterclockwise seen from where it points.
+/// The triangle's normal, twice the area long; seen from its tip the corners are counterclockwise.
 [[nodiscard]] Vec3 normal_of(const std::array<Vec3, 3>& triangle);
 
-/// The colour of a face with that normal of any length, lit from beside the viewer; without a
-/// normal (zero) the colour itself.
+/// The colour of a face with that normal of any length, lit from beside the viewer; the colour
+/// itself where the normal is zero.
 [[nodiscard]] Colour lit(const Colour& colour, const Vec3& normal, const View& view);
 
-/// share 0: one, 1: other.
+/// Mixes two colours: share 0 gives `one`, share 1 gives `other`.
 [[nodiscard]] Colour mixed(const Colour& one, const Colour& other, double share);
 
 }  // namespace mw::picture

@@ -24,7 +24,7 @@ Parts turned(const Parts& parts) {
   return out;
 }
 
-/// Where the parts around the diagonal are.
+/// The first of the four parts around the diagonal.
 constexpr std::size_t kFirstInner = 4;
 
 double least_ratio(const Parts& parts, const std::array<Vec3, 10>& nodes) {

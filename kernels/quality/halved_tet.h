@@ -19,10 +19,10 @@ namespace mw {
 [[nodiscard]] std::array<std::array<std::size_t, 4>, 8> halved_tet(
     const std::array<Vec3, 4>& corners);
 
-/// Returns a radius ratio that the parts of a tet of ratio `floor` or more have.
+/// Returns a radius ratio that the parts of a tet of ratio `floor` or more have.  It is 1.8
+/// floor^2, with 0.4 in place of larger floors, rounded down to three digits.
 /// It comes from a search for the worst tet, which is no proof: the search found 0.0835 for a floor
-/// of 0.2, and 2.1 floor^2 for small ones.  Returned is 1.8 floor^2, of floors above 0.4 that of
-/// 0.4, rounded down to three digits.
+/// of 0.2, and 2.1 floor^2 for small ones.
 [[nodiscard]] double halved_floor(double floor);
 
 }  // namespace mw

@@ -28,26 +28,26 @@ namespace mw {
                                 mesh.position(t.vertices[2]), mesh.position(t.vertices[3])));
 }
 
-/// Exact.
+/// Decides exactly whether the orientation is positive.
 [[nodiscard]] inline bool is_positive(const TetMesh& mesh, const LocalTet& t) {
   return volume6(mesh.position(t.vertices[0]), mesh.position(t.vertices[1]),
                  mesh.position(t.vertices[2]), mesh.position(t.vertices[3])) > 0;
 }
 
 /// Energy of a tet of radius ratio r, to be minimised as a sum: every tet counts, bad ones most.
-/// A tet below `least` makes it infinite.  (Raising only the worst tet of a star, as max-min
-/// optimisation does, leaves the mean radius ratio 0.05 to 0.1 lower at the same mesh size.)
+/// It is infinite below `min`.  (Raising only a star's worst tet, as max-min optimisation does,
+/// leaves the mean radius ratio 0.05 to 0.1 lower at the same mesh size.)
 [[nodiscard]] inline double shape_energy(double r, double min) {
   return r > 0.0 && r >= min ? 1.0 / r : std::numeric_limits<double>::infinity();
 }
 
-/// What an improvement may lower tets to that were better: decent where shapes are all that
-/// counts, less where a surface gains.
+/// Radius ratios down to which an improvement may lower better tets: decent where shapes are all
+/// that counts, less where a surface gains.
 inline constexpr double kDecentRatio = 0.3;
 inline constexpr double kFloorOnSurface = 0.2;
 
-/// What an improvement may lower the radius ratio of a tet to, when the worst present one has
-/// `worst`: never below that, nor below the quality floor, unless it stays decent.
+/// The radius ratio that new tets must reach: that of the worst present one (`worst`), or less
+/// where both `decent` and the quality floor allow it.
 [[nodiscard]] inline double min_allowed(double worst, double decent, double quality_floor) {
   return std::min(worst, std::max(decent, quality_floor));
 }

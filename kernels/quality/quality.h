@@ -17,8 +17,7 @@ struct TetEdges {
 /// Radius ratio 3 r_in / r_circ, in (0, 1]; 1 for the regular tetrahedron.
 /// With n1 = b x c, n2 = c x a, n3 = a x b, V6 = a . n1 and w = a^2 n1 + b^2 n2 + c^2 n3:
 /// r_in = V6 / sum of the four |n|, r_circ = |w| / (2 V6).
-/// ENSURES: a value <= 0 when the orientation is not positive (up to rounding: exactness is
-/// volume6's business).
+/// ENSURES: a value <= 0 when the orientation is not positive, up to rounding (volume6() is exact).
 [[nodiscard]] inline double radius_ratio(const TetEdges& t) {
   const Vec3 n1 = t.b.cross(t.c), n2 = t.c.cross(t.a), n3 = t.a.cross(t.b);
   const double v6 = t.a.dot(n1);

@@ -23,8 +23,8 @@ struct TetLanes {
   }
 };
 
-/// radius_ratio() (kernels/quality/quality.h) of each, to the last bit; of lanes that were not set
-/// some number.
+/// Returns radius_ratio() (kernels/quality/quality.h) of each tet, to the last bit, and any number
+/// for lanes that were not set.
 [[nodiscard]] StoredLanes radius_ratios(const TetLanes& tets, const Metric& metric);
 
 }  // namespace mw

@@ -81,7 +81,7 @@ struct TermSums {
   sums.zz += outer * u.z * u.z + diagonal;
 }
 
-/// last: how many tets of the last group count.
+/// last is the number of tets of the last group that count.
 MW_WIDE void sum_terms(const std::vector<Group>& groups, std::size_t last, const Vec3& unit,
                        const Vec3& x, StarTerms& out) {
   TermSums sums;

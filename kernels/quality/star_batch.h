@@ -12,7 +12,7 @@
 
 namespace mw {
 
-/// The real tets at v: the least radius ratio, and the sum of their energies.
+/// The least radius ratio of the real tets at v, and the sum of their energies.
 struct StarShape {
   double worst = 1.0;
   double energy = 0.0;
@@ -35,14 +35,14 @@ enum class StarVerdict { kGood, kInverted, kLowQuality, kTooLong };
 /// Results do not depend on the processor.
 class StarBatch {
  public:
-  /// Keeps a reference: REQUIRES that the mesh does not change until the last question.  (Gathers
-  /// no more than what is asked for: most contractions are refused by the first few tets.)
+  /// Keeps a reference: REQUIRES that the mesh does not change until the last question.  (Tets are
+  /// gathered when they are asked for, as most contractions are refused by the first few.)
   void collect(const TetMesh& mesh, const Metric& metric, LocalVertex v);
 
   [[nodiscard]] StarShape shape_at(const Vec3& x);
 
-  /// The sum of energies; infinite when a tet is below `least`; a lower bound of it when that
-  /// exceeds `enough`.
+  /// The sum of energies, which is infinite when a tet is below `min`.  Where it exceeds `enough`,
+  /// a lower bound of it above `enough` may be returned.
   [[nodiscard]] double energy_at(const Vec3& x, double min, double enough);
 
   /// The sum of s^3 / v^2, s the sum of a tet's six squared edges and v its volume (times 6): a
@@ -51,15 +51,15 @@ class StarBatch {
   [[nodiscard]] StarTerms terms_at(const Vec3& x);
 
   /// Whether all tets without the vertex `without` reach radius ratio `floor`, up to rounding in
-  /// the last digits; inverted ones are found only up to rounding.  Of several faults, that of the
-  /// tets which failed last is told: they are likely to fail again, and are looked at first.
+  /// the last digits; inverted ones are found only up to rounding.  The tets that failed last are
+  /// looked at first, because they are likely to fail again, and the first fault found is returned.
   [[nodiscard]] StarVerdict judge_at(const Vec3& x, LocalVertex without, double floor);
 
   /// Four tets; what is beyond the last one repeats it.
   struct Group {
-    Group() {}                          // filled at once, so not with zeros before
+    Group() {}                          // filled at once, so zeros are not needed
     std::array<StoredInts, 9> corners;  ///< x, y, z of a, b, c from v, in lattice units
-    std::array<StoredInts, 3> rows;     ///< of a, b, c; (v, a, b, c) is positive
+    std::array<StoredInts, 3> rows;     ///< rows of a, b, c; (v, a, b, c) is positive
   };
 
  private:
@@ -70,7 +70,7 @@ class StarBatch {
   }
 
   const TetMesh* mesh_ = nullptr;
-  Vec3 unit_ = Vec3::Zero();  ///< of the lattice
+  Vec3 unit_ = Vec3::Zero();  ///< edges of a lattice unit
   LocalVertex vertex_ = 0;
   std::size_t next_ = 0;  ///< triangle of the star to be gathered
   std::vector<Group> groups_;

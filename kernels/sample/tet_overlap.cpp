@@ -14,8 +14,8 @@ namespace {
 
 constexpr std::size_t kX = 0, kY = 1, kZ = 2;
 
-/// Convex and flat.  Each clip adds one corner at most, and those to the slab, the column and the
-/// planes across it, which are parallel, six to a triangle.
+/// A convex, flat polygon.  Each clip adds one corner at most.  A triangle gets six at most from
+/// the clips to the slab, to the column and to the planes across it, which are parallel.
 class Polygon {
  public:
   static constexpr std::size_t kMostCorners = 16;
@@ -89,8 +89,8 @@ Integrals integrals(const Polygon& polygon, double from) {
   return out;
 }
 
-/// Adds to volumes[i] the integral over the polygon of x - (first + i), held within 0 and 1: what
-/// lies in that voxel and below the polygon along x.
+/// Adds to volumes[i] the integral over the polygon of x - (first + i), held within 0 and 1, which
+/// is what lies in that voxel and below the polygon along x.
 void add_below(Polygon rest, double first, std::span<double> volumes) {
   if (rest.least(kX) < first) rest = clipped(rest, kX, first, Keep::kAbove);
   for (std::size_t i = 0; i < volumes.size() && !rest.is_empty(); ++i) {
@@ -109,7 +109,7 @@ void add_below(Polygon rest, double first, std::span<double> volumes) {
 /// Polygons of a tet's faces.
 using Faces = std::array<Polygon, 4>;
 
-/// The whole numbers that the coordinates of the faces lie between, none of no face.
+/// The whole numbers that the coordinates of the faces lie between; 0 and 0 if there is no face.
 struct Extent {
   double lo = 0;
   double hi = 0;

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The mwmesh authors
 // SPDX-License-Identifier: Apache-2.0
-// Bends before and after.
+// Compares bend energies before and after a contraction.
 #include "kernels/simplify/bend_filter.h"
 
 #include "kernels/core/assert.h"
@@ -8,14 +8,14 @@
 namespace mw {
 namespace {
 
-/// A contraction must take out a fifth of the bends that are there, beside what is free
+/// A contraction must take out a fifth of the present bends, beside what is free
 /// (bench/parameters.md, "Constants").
 constexpr double kShareOfPresent = 0.8;
-/// Where a junction leaves its place to absorb a vertex of lower order, two fifths, and nothing is
-/// free: it lies well in general (the same).
+/// A junction that leaves its place to absorb a vertex of lower order must take out two fifths, and
+/// nothing is free, because most junctions lie well (bench/parameters.md, "Constants").
 constexpr double kShareOfMoved = 0.6;
-/// Bend energy that any contraction may leave: between two labels, where surfaces are smooth, and
-/// where more meet (bench/parameters.md, "Constants").
+/// The bend energy that other contractions may leave: between two labels, where surfaces are
+/// smooth, and where more meet (bench/parameters.md, "Constants").
 constexpr double kFreeBetweenTwo = 0.5;
 constexpr double kFreeElsewhere = 1.0;
 
@@ -45,7 +45,7 @@ std::span<const FanTriangle> BendFilter::fan(LocalVertex end) const {
   return gathered_[first ? 0 : 1].star.fan();
 }
 
-/// Replaces the star of neither v nor other: several candidates of a vertex share its star.
+/// Returns the star of v.  Keeps that of `other`, because candidates of a vertex share its star.
 BendFilter::Gathered& BendFilter::star_of(LocalVertex v, LocalVertex other) {
   const std::uint64_t now = mesh_.changes() + 1;
   for (Gathered& g : gathered_) {

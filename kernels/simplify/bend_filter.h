@@ -14,26 +14,26 @@
 namespace mw {
 
 /// Judges contractions of two boundary vertices by the bend energies (kernels/surface/bend.h) of
-/// the interface triangles around: smoothing takes a fold out only where shapes and the distance
-/// bound let it, so it is better not made.
+/// the interface triangles around.  A fold is better not made, because smoothing takes it out only
+/// where shapes and the distance bound let it.
 class BendFilter {
  public:
   /// Keeps references.
   BendFilter(const TetMesh& mesh, const Metric& metric) : mesh_(mesh), metric_(metric) {}
 
-  /// False when the surviving star would bend by more than most of what both bend now, and what is
-  /// free.
+  /// False when the surviving star would bend by more than a share of what both stars bend at
+  /// present, plus what is free.
   [[nodiscard]] bool stays_smooth(const Contraction& c);
 
   /// The interface triangles at an end of the contraction that was judged last.
   [[nodiscard]] std::span<const FanTriangle> fan(LocalVertex end) const;
 
  private:
-  /// A star with its rims, as it was after that number of changes of the mesh.
+  /// A star with its rims, as it was when the mesh had changed `at` - 1 times.
   struct Gathered {
     SurfaceStar star;
-    std::optional<double> bends;  ///< of the star as it is, once somebody asked
-    std::uint64_t at = 0;         ///< TetMesh::changes(), and 1; 0: nothing gathered
+    std::optional<double> bends;  ///< bend energy of the star, once it was asked for
+    std::uint64_t at = 0;         ///< TetMesh::changes() + 1; 0 when nothing is gathered
     [[nodiscard]] bool is(LocalVertex v, std::uint64_t now) const {
       return star.vertex() == v && at == now;
     }

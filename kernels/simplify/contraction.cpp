@@ -26,13 +26,13 @@ QuadricMinimum optimum(const TetMesh& mesh, const Metric& metric, LocalVertex p,
   return minimum(sum_at(mesh, metric, p, q), fixed_axes(mesh.planes(p)));
 }
 
-/// The lattice point in the middle, towards zero.
+/// The lattice point in the middle, rounded towards zero.
 Point between(Point a, Point b) {
   return {(a.x + b.x) / 2, (a.y + b.y) / 2, (a.z + b.z) / 2};
 }
 
-/// Ranks the ends by what must survive: box planes first, then order.  Positive: p, negative: q,
-/// zero: neither.  Empty when the two demands contradict each other.
+/// Ranks the ends by what must survive, box planes first, then order: positive for p, negative for
+/// q, zero for neither.  Nothing when no end satisfies both demands.
 std::optional<int> survivor(const TetMesh& mesh, LocalVertex p, LocalVertex q) {
   const unsigned planes_p = mesh.planes(p), planes_q = mesh.planes(q);
   const unsigned both = planes_p & planes_q;
@@ -68,7 +68,7 @@ std::optional<Contraction> plan_contraction(const TetMesh& mesh, const Metric& m
     c.cost *= kInnerToBoundaryFactor;
   } else {  // Case 3: both ends are on boundaries
     c.cost += mesh.quadric(c.keep).c;
-    // A vertex of the box in one label is nothing to leave an interface's place for.
+    // An interface does not leave its place for a vertex on the box that is inside one label.
     const int labels = mesh.order(c.drop) - (mesh.planes(c.drop) != 0 ? 1 : 0);
     c.has_others = labels > 1 && mesh.planes(p) == mesh.planes(q);
   }

@@ -17,7 +17,7 @@ bool within_extent(Point a, Point b) {
          std::abs(std::int64_t{a.z} - b.z) < kMaxTetExtent / 2;
 }
 
-/// In whole numbers: what counts.
+/// Judges in whole numbers, which is the verdict that counts.
 StarVerdict sign_at(const TetMesh& mesh, LocalVertex v, LocalVertex other, Point x) {
   for (const LinkTriangle& t : mesh.star(v)) {
     if (t.label == kExterior || t.has(other)) continue;
@@ -29,7 +29,7 @@ StarVerdict sign_at(const TetMesh& mesh, LocalVertex v, LocalVertex other, Point
   return StarVerdict::kGood;
 }
 
-/// Eq (3) for the paper's filter.
+/// Tests Eq (3), the paper's filter.
 StarVerdict variance_at(const TetMesh& mesh, const Metric& metric, LocalVertex v, LocalVertex other,
                         Point x, double max) {
   for (const LinkTriangle& t : mesh.star(v)) {
@@ -68,7 +68,7 @@ bool ShapeFilter::is_gathered(LocalVertex v) const {
                      [&](const Gathered& g) { return g.vertex == v && g.at == now; });
 }
 
-/// Replaces the star of neither v nor other.
+/// Returns the star of v.  Keeps that of `other`, because candidates of a vertex share its star.
 StarBatch& ShapeFilter::star_of(LocalVertex v, LocalVertex other) {
   const std::uint64_t now = mesh_.changes() + 1;
   for (Gathered& g : gathered_) {
@@ -82,7 +82,7 @@ StarBatch& ShapeFilter::star_of(LocalVertex v, LocalVertex other) {
   return g.star;
 }
 
-/// In floating point: rejects most of what is inverted, and all that is badly shaped.
+/// Judges in floating point, which rejects most inverted tets and all that are badly shaped.
 StarVerdict ShapeFilter::judge_shape(LocalVertex v, LocalVertex other, Point x, double floor) {
   const Vec3 offset = metric_.vector(mesh_.position(v), x);
   const StarVerdict verdict = star_of(v, other).judge_at(offset, other, floor);
@@ -92,7 +92,7 @@ StarVerdict ShapeFilter::judge_shape(LocalVertex v, LocalVertex other, Point x, 
 
 StarVerdict ShapeFilter::judge(const Contraction& c, double floor) {
   const auto all = [&](auto judge_star) {
-    // A star that is at hand may spare the other.
+    // A star that is gathered comes first, because a refusal there spares the other.
     const bool keep_first = c.moves && is_gathered(c.keep);
     const LocalVertex first = keep_first ? c.keep : c.drop, second = keep_first ? c.drop : c.keep;
     const StarVerdict verdict = judge_star(first, second);
@@ -119,7 +119,7 @@ StarVerdict ShapeFilter::judge(const Contraction& c) {
   return again;
 }
 
-/// The tets that the contraction leaves may be below the floor.
+/// Marks all vertices of the tets that the contraction leaves, which may be below the floor.
 void ShapeFilter::mark_poor(const Contraction& c) {
   for (LocalVertex v : {c.keep, c.drop}) {
     for (const LinkTriangle& t : mesh_.star(v)) {

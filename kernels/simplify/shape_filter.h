@@ -18,17 +18,17 @@ class ShapeFilter {
   /// Keeps references.  The mesh may change only by contractions that were found good here.
   ShapeFilter(const TetMesh& mesh, const Metric& metric, const SimplifyOptions& options);
 
-  /// Good: all tets are positive, exactly, and reach the floor, or where the present ones do not
-  /// reach quality_floor, the worst of those.  Positivity gives the link condition of the whole
-  /// mesh, and lets contractions of Cases 1 and 2 keep every region as a point set
-  /// (kernels/topology/README.md, "Positive tets share only the ring").
+  /// A contraction is good if all tets are exactly positive and reach the radius ratio asked for,
+  /// or, where present ones do not reach quality_floor, that of the worst.  Positivity gives the
+  /// link condition of the whole mesh, and lets contractions of Cases 1 and 2 keep every region as
+  /// a point set (kernels/topology/README.md, "Positive tets share only the ring").
   /// Cost: O(stars); less when one of the ends is that of the last call; no allocation.
   [[nodiscard]] StarVerdict judge(const Contraction& c);
 
  private:
   struct Gathered {
     LocalVertex vertex = 0;
-    std::uint64_t at = 0;  ///< TetMesh::changes(), and 1; 0: nothing gathered
+    std::uint64_t at = 0;  ///< TetMesh::changes() + 1; 0 when nothing is gathered
     StarBatch star;
   };
 
@@ -43,8 +43,7 @@ class ShapeFilter {
   const Metric& metric_;
   const SimplifyOptions& options_;
   std::array<Gathered, 2> gathered_;
-  /// Vertices that had a tet below quality_floor at some time; only there is the fallback looked
-  /// at.
+  /// Marks vertices that had a tet below quality_floor at some time; only they try the fallback.
   std::vector<std::uint8_t> poor_;
 };
 

@@ -27,8 +27,8 @@ class CandidateFinder {
         failed_(mesh.vertex_count()),
         seen_(mesh.vertex_count() + 1) {}
 
-  /// Candidates of v until the next call.  An edge between two vertices that never changed belongs
-  /// to its smaller end; the others are looked at from both sides.
+  /// Returns the candidates of v, valid until the next call.  An edge between two vertices that
+  /// never changed belongs to its smaller end; the others are looked at from both sides.
   const std::vector<Contraction>& collect(LocalVertex v) {
     collect_neighbours(v);
     candidates_.clear();
@@ -52,11 +52,11 @@ class CandidateFinder {
     return candidates_;
   }
 
-  /// Not to be found again until one of the ends changes.
+  /// Makes collect() leave out the edge until one of its ends changes.
   void forget(const Contraction& c) { failed_.insert(mesh_, c.keep, c.drop); }
 
  private:
-  /// A vertex that some call met, and the labels around the edge to it.
+  /// The last call that met a vertex, and the labels around the edge to it.
   struct Seen {
     std::uint64_t labels = 0;
     std::uint32_t call = 0;
@@ -84,9 +84,9 @@ class CandidateFinder {
     }
   }
 
-  /// The part of the topology test that label signatures decide: a label at both ends must lie
-  /// around the edge, and an edge inside one label never joins two boundary vertices.  Labels
-  /// that share a bit can only be a reason to refuse.
+  /// Does the part of the topology test that label signatures decide: a label at both ends must lie
+  /// around the edge, and an edge inside one label never joins two boundary vertices.  Labels that
+  /// share a bit may cause a needless refusal; what passes is tested in full later.
   [[nodiscard]] bool labels_allow(LocalVertex v, LocalVertex w) const {
     const std::uint64_t edge = seen_[w].labels;
     if ((mesh_.label_signature(v) & mesh_.label_signature(w) & ~edge) != 0) return false;
@@ -180,7 +180,7 @@ class Simplifier {
            (!c.moves || limits_.allow_star(c.keep, c.drop, c.position));
   }
 
-  /// Edges and tets at this very place.
+  /// The verdict on edges and tets at the place of c alone.
   StarVerdict judge_junction(const Contraction& c) {
     return keeps_lengths(c) ? shape_.judge(c) : StarVerdict::kTooLong;
   }
@@ -190,9 +190,9 @@ class Simplifier {
     return c.has_others && (c.moves || options_.keep_smooth);
   }
 
-  /// The verdict on the planned place.  When that is refused, c becomes the first of its other
-  /// places that is good, and as cheap as this round demands; not with the paper's filter, which
-  /// goes with the paper's place.
+  /// Returns the verdict on the planned place.  When that is refused, c becomes the first of its
+  /// other places that is good and as cheap as this round demands.  With the paper's filter, which
+  /// goes with the paper's place, no others are tried.
   StarVerdict judge(Contraction& c) {
     const StarVerdict verdict = judge_junction(c);
     if (verdict == StarVerdict::kGood || !may_go_elsewhere(c) || options_.edge_variance) {
@@ -207,7 +207,7 @@ class Simplifier {
     return verdict;
   }
 
-  /// True when no fold is left at the place, or at another one that is good; that is then c's.
+  /// True when c leaves no fold at its place, or at another good one, which c then takes.
   bool find_smooth_position(Contraction& c) {
     if (bends_.stays_smooth(c)) return true;
     if (!may_go_elsewhere(c)) return false;
@@ -220,7 +220,7 @@ class Simplifier {
     return false;
   }
 
-  /// REQUIRES: both ends on boundaries; with keep_smooth: the bends of c were judged.
+  /// REQUIRES: both ends are on boundaries; with keep_smooth, the bends of c were judged.
   bool keeps_distance(const Contraction& c) {
     if (!options_.keep_smooth) {
       return guard_->allows_contraction(mesh_, c.keep, c.drop, c.position);

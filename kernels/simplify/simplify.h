@@ -22,20 +22,20 @@ struct SimplifyOptions {
   /// shapes, because inner vertices are few and the shape of everything around depends on them
   /// (bench/parameters.md, "Constants").
   double inner_quality = 0.44;
-  /// Bound tau_e on the normalised edge length variance of changed tets, Eq (3); none: unbounded.
+  /// Bound tau_e on the normalised edge length variance of changed tets, Eq (3); none if not set.
   std::optional<double> edge_variance;
   KeptTopology topology = KeptTopology::kLabels;
   bool keep_smooth = false;  ///< contractions that fold interfaces are refused (BendFilter)
-  TetDemands demands;        ///< not met yet, they may stay so; what is met is kept
-  bool only_short = false;  ///< only edges that are shorter than sizes ask (EdgeLimits::is_short())
+  TetDemands demands;        ///< demands that are met stay met; others may stay unmet
+  bool only_short = false;   ///< only edges that EdgeLimits::is_short() finds short are contracted
   /// Contraction ends when no more than this many vertices, fixed ones included, are left.
   std::size_t enough_vertices = 0;
-  /// Runs the loop over all vertices that fills the queue (4 to 5 % of the time, bench).  The
-  /// result is the same for any number of threads in it.
+  /// Runs the loop over all vertices that fills the queue (4 to 5 % of the time in the benchmark).
+  /// The result is the same for any number of threads in it.
   ParallelFor seeding = serial_for;
 };
 
-/// Why candidates fell; one count each.
+/// How many candidates were tried and contracted, and how many fell for each reason.
 struct SimplifyStats {
   std::uint64_t tried = 0;
   std::uint64_t contracted = 0;
@@ -51,10 +51,10 @@ struct SimplifyStats {
 };
 
 /// Contracts edges with both ends free until none that passes the filters costs less than the last
-/// bound of VertexQueue.  Where shapes refuse the optimum, other_positions() are tried; not with
-/// options.edge_variance, the paper's filter, which goes with the paper's place.  Where sizes are
-/// asked, edges that are much shorter may then go at quality_floor, those of inner vertices too.
-/// guard: keeps the distance bound; null: no bound.
+/// bound of VertexQueue.  Where shapes refuse the planned place, other_positions() are tried,
+/// except with options.edge_variance, the paper's filter, which goes with the paper's place.  Where
+/// sizes are asked and enough_vertices is 0, a second pass contracts much shorter edges, also of
+/// inner vertices, down to quality_floor.  guard keeps the distance bound; null means no bound.
 /// ENSURES: all tets strictly positive (exactly), options.topology kept, box kept, fixed vertices
 ///          untouched; the result depends on the mesh's content only.
 SimplifyStats simplify(TetMesh& mesh, const Metric& metric, const SimplifyOptions& options,

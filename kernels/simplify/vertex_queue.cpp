@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The mwmesh authors
 // SPDX-License-Identifier: Apache-2.0
-// Pushes set a bit, rounds take words of them.  The header argues why the orders suffice.
+// A push sets a bit, a round takes words of them.  The header argues why the memory orders suffice.
 #include "kernels/simplify/vertex_queue.h"
 
 #include <algorithm>
@@ -11,7 +11,7 @@ namespace {
 
 constexpr std::size_t kWordBits = 64;
 
-/// Counted rather than searched for: which bucket it is, no branch predictor can tell.
+/// Counts bounds instead of searching, because no branch predictor can tell the bucket.
 std::size_t bucket_of(double cost) {
   std::size_t bucket = 0;
   for (std::size_t k = 0; k < VertexQueue::kBuckets; ++k) {
@@ -55,7 +55,7 @@ bool VertexQueue::is_empty(std::size_t bucket) const {
                      [](const Word& w) { return w.load(std::memory_order_relaxed) == 0; });
 }
 
-/// The vertices of word i in all buckets up to the current one.
+/// Takes the vertices of word i out of all buckets up to the current one.
 std::uint64_t VertexQueue::take_word(std::size_t i) {
   std::uint64_t bits = 0;
   for (std::size_t bucket = 0; bucket <= current_; ++bucket) {

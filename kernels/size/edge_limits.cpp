@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The mwmesh authors
 // SPDX-License-Identifier: Apache-2.0
-// Lengths against the limits of both ends and of the label around.
+// Compares lengths with the limits of both ends and of the label around.
 #include "kernels/size/edge_limits.h"
 
 #include <algorithm>

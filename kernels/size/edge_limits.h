@@ -8,11 +8,11 @@
 
 namespace mw {
 
-/// Tells whether changes of a mesh keep its edges within limits.  A start mesh has none that is too
+/// Tells whether changes of a mesh keep its edges within limits.  No edge of a start mesh is too
 /// long, so it is enough to refuse new ones.  Without a field everything is allowed, at no cost.
 class EdgeLimits {
  public:
-  /// Keeps references; sizes: null, or one that limits().
+  /// Keeps references.  sizes is null, or a field for which limits() is true.
   EdgeLimits(const TetMesh& mesh, const Metric& metric, const SizeField* sizes)
       : mesh_(mesh), metric_(metric), sizes_(sizes) {}
   /// The limits of moves and flips, which are SizeField::stretch() times as long.
@@ -25,18 +25,18 @@ class EdgeLimits {
 
   [[nodiscard]] bool any() const { return sizes_ != nullptr; }
 
-  /// The edges of v's tets at v, were v at x; tets that have the vertex `without` do not count (v
-  /// itself: all count).
+  /// Would the edges of v's tets at v keep to the limits if v were at x?  Tets that have the vertex
+  /// `without` do not count; where that is v itself, all count.
   [[nodiscard]] bool allow_star(LocalVertex v, LocalVertex without, Point x) const {
     return sizes_ == nullptr || star_keeps(v, without, x);
   }
-  /// All edges of a tet that could be.
+  /// Do all edges of a tet that could be made keep to the limits?
   [[nodiscard]] bool allow_tet(const LocalTet& tet) const {
     return sizes_ == nullptr || tet_keeps(tet);
   }
 
-  /// Is an edge so short that a longer one is asked there?  False where the size is not asked of
-  /// the place itself, but comes from places around.  REQUIRES: any(); both alive.
+  /// Is an edge so short that a longer one is asked there?  False where no size is asked of the
+  /// place itself and limits only come from places around.  REQUIRES: any(); both alive.
   [[nodiscard]] bool is_short(LocalVertex v, LocalVertex w) const;
 
  private:

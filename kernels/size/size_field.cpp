@@ -26,7 +26,7 @@ class Line {
     for (std::size_t i = 0; i < in_.size(); ++i) in_[i] = from[first + i * stride];
   }
 
-  /// The least in_[j] + (gap between i and j)^2 over all j, for each i, to `to`.
+  /// Writes the least in_[j] + (gap between i and j)^2 over all j, for each i, to `to`.
   void spread(std::span<float> to, std::size_t first, std::size_t stride) {
     widen();
     find_envelope();
@@ -45,7 +45,7 @@ class Line {
     double from = 0.0;
   };
 
-  /// A gap of boxes is one cube less than that of their places: what is marked grows by one.
+  /// Boxes are one cube nearer to each other than their places, so what is marked grows by one.
   void widen() {
     wide_ = in_;
     for (std::size_t i = 0; i + 1 < in_.size(); ++i) {

@@ -15,15 +15,14 @@
 
 namespace mw {
 
-/// Squared distances from each cube of a grid to the nearest marked one, as closed boxes: 0 for
-/// neighbours too.
-/// squared: x fastest; 0 at marked cubes, else infinity; replaced by the result, infinity when
-/// nothing is marked.  edges: of a cube.
+/// Finds squared distances from each cube of a grid to the nearest marked one.  Cubes are closed
+/// boxes, so that neighbours are at 0 too.  squared is 0 at marked cubes, infinity at others, and x
+/// fastest; the result replaces it, infinity when nothing is marked.  edges are those of a cube.
 /// Cost: a few comparisons a cube, whatever is marked; one line of scratch.
 void spread_squared_gaps(Index3 cubes, const Vec3& edges, std::span<float> squared);
 
-/// Limits on the edges of a mesh: for each label that is listed one of its own, and around it one
-/// that grows with the distance.
+/// Limits on the edges of a mesh.  Each label that is listed has a limit of its own, and around the
+/// label is one that grows with the distance.
 ///
 /// The volume is cut into cubes of cube_voxels() an axis, single voxels where the volume is small.
 /// At a place in cube C the limit is the least of H + gradation * d over all listed labels: H is
@@ -42,10 +41,10 @@ class SizeField {
   /// contraction stops at could not go to where the surface is.
   static constexpr double kStretch = 1.2;
 
-  /// Nothing is limited.
+  /// A field that limits nothing.
   SizeField() = default;
-  /// label_limits: by dense label; kNoLimit: not listed.  No voxel is known yet.
-  /// by_voxel: limit_voxel() tells what is asked in all labels.
+  /// label_limits has the limit of each dense label, kNoLimit if it is not listed.  by_voxel:
+  /// limit_voxel() will tell what is asked in all labels.  No voxel is known at first.
   SizeField(Index3 volume, const Metric& metric, std::vector<double> label_limits, double gradation,
             bool by_voxel = false);
 
@@ -53,18 +52,18 @@ class SizeField {
   /// 2^21 cubes, else 8.
   [[nodiscard]] static std::int64_t cube_voxels(Index3 volume);
 
-  /// What it takes while it is made.
+  /// The bytes that a field takes while it is made.
   [[nodiscard]] static std::uint64_t making_bytes(Index3 volume);
 
   [[nodiscard]] bool limits() const { return !values_.empty(); }
 
-  /// Tells of the voxels of a box, x fastest.  Boxes without a common cube may come at once: those
-  /// that begin at multiples of 8 have none.
+  /// Takes the labels of the voxels of a box, x fastest.  Boxes that share no cube may come from
+  /// several threads at once; disjoint boxes that begin at multiples of 8 share none.
   void add(const Box3& box, std::span<const Label> voxels);
   /// Limits a voxel, whatever its label.  Thread safety: as add().
   void limit_voxel(Index3 voxel, double limit);
-  /// One of few limits, the largest that is not above the given one: at most a twentieth less. Each
-  /// limit that is in use costs spread() time.
+  /// Rounds a limit down to one of few, which is at most a twentieth less.  Each limit that is in
+  /// use costs spread() time.
   [[nodiscard]] static double rung_below(double limit);
   /// Makes the limits hold for moves, flips and inner vertices as they are.
   void allow_no_stretch() { stretch_ = 1.0; }
@@ -72,8 +71,8 @@ class SizeField {
   /// Finds the limits, once all voxels are known.  Cost: some 50 ns a cube and value in the list.
   void spread();
 
-  /// The limit at a place, without those of labels; at one outside the volume, where a vertex may
-  /// be thought of before it is refused, that of the nearest cube.
+  /// The limit at a place, without those of labels.  A place outside the volume, where a vertex may
+  /// be considered before it is refused, has the limit of the nearest cube.
   /// REQUIRES: limits(), spread() was called.
   [[nodiscard]] double at(Point p) const {
     return values_[row(cube_at(p.x, cubes_.x), cube_at(p.y, cubes_.y), cube_at(p.z, cubes_.z))];
@@ -84,7 +83,7 @@ class SizeField {
     for_each_index(cells_of(box, {cube_, cube_, cube_}),
                    [&](Index3 c) { out.push_back(values_[row(c.x, c.y, c.z)]); });
   }
-  /// No limit is less, of a place or a label: what is shorter need not be looked at.
+  /// The least limit of any place or label; shorter edges need not be looked at.
   [[nodiscard]] double least() const { return least_; }
   [[nodiscard]] double of_label(Label label) const {
     return label < label_limits_.size() ? label_limits_[label] : kNoLimit;
@@ -94,7 +93,7 @@ class SizeField {
     return by_voxel_ || of_label(label) != kNoLimit;
   }
   /// May the start mesh have a cell of 2^level voxels of this label there, with edges between any
-  /// of its corners?  Single voxels always.
+  /// of its corners?  Single voxels are always allowed.
   [[nodiscard]] bool allows_cell(Index3 lo, int level, Label label) const;
 
  private:
@@ -107,7 +106,7 @@ class SizeField {
   }
 
   std::int64_t cube_ = 1;  ///< edge in voxels
-  int cube_shift_ = 0;     ///< of units of the lattice
+  int cube_shift_ = 0;     ///< from lattice units to cubes
   Index3 cubes_;
   Vec3 cube_edges_ = Vec3::Zero();
   double voxel_diagonal_ = 0.0;
@@ -116,7 +115,7 @@ class SizeField {
   bool by_voxel_ = false;
   double stretch_ = kStretch;
   double least_ = 0.0;         ///< known after spread()
-  std::vector<float> values_;  ///< by cube, rounded down; before spread() only of its own voxels
+  std::vector<float> values_;  ///< limit of each cube, rounded down; before spread() of its voxels
 };
 
 }  // namespace mw

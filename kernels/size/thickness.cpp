@@ -16,7 +16,7 @@
 namespace mw {
 namespace {
 
-/// Those of the 26 neighbours that come later in x-fastest order.
+/// The 13 of the 26 neighbours that come later in x-fastest order.
 constexpr std::array<Index3, 13> kDirections{{{1, 0, 0},
                                               {-1, 1, 0},
                                               {0, 1, 0},
@@ -37,7 +37,7 @@ constexpr double kNearest = 0.85;
 /// sides may be kFarther voxels farther away.
 constexpr std::int64_t kBeside = 4, kAlong = 3;
 constexpr double kFarther = 0.75;
-/// Directions with a smaller cosine lead along a part and not through it: 41 degrees.
+/// Directions with a smaller cosine (more than 41 degrees) lead along a part and not through it.
 constexpr double kThrough = 0.75;
 constexpr float kNotThin = std::numeric_limits<float>::infinity();
 constexpr std::uint8_t kFar = kThinReach + 1;  ///< no side within reach
@@ -85,7 +85,7 @@ class Thickness {
         box, [&](Index3 v) { visit(v, i++, static_cast<std::size_t>(labels_.box.offset(v))); });
   }
 
-  /// From a voxel to those beside it in the part whose thickness is along d.
+  /// The steps from a voxel to those beside it in the part whose thickness is along d.
   static std::vector<Index3> steps_beside(Index3 d) {
     const auto product = [](Index3 a, Index3 b) { return a.x * b.x + a.y * b.y + a.z * b.z; };
     std::vector<Index3> out;
@@ -109,7 +109,7 @@ class Thickness {
         .norm();
   }
 
-  /// How many voxels of its label come before and behind each voxel along d.
+  /// Counts the voxels of its label that come before and behind each voxel along d.
   void find_runs(Index3 d) {
     const Index3 shape = labels_.box.shape();
     const std::int64_t step = (d.z * shape.y + d.y) * shape.x + d.x;
@@ -133,7 +133,7 @@ class Thickness {
     for_each_index(shape, [&](Index3 v) { run(behind_, last - v, --i, 1); });
   }
 
-  /// From the middle of the voxel to the nearer side.
+  /// Lowers nearest_ to the distance from the middle of the voxel to the nearer side along d.
   void take_nearest(Index3 d, std::size_t i, std::size_t in) {
     const std::uint8_t run = std::min(before_[in], behind_[in]);
     if (run == kFar) return;

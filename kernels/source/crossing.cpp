@@ -21,7 +21,7 @@ struct Cubic {
   }
 };
 
-/// REQUIRES: not negative at 0, not positive at 1.
+/// REQUIRES: the cubic is not negative at 0 and not positive at 1.
 double zero_of(const Cubic& cubic) {
   constexpr int kHalvings = 32;
   double low = 0.0, high = 1.0;
@@ -37,7 +37,7 @@ bool is_finite(const ScoreDifference& d) {
          d.slopes[1].allFinite();
 }
 
-/// The axis itself where the direction is none, or points to the lower side.
+/// Normalises a direction; returns the axis itself unless it points to the upper side.
 Vec3 upwards(const Vec3& direction, unsigned axis) {
   const double length = direction.norm();
   const bool points_up = direction[static_cast<int>(axis)] > 0.0;

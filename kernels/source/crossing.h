@@ -21,23 +21,23 @@ struct ScoreDifference {
 /// Finds the zero of the difference on the way from centre to centre, and the direction there in
 /// which it falls most.  Between the centres the difference is taken for the cubic with the values
 /// and slopes at both ends, slopes limited so that it falls all the way (Fritsch and Carlson,
-/// 1980): a straight line would be off by 1 / 12 of the second derivative, 0.35 % of the volume of
-/// a ball of radius 6. The height of the result is that of the crossing over the face, along the
-/// axis, in voxels. Scores that do not cross there (the label was changed since, or they are equal
+/// 1980).  A straight line would be off by 1 / 12 of the second derivative, 0.35 % of the volume of
+/// a ball of radius 6.  The height of the result is that of the crossing over the face, along the
+/// axis, in voxels.  Scores that do not cross there (the label was changed since, or they are equal
 /// or infinite at both ends) give the face itself.
 [[nodiscard]] SourcePlane find_crossing(const ScoreDifference& difference, unsigned axis);
 
 /// A face of the lattice, where scores belong to voxels of several layers.
 struct LayeredFace {
   unsigned axis = 0;
-  Index3 layers{1, 1, 1};  ///< voxels of the lattice in one of the scores
-  /// From the middle between the centres of the voxels of scores to the face's, in voxels of the
-  /// lattice.
+  Index3 layers{1, 1, 1};  ///< how many voxels of the lattice a voxel of scores has
+  /// The face's centre, relative to the middle between the centres of the two voxels of scores; in
+  /// voxels of the lattice.
   Vec3 centre = Vec3::Zero();
 };
 
-/// Returns the crossing as it is seen from a face of the lattice: on the plane, over the face's
-/// centre.  ENSURES: a height within kMaxSourceHeight.
+/// Returns the crossing's plane with its height over the centre of a face of the lattice, along the
+/// axis.  ENSURES: a height within kMaxSourceHeight.
 [[nodiscard]] SourcePlane on_lattice(const SourcePlane& crossing, const LayeredFace& face);
 
 }  // namespace mw

@@ -13,12 +13,12 @@ namespace {
 
 constexpr unsigned kWeightBits = 6;
 constexpr double kFullWeight = 1 << kWeightBits;
-/// What four full weights add up to.
+/// Four full weights add up to 2^kWayBits.
 constexpr unsigned kWayBits = kWeightBits + 2;
 constexpr unsigned kShareBits = 16;
 
-/// The cosine of two normals at which their faces stop to count for each other, and at which they
-/// begin to count less.
+/// Faces count less for each other where the cosine of their normals is below kFull, and not at all
+/// from kNone down.
 constexpr double kNone = 0.925, kFull = 0.975;
 
 using Value = FaceFilter::Value;

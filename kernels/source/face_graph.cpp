@@ -59,7 +59,7 @@ FaceGraph::Face FaceGraph::face(std::size_t row) const {
   return {labels_.box.lo + from_lo, packed >> 1 & 3U, (packed & 1U) != 0};
 }
 
-/// REQUIRES: there is such a face.
+/// REQUIRES: the voxel has a face across the axis on its upper side.
 std::uint32_t FaceGraph::row_of(Index3 lower, unsigned axis) const {
   std::uint32_t row = firsts_[static_cast<std::size_t>(labels_.box.offset(lower))];
   while ((faces_[row] >> 1 & 3U) != axis) ++row;

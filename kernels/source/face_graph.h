@@ -12,8 +12,8 @@
 namespace mw {
 
 /// The faces between two labels of a box, each with four edges.  At an edge a face's neighbour is
-/// the other face of the same two labels; there is none where four are, or where the interface
-/// ends.  Faces with the exterior are none.
+/// the other face of the same two labels.  It has none where four such faces meet, or where the
+/// interface ends.  Faces between a label and the exterior do not count.
 /// Memory: 4 bytes a voxel, 20 a face.
 class FaceGraph {
  public:
@@ -22,13 +22,13 @@ class FaceGraph {
     unsigned axis = 0;
     bool low_is_lower = true;  ///< the smaller label is on that side
   };
-  /// By edge; a face is its own neighbour at an edge without another.
+  /// The neighbour at each edge; a face is its own neighbour at an edge without another.
   using Neighbours = std::array<std::uint32_t, 4>;
 
-  /// Keeps the reference.
+  /// Keeps a reference to the labels.
   explicit FaceGraph(const LabelBox& labels);
 
-  /// How many faces there would be.
+  /// How many faces the graph of these labels has.
   [[nodiscard]] static std::size_t count(const LabelBox& labels);
 
   [[nodiscard]] std::size_t size() const { return faces_.size(); }
@@ -44,8 +44,8 @@ class FaceGraph {
   [[nodiscard]] Neighbours find_neighbours(std::uint32_t row) const;
 
   const LabelBox& labels_;
-  std::vector<std::uint32_t> firsts_;  ///< by voxel: how many faces belong to voxels before it
-  std::vector<std::uint32_t> faces_;   ///< 8 times the lower voxel, twice the axis, low_is_lower
+  std::vector<std::uint32_t> firsts_;  ///< how many faces belong to voxels before each voxel
+  std::vector<std::uint32_t> faces_;   ///< 8 * lower voxel + 2 * axis + low_is_lower
   std::vector<Neighbours> neighbours_;
 };
 

@@ -12,12 +12,12 @@ namespace mw {
 
 /// The plane on which the interface is believed to lie near a voxel face, in voxels.
 struct SourcePlane {
-  Vec3 normal = Vec3::Zero();  ///< of length one, to the face's upper side
-  double height = 0.0;         ///< of the plane over the face's centre, along the normal
+  Vec3 normal = Vec3::Zero();  ///< unit normal to the face's upper side
+  double height = 0.0;         ///< height over the face's centre, along the normal
 };
 
-/// A plane as it is stored: from the highest bit on the height, then two coordinates of the normal
-/// on the octahedron, all signed.
+/// A plane as it is stored.  The highest bits hold the height, the next ones two coordinates of the
+/// normal on the octahedron; all are signed.
 using PackedPlane = std::uint32_t;
 
 /// How the bits of a packed plane are shared out.
@@ -25,14 +25,14 @@ struct PlaneBits {
   unsigned height = 8;
   unsigned normal = 12;  ///< for each coordinate
 
-  [[nodiscard]] constexpr double height_steps() const {  ///< in a voxel
+  [[nodiscard]] constexpr double height_steps() const {  ///< steps of the height in a voxel
     return static_cast<double>((1U << height) - 2U);
   }
   [[nodiscard]] constexpr double normal_steps() const {
     return static_cast<double>((1U << (normal - 1U)) - 1U);
   }
 };
-/// The bits of planes that are filtered out of labels (SourceSurface).
+/// The bits of planes that are computed from labels by filters (SourceSurface).
 inline constexpr PlaneBits kFilteredBits{};
 /// The bits of crossings, whose heights are along the axis of the face and good to half a unit of
 /// the lattice.

@@ -10,11 +10,10 @@
 namespace mw {
 namespace {
 
-/// How many units a voxel is.  A place in a box of 2^8 voxels takes 26 bits; the filters need four
-/// more.
+/// Units in a voxel.  A place in a box of 2^8 voxels takes 26 bits; the filters need four more.
 constexpr std::int32_t kUnit = 1 << 18;
 [[maybe_unused]] constexpr std::int64_t kMaxEdge = 1 << 8;
-// A step looks at faces an edge away, an edge at the voxels beside the face.
+// A step looks at faces one edge away, and an edge depends on the voxels beside the face.
 static_assert(FaceFilter::kReach + 2 <= kSourceHalo);
 
 using Units = FaceFilter::Value;
@@ -23,7 +22,7 @@ Vec3 vector_of(const Units& u) {
   return {static_cast<double>(u[0]), static_cast<double>(u[1]), static_cast<double>(u[2])};
 }
 
-/// From the lowest corner of a box.
+/// The centre of a face, in units, from the lowest corner of a box.
 Units centre_of(const FaceGraph::Face& face, Index3 lo) {
   const Index3 from = face.lower - lo;
   const auto middle = [](std::int64_t v) {
@@ -56,7 +55,7 @@ std::vector<Units> filtered_ways(const FaceGraph& graph, const FaceFilter& filte
   return out;
 }
 
-/// Faces of one direction cancel others when the surface turns more than the filter can tell.
+/// How far to trust a height: normals cancel where the surface turns more than the filter can tell.
 double trust_of(const Vec3& normal) {
   constexpr double kNone = 0.6, kFull = 0.8;
   const double same_way = normal.lpNorm<1>() / kUnit;

@@ -14,7 +14,7 @@
 
 namespace mw {
 
-/// How far around a voxel labels have a say in the planes of its faces, in voxels.
+/// How far around a voxel labels influence the planes of its faces, in voxels.
 inline constexpr std::int64_t kSourceHalo = 22;
 
 /// The axes, one bit each, across which a voxel has an interface face on its upper side.
@@ -42,23 +42,23 @@ class SourceSurface {
     kFiltered,   ///< planes from labels
     kCrossings,  ///< packed with kCrossingBits
   };
-  /// Nothing.
+  /// A surface without faces.
   SourceSurface() = default;
   /// Finds the planes of all faces between two labels in a box.
-  /// labels: of the box and kSourceHalo around it; voxels outside the volume are kExterior, where
-  /// the surface ends.
+  /// labels are those of the box and kSourceHalo around it; voxels outside the volume are
+  /// kExterior, where the surface ends.
   /// REQUIRES: no edge of the box of `labels` is longer than 256 voxels.
   /// Memory while it works: 8 bytes a voxel and 72 a face of `labels`.
   SourceSurface(const LabelBox& labels, const Box3& box);
 
-  /// A box of faces that is known already.
+  /// The faces of a box that are known already.
   struct Part {
     Box3 box;
     std::vector<UpperFaces> faces;    ///< by voxel, x fastest
     std::vector<PackedPlane> planes;  ///< by voxel, then by axis
   };
-  /// The faces of a box, put together from parts, which each_part(visit) calls visit with, one at a
-  /// time; it is called twice.
+  /// Puts the faces of a box together from parts.  each_part(visit) is called twice, and calls
+  /// visit(part) for one part at a time.
   /// REQUIRES: no voxel is in two parts; parts may reach out of the box.
   template <typename EachPart>
   SourceSurface(const Box3& box, EachPart each_part, Kind kind = Kind::kFiltered);
@@ -85,7 +85,7 @@ class SourceSurface {
 
   Box3 box_;
   Kind kind_ = Kind::kFiltered;
-  /// By voxel: UpperFaces, and above them the row of its first plane.
+  /// For each voxel its UpperFaces, and above these bits the row of its first plane.
   std::vector<std::uint32_t> entries_;
   std::vector<PackedPlane> planes_;
 };

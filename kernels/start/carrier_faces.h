@@ -38,18 +38,18 @@ struct VoxelFace {
 /// The largest bound that coarsening makes use of, in voxels.
 inline constexpr double kMaxCoarseDistance = 1.5;
 
-/// For a face f, the faces g on which all four samples of f (kernels/core/face_sample.h) have a
-/// point within D less the covering radius: if one of them lies between the same labels as f does
-/// in the input, it carries the samples of f, and the distance bound holds there.  (A carrier for
-/// each sample by itself lets no more cubes become uniform.)
+/// Lists for a face f the faces g that have, for each of the four samples of f
+/// (kernels/core/face_sample.h), a point within D less the covering radius.  If one of them lies
+/// between the same labels as f does in the input, it can carry the samples of f, and the distance
+/// bound holds there.  (A carrier for each sample by itself lets no more cubes become uniform.)
 class CarrierFaces {
  public:
-  /// REQUIRES: max_distance > 0; larger ones than kMaxCoarseDistance count as that.
-  /// ENSURES: every face listed differs by at most one voxel along each axis.
+  /// REQUIRES: max_distance > 0; larger values count as kMaxCoarseDistance.
+  /// ENSURES: no face listed for f is more than one voxel away from it along any axis.
   explicit CarrierFaces(double max_distance);
 
-  /// Faces relative to f = ({0, 0, 0}, axis): f itself first, then by distance; ties in a fixed
-  /// order.
+  /// The faces g relative to f = ({0, 0, 0}, axis): f itself first, then by distance, with ties in
+  /// a fixed order.
   [[nodiscard]] const std::vector<VoxelFace>& of(unsigned axis) const { return carriers_[axis]; }
   /// The faces f, relative to g, that g = ({0, 0, 0}, axis) can carry.
   [[nodiscard]] const std::vector<VoxelFace>& carried_by(unsigned axis) const {

@@ -34,7 +34,8 @@ struct PairFaces {
   Index3 centre;
 };
 
-/// The 4^3 voxels around a corner, x fastest; kExterior for those whose label does not meet there.
+/// The labels of the 4^3 voxels around a corner, x fastest; kExterior where a label does not meet
+/// the corner.
 class WideCube {
  public:
   WideCube(const StartLabels& labels, Index3 corner) {
@@ -81,7 +82,7 @@ class WideCube {
   std::array<Label, 64> labels_;
 };
 
-/// One plane, as heavy as its faces are many; a sheet whose faces look both ways alike has none.
+/// Adds one plane, weighted by the length of the sum of the faces' normals; none where they cancel.
 void add_sheet(const PairFaces& faces, const StartOptions& options, Quadric& q) {
   const Vec3 voxel = options.metric.voxel();
   const double to_mean = 0.5 / static_cast<double>(faces.count);

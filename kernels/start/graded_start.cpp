@@ -30,7 +30,7 @@ Point lattice_point(Index3 corner) {
           static_cast<std::int32_t>(corner.z * kUnitsPerVoxel)};
 }
 
-/// In-plane test with whole numbers: is sample point p (lattice units) on the triangle?
+/// True if point p is on the triangle, seen along the axis; decided in whole lattice units.
 bool on_triangle(Point p, const CornerTriangle& t, unsigned axis) {
   const auto flat = [axis](Point q) {
     return axis == 0   ? std::array<std::int64_t, 2>{q.y, q.z}
@@ -104,7 +104,8 @@ class StartBuilder {
   }
 
  private:
-  /// Position of a corner among those of the block: ascending with the id, but not yet a row.
+  /// Marks a corner as used.  Returns its position among all corners of the block, which ascends
+  /// with the id but is not yet a row.
   std::uint32_t position(Index3 corner) {
     const std::int64_t at = corners_.offset(corner);
     used_[static_cast<std::size_t>(at)] = 1;
@@ -130,7 +131,7 @@ class StartBuilder {
     return leaf.level == 0 && (options_.max_level == 0 || surface_.is_clipped(leaf.lo));
   }
 
-  /// REQUIRES: the cell is of the block.
+  /// REQUIRES: the cell is in the block.
   const CellTemplate& template_of(const Cell& cell) {
     const CellTemplate*& known = known_[static_cast<std::size_t>(block_.offset(cell.lo))];
     if (known == nullptr) known = &templates_.of(surface_.of(cell), is_odd(cell));
@@ -144,7 +145,7 @@ class StartBuilder {
     mesh_.tets.push_back({positions, label});
   }
 
-  /// Those of the eight voxels from `lo` that are in the block.
+  /// Adds those of the eight voxels from `lo` on that are in the block.
   void add_voxels(Index3 lo) {
     for_each_index(Box3{lo, lo + Index3{2, 2, 2}}, [&](Index3 voxel) {
       if (block_.contains(voxel)) add_cell({voxel, 0});
@@ -156,16 +157,16 @@ class StartBuilder {
     for (const NodeTet& t : template_of(cell).tets) add_tet(cell, t, label);
   }
 
-  /// Eight voxels of several labels: each is the union of the cones from the centre to its outer
-  /// faces.
+  /// Adds a mixed cell.  Each of its eight voxels is the union of the cones from the cell's centre
+  /// to the voxel's outer faces.
   void add_mixed(const Cell& cell) {
     for (const NodeTriangle& t : template_of(cell).surface) {
       add_tet(cell, {kCellCentre, t[0], t[1], t[2]}, labels_.shape.at(voxel_behind(cell, t)));
     }
   }
 
-  /// The voxel of a mixed cell that is behind a triangle of its surface; any, where it is behind
-  /// several, as these have the same label.
+  /// Returns a voxel of a mixed cell that is behind a triangle of its surface.  Where several are,
+  /// they have the same label.
   static Index3 voxel_behind(const Cell& cell, const NodeTriangle& t) {
     const auto upper = [&t](unsigned axis) {
       return node_along(t[0], axis) + node_along(t[1], axis) + node_along(t[2], axis) > 3 ? 1 : 0;
@@ -190,7 +191,7 @@ class StartBuilder {
     });
   }
 
-  /// Where an input face's samples go, when that is a triangle of this block.
+  /// Where an input face's samples go, if they go to triangles of this block.
   struct Place {
     VoxelFace carrier;
     Index3 owner;  ///< the voxel on the smaller label's side
@@ -263,7 +264,7 @@ class StartBuilder {
     throw Error(ErrorKind::kInternal, "coarsening left an interface face without a carrier");
   }
 
-  /// Places of the triangle among triangles_ that holds the point of the carrier nearest to p.
+  /// Corners, ascending, of that one of triangles_ that holds the carrier's point nearest to p.
   std::array<std::uint32_t, 3> triangle_below(Point p, const VoxelFace& carrier) {
     const Point foot = nearest_on(carrier, p);
     const auto found =
@@ -276,7 +277,7 @@ class StartBuilder {
     return positions;
   }
 
-  /// Joins a sample to those of its face, which begin at `first`, on the same triangle.
+  /// Joins a sample to those of its face on the same triangle; its face's rows begin at `first`.
   void add_to_face(const BlockSample& one, std::size_t first) {
     for (std::size_t i = first; i < mesh_.samples.size(); ++i) {
       if (mesh_.samples[i].triangle != one.triangle) continue;
@@ -286,7 +287,7 @@ class StartBuilder {
     mesh_.samples.push_back(one);
   }
 
-  /// Turns places into rows and lists the vertices.
+  /// Turns positions into rows and lists the vertices.
   void number_vertices() {
     std::vector<std::uint32_t> row(used_.size());
     std::size_t at = 0;
@@ -322,7 +323,7 @@ class StartBuilder {
   SurfaceNodes surface_;
   CellTemplates templates_;
   std::vector<std::uint8_t> used_;
-  std::vector<const CellTemplate*> known_;  ///< by the lowest voxel of a cell; null: not asked yet
+  std::vector<const CellTemplate*> known_;  ///< by a cell's lowest voxel; null until asked for
   std::vector<CornerTriangle> triangles_;
   BlockMesh mesh_;
 };

@@ -19,15 +19,15 @@ struct QuadricWeights {
 };
 
 struct StartOptions {
-  int max_level = 0;          ///< cells of at most 2^max_level voxels; 0: the paper's start mesh
+  int max_level = 0;          ///< cells have at most 2^max_level voxels an axis; 0 is the paper's
   bool coarse = false;        ///< shape labels may differ from the input's
   bool with_samples = false;  ///< samples for the distance bound
-  double max_distance = 1.5;  ///< with samples: that bound, in voxels
+  double max_distance = 1.5;  ///< the distance bound of samples, in voxels
   QuadricWeights weights;
-  Metric metric;                     ///< of the quadrics, and of the shapes of cells
+  Metric metric;                     ///< for quadrics, and for shapes of cells
   double quality_floor = 0.0;        ///< no tet below it, if the metric allows (min_start_ratio)
   const SizeField* sizes = nullptr;  ///< edges keep to these limits, if they are at least the
-                                     ///< diagonal of a voxel; null: none
+                                     ///< diagonal of a voxel; null for none
 };
 
 /// Voxels around a block whose labels its start mesh depends on.
@@ -36,26 +36,26 @@ inline constexpr std::int64_t kStartHalo = LevelMap::kHalo;
 /// What a start mesh is made from.  Both cover the same box.
 struct StartLabels {
   const LabelBox& shape;     ///< labels of the cells: the input's, or coarsened ones (coarsen.h)
-  const LabelBox& original;  ///< the input's: quadrics and samples come from them
+  const LabelBox& original;  ///< the input's labels, for quadrics and samples
 };
 
 /// Start mesh of a block.
 ///
 /// Leaves of CellLevels larger than a voxel are cut by cut_cell(): without hanging nodes, into the
-/// five tets of Sec 5.1 at their own scale.  With max_level 0 the voxels are cut so as well, which
-/// is the paper's start mesh; else eight of them that are partners become a mixed cell, the cone
+/// five tets of Sec 5.1 at their own scale.  With max_level 0 voxels are cut in the same way, which
+/// is the paper's start mesh; else eight voxels that are partners become a mixed cell: the cone
 /// from its centre over its surface, whose tets take the labels of the voxels that they are in.
 /// SurfaceNodes says which middles of edges and faces are vertices, face_triangles() how a face is
 /// cut; both sides find the same, so cells and blocks conform.
-/// Eq (1) sums over interface triangles; here over interface voxel faces at the vertex, which is
-/// the same sum freed from the accident of the pattern.
+/// Eq (1) sums over interface triangles.  Here the sum is over the interface voxel faces at the
+/// vertex, so that it does not depend on the pattern of the tets.
 ///
 /// Samples of an input face go to the triangles on the nearest face between the same two labels
 /// (CarrierFaces); without coarsening that is the face itself.
 ///
 /// REQUIRES: labels cover `block` and kStartHalo around it; the block is inside the volume and
-///           starts at a multiple of 2^max_level; levels is of the shape labels and the sizes (not
-///           looked at for max_level <= 2).
+///           starts at a multiple of 2^max_level; levels were found for the shape labels and the
+///           sizes (they are not used for max_level <= 2).
 /// ENSURES: canonical; a local function of the labels: all blocks give a shared vertex the same id,
 ///          position and quadric.  Each sample of each voxel face between two labels is with the
 ///          one block that holds the tet on the smaller label's side of its triangle.
@@ -69,7 +69,7 @@ struct StartSize {
   std::uint64_t samples = 0;
 };
 
-/// What graded_start() of the same arguments holds; samples at most.
+/// Returns how much graded_start() of the same arguments holds; samples are an upper bound.
 /// Cost: a third of graded_start(), without its quadrics, sorting and samples.
 [[nodiscard]] StartSize graded_start_size(const StartLabels& labels, const LevelMap& levels,
                                           const Box3& block, Index3 volume,

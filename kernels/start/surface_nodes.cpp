@@ -42,7 +42,7 @@ CellNodes SurfaceNodes::beside_smaller(const Cell& cell) const {
 CellNodes SurfaceNodes::between_labels(const Cell& cell) const {
   const Around near = around(cell.lo);
   return with_middles([&near](CellNode node) {
-    std::size_t lowest = 0;  // of the eight voxels that touch the node
+    std::size_t lowest = 0;  // the lowest of the eight voxels that touch the node
     for (unsigned axis = 0; axis < 3; ++axis) lowest += node_along(node, axis) * kStrides[axis];
     for (unsigned i = 0; i < 8; ++i) {
       const std::size_t voxel = lowest + (i & 1U) + (i >> 1 & 1U) * 4 + (i >> 2) * 16;

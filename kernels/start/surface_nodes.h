@@ -13,25 +13,24 @@ namespace mw {
 
 /// Finds hanging nodes: middles of a cell's edges and faces that are vertices of the start mesh.
 ///
-/// Those that touch a smaller cell are vertices.  Where labels meet, the leaves are single voxels;
-/// eight of them that are partners, filling a cube of 2 voxels at an even place, make one mixed
-/// cell of level 1.  Around mixed cells a middle is a vertex only if the labels need it: if two
-/// voxels that touch it, neighbours along an axis that it is in the middle of, have different
+/// Middles that touch a smaller cell are vertices.  Where labels meet, the leaves are single
+/// voxels; eight of them that are partners, filling a cube of 2 voxels at an even place, make one
+/// mixed cell of level 1.  Around mixed cells a middle is a vertex only if the labels need it: if
+/// two voxels that touch it, neighbours along an axis that it is in the middle of, have different
 /// labels.  Voxels whose partners would lie outside the volume stay single, and the middles that
 /// they touch are vertices; so are those that touch a cube of 2 voxels too large for a SizeField.
 class SurfaceNodes {
  public:
-  /// labels: those the levels are of.
-  /// sizes: those the levels are of; null: none.
+  /// REQUIRES: levels were found from these labels and sizes; null sizes set no limits.
   SurfaceNodes(const CellLevels& levels, const LabelBox& labels, Index3 volume,
                const SizeField* sizes = nullptr)
       : levels_(levels), labels_(labels), volume_{{0, 0, 0}, volume}, sizes_(sizes) {}
 
   /// Corners and hanging nodes of a leaf or a mixed cell.
-  /// REQUIRES: the cell and the leaves around it are where levels may be asked, with labels.
+  /// REQUIRES: levels and labels are known in the cell and in the leaves around it.
   [[nodiscard]] CellNodes of(const Cell& cell) const;
 
-  /// Would some voxels of the cube of 2 voxels that the voxel belongs to lie outside the volume?
+  /// True if the cube of 2 voxels that the voxel belongs to is partly outside the volume.
   [[nodiscard]] bool is_clipped(Index3 voxel) const {
     return !volume_.contains({voxel.x | 1, voxel.y | 1, voxel.z | 1});
   }

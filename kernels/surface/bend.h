@@ -9,8 +9,8 @@
 
 namespace mw {
 
-/// Bends whose 1 - cosine is below this, some 14 degrees, cost nothing: a curved surface has them
-/// (bench/parameters.md, "Constants").
+/// Bends whose 1 - cosine is below this, some 14 degrees, cost nothing, because curved surfaces
+/// have them (bench/parameters.md, "Constants").
 inline constexpr double kFreeBend = 0.03;
 /// The cosine of a sharp bend, 60 degrees.
 inline constexpr double kSharpCosine = 0.5;
@@ -20,15 +20,15 @@ inline constexpr double kSharpCosine = 0.5;
   return std::max(0.0, 1.0 - cosine - kFreeBend);
 }
 
-/// Energy of a bend: the square of the excess.  It grows from a fold of 14 degrees to one of 180
-/// by about 4, and steeply where a surface turns back on itself.
+/// Energy of a bend, which is the square of the excess.  It is 0 up to 14 degrees and about 4 at
+/// 180, and it grows steeply where a surface turns back on itself.
 [[nodiscard]] inline double bend_energy(double cosine) {
   const double excess = bend_excess(cosine);
   return excess * excess;
 }
 
-/// Energy of the bend between two normals of any length, by their product and that of their
-/// squares; 0 when one of them is zero.  Most bends are free, which takes no root to see.
+/// Energy of the bend between two normals of any length, from their dot product and the product of
+/// their squared lengths; 0 when one is zero.  Most bends are free, which takes no root to see.
 [[nodiscard]] inline double bend_energy(double product, double squares) {
   constexpr double kSurelyFree = 1.0 - 0.999 * kFreeBend;
   if (product > 0.0 && product * product >= kSurelyFree * kSurelyFree * squares) return 0.0;

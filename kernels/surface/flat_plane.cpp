@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The mwmesh authors
 // SPDX-License-Identifier: Apache-2.0
-// Most fans carry faces across several axes, which the first few of them tell.
+// Compares the planes of carried faces; in most fans the first few lie across different axes.
 #include "kernels/surface/flat_plane.h"
 
 #include <algorithm>
@@ -14,7 +14,7 @@ FlatPlane plane_of(const DistanceGuard::Piece& piece) {
   return {.axis = piece.axis, .place = static_cast<std::int32_t>(std::lround(place))};
 }
 
-/// False if the fan carries a face elsewhere.  An empty plane becomes that of the first face.
+/// False if the fan carries a face outside the plane.  An empty plane becomes the first face's.
 bool add_fan(const DistanceGuard& guard, LocalVertex v, std::span<const FanTriangle> fan,
              std::optional<FlatPlane>& plane) {
   const auto is_there = [&](const DistanceGuard::Piece& piece) {

@@ -15,24 +15,24 @@ namespace mw {
 /// A plane across an axis.
 struct FlatPlane {
   unsigned axis = 0;
-  std::int32_t place = 0;  ///< along the axis, lattice units
+  std::int32_t place = 0;  ///< coordinate along the axis, lattice units
 
   friend bool operator==(const FlatPlane&, const FlatPlane&) = default;
 };
 
-/// The one plane in which all faces lie that the triangles of a fan carry, or where they carry none
-/// the triangles themselves; empty if there is no such plane.
+/// Returns the plane that contains all faces that the triangles of a fan carry, or, where they
+/// carry none, the triangles themselves; nothing if there is no such plane.
 [[nodiscard]] std::optional<FlatPlane> flat_plane(const TetMesh& mesh, const DistanceGuard& guard,
                                                   LocalVertex v, std::span<const FanTriangle> fan);
 
-/// True if all vertices of a fan but its centre lie in the plane.
+/// True if all vertices of a fan except its centre lie in the plane.
 [[nodiscard]] bool has_ring(const FlatPlane& plane, const TetMesh& mesh,
                             std::span<const FanTriangle> fan);
 
-/// Asks the neighbours of a vertex as well.
+/// Tests the faces that the neighbours of a vertex carry.
 class WideFlatPlane {
  public:
-  /// True if all faces lie in the plane that the fans of the neighbours carry.
+  /// True if all faces that the fans of the neighbours carry lie in the plane.
   [[nodiscard]] bool holds(const FlatPlane& plane, const TetMesh& mesh, const DistanceGuard& guard,
                            std::span<const FanTriangle> fan);
 

@@ -15,14 +15,14 @@
 namespace mw {
 namespace {
 
-/// Bends count by their mean over the spokes of a usual star.
+/// The sum of bends is divided by the number of spokes of a usual star.
 constexpr double kUsualSpokes = 6.0;
 
-/// How far, in smallest edges of a voxel, an interface may be from where its labels have their
-/// volumes before bends give way (bench/parameters.md, "Constants").
+/// How far an interface may be from where its labels have their volumes before bends give way, in
+/// smallest edges of a voxel (bench/parameters.md, "Constants").
 constexpr double kMostOwed = 0.125;
 
-/// More than what squared distances are rounded by.
+/// A factor that exceeds the rounding of squared distances.
 constexpr double kRoundedUp = 1.0 + 1e-9;
 
 Vec3 unit(const Vec3& normal) {
@@ -31,7 +31,7 @@ Vec3 unit(const Vec3& normal) {
 }
 
 /// Gradient of the cosine between a triangle's normal and another direction, when v moves.
-/// normal: of the triangle, unit; length: before it was made so; edge: from a to b.
+/// normal is the triangle's unit normal, length its length before that, and edge goes from a to b.
 Vec3 cosine_gradient(const Vec3& normal, double length, const Vec3& edge, const Vec3& other,
                      double cosine) {
   return (other - cosine * normal).cross(edge) / length;
@@ -39,9 +39,9 @@ Vec3 cosine_gradient(const Vec3& normal, double length, const Vec3& edge, const 
 
 /// Pieces of one carrier in metric units.
 struct MetricPieces {
-  PointLanes middles;  ///< from v
+  PointLanes middles;  ///< relative to v
   StoredLanes areas;   ///< s, negative where the normal looks down its axis
-  StoredInts axes;     ///< of the normals
+  StoredInts axes;     ///< axes of the normals
 };
 
 MW_WIDE void to_metric(const PieceGroup& pieces, const Metric& metric, const Vec3& at,
@@ -72,7 +72,7 @@ MW_WIDE void fit_inside(const MetricPieces& pieces, const StoredLanes& shares, c
   const Lanes3 n = lanes(normal);
   const Lanes weight = load(pieces.areas) * by_axis(load(pieces.axes), n.x, n.y, n.z);
   const Lanes share = load(shares);
-  // The sum in the order in which Eigen adds.
+  // The sum is in the order in which Eigen adds.
   const Lanes height = n.x * load(pieces.middles[0]) +
                        (n.y * load(pieces.middles[1]) + n.z * load(pieces.middles[2]));
   store(weight, out.weights);
@@ -80,8 +80,8 @@ MW_WIDE void fit_inside(const MetricPieces& pieces, const StoredLanes& shares, c
   store(weight * share * height, out.volumes);
 }
 
-/// The curvature that a ring has: the mean of values cut at `most`, or beyond that the least of all
-/// where all bend the same way.  A step among smooth surroundings is no shape, a thread is.
+/// The curvature of a ring: the mean of its values cut at `most`, or, where all exceed that in the
+/// same direction, the least of them.  A step in smooth surroundings is no shape, but a thread is.
 class RingCurvature {
  public:
   explicit RingCurvature(double most) : most_(most) {}
@@ -93,7 +93,7 @@ class RingCurvature {
     greatest_ = std::max(greatest_, *known);
     count_ += 1.0;
   }
-  /// 0 where none is known.
+  /// Returns 0 where no curvature is known.
   [[nodiscard]] double value() const {
     if (count_ == 0.0) return 0.0;
     if (least_ > most_) return least_;
@@ -109,14 +109,14 @@ class RingCurvature {
   double greatest_ = -std::numeric_limits<double>::infinity();
 };
 
-/// Triangles at v, what is known of each.
+/// The triangles at v and what is computed of each.
 struct KnownTriangles {
   std::span<const SurfaceTriangle> triangles;
   std::span<const Vec3> unit_normals;
   std::span<const CornerProducts> products;
 };
 
-/// The triangles that feet are on, and the weights of v there.
+/// The rows of the triangles that feet are on, and the weights of v at the feet.
 struct NearestFeet {
   std::array<std::int64_t, kLanes> rows;
   StoredLanes at_corner;
@@ -131,7 +131,7 @@ MW_WIDE void find_nearest(const KnownTriangles& known, std::size_t carrier,
   const FootLanes first = feet_on_triangle(p, own.to_a, own.to_b, known.products[carrier]);
   const LaneMask bits{1, 2, 4, 8};
   const LaneMask searches = ((static_cast<std::int64_t>(wanted) & bits) == bits) & ~first.inside;
-  // What is searched no more finds nothing nearer.
+  // Lanes that are not searched begin with -1, so that nothing is nearer.
   Lanes least = searches ? first.squared_distance : lanes(-1.0);
   Lanes share = first.at_corner;
   LaneMask rows = LaneMask{} + static_cast<std::int64_t>(carrier);
@@ -151,7 +151,7 @@ MW_WIDE void find_nearest(const KnownTriangles& known, std::size_t carrier,
   std::memcpy(out.rows.data(), &rows, sizeof rows);
 }
 
-/// SurfaceTriangle::normal() of four triangles, and their areas.
+/// Computes SurfaceTriangle::normal() of four triangles, and their areas.
 MW_WIDE void find_normals(const std::array<StoredLanes, 6>& places, const Vec3& x,
                           SurfaceNormal* normals, double* areas) {
   const Lanes3 at = lanes(x);
@@ -159,7 +159,7 @@ MW_WIDE void find_normals(const std::array<StoredLanes, 6>& places, const Vec3& 
   const Lanes3 b = Lanes3{load(places[3]), load(places[4]), load(places[5])} - at;
   const Lanes3 n = cross(a, b);
   const Lanes square = eigen_dot(n, n), area = 0.5 * root(square);
-  // Transposed: a normal and its square lie together.
+  // The lanes are transposed, so that a normal and its square lie together.
   constexpr LaneMask kEven{0, 4, 2, 6}, kOdd{1, 5, 3, 7}, kLow{0, 1, 4, 5}, kHigh{2, 3, 6, 7};
   const Lanes xy02 = __builtin_shuffle(n.x, n.y, kEven), xy13 = __builtin_shuffle(n.x, n.y, kOdd);
   const Lanes zs02 = __builtin_shuffle(n.z, square, kEven),
@@ -239,7 +239,7 @@ void SurfaceEnergy::fit(const Metric& metric, Point origin, const DistanceGuard&
   sum_up_fits();
 }
 
-/// Most feet are on the carrier, which is found out for several at once.
+/// Most feet are on the carrier, which feet_inside() finds for several pieces at once.
 void SurfaceEnergy::add_pieces(const PieceGroup& pieces, std::size_t carrier, const Metric& metric,
                                const Vec3& at) {
   const SurfaceTriangle& own = star_->triangles()[carrier];
@@ -302,7 +302,7 @@ std::span<const VolumeDebt> SurfaceEnergy::debts_at(const Vec3& x) {
   return debts_;
 }
 
-/// For each pair of labels the curvature of the ring times what v's move adds to the volume.
+/// Sums, over the pairs of labels at v, the ring's curvature times the gradient of the volume.
 void SurfaceEnergy::find_pressure(const CurvatureField& curvature) {
   const std::vector<SurfaceTriangle>& triangles = star_->triangles();
   for (std::size_t i = 0; i < triangles.size(); ++i) {
@@ -324,7 +324,7 @@ void SurfaceEnergy::find_pressure(const CurvatureField& curvature) {
   }
 }
 
-/// What is left of v's own debts and of the ring's is added to what v's faces ask of it now.
+/// Adds shares of v's own debts and of the ring's to what v's faces ask of it.
 void SurfaceEnergy::take_debts(const VolumeDebts& debts) {
   // The row of these shares is in bench/parameters.md, "Constants".
   constexpr double kShareOfOwn = 0.5, kShareOfRing = 0.9;
@@ -340,8 +340,8 @@ void SurfaceEnergy::take_debts(const VolumeDebts& debts) {
   }
 }
 
-/// Sheets that are held where their sides touch lose volume all over, so that no neighbour can make
-/// up for it: there bends count for less.  Steps do not, as they owe as much as they are owed.
+/// Lowers the weight of bends where the whole star owes in one direction, as on sheets held
+/// where their sides touch.  Steps keep their weight, as they owe as much as they are owed.
 void SurfaceEnergy::yield_to(const VolumeDebts& debts) {
   double owed = 0.0;
   for (const SurfaceTriangle& t : star_->triangles()) {
@@ -437,7 +437,7 @@ void SurfaceEnergy::add_bends(const Vec3& x, double scale, StarTerms& terms) con
   }
 }
 
-/// Adds the derivatives of a square: the Gauss-Newton part of its Hessian.
+/// Adds the derivatives of a bend's energy, which is a square, with a Gauss-Newton Hessian.
 void SurfaceEnergy::add_bend(const Vec3& gradient, double cosine, double scale,
                              StarTerms& terms) const {
   terms.gradient -= 2.0 * scale * bend_excess(cosine) * gradient;

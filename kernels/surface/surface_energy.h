@@ -13,63 +13,64 @@
 
 namespace mw {
 
-/// Weights of the parts of SurfaceEnergy; what they were chosen from is in bench/parameters.md,
+/// Weights of the parts of SurfaceEnergy.  Where they come from is in bench/parameters.md,
 /// "Constants".
 struct SurfaceWeights {
   double fit = 2.5;             ///< between two labels
   double junction_fit = 1.25;   ///< where more labels meet
-  double area = 1.0;            ///< beside the fit, voxels squared; between two labels, off the box
-  double junction_area = 0.01;  ///< the same where more labels meet
+  double area = 1.0;            ///< beside the fit, voxels squared, between two labels
+  double junction_area = 0.01;  ///< beside the fit where more labels meet
   double bend = 4.7;
-  /// The most curvature of a vertex that makes pressure, 1 / voxel, unless its whole ring bends as
-  /// much and the same way.  Among edges of several voxels what is sharper than a ball of a few
-  /// voxels is a step, not a shape, except on threads.
+  /// The curvature of a vertex makes pressure up to this, 1 / voxel, and beyond it only where the
+  /// whole ring bends as much in the same direction, as on a thread.  Where edges are several
+  /// voxels long, what is sharper than a ball of a few voxels is otherwise a step and not a shape.
   double max_curvature = 0.5;
   bool with_pressure = true;
 };
 
 /// An energy of the interface triangles at a vertex v, as a function of where v is put, that adds
-/// to the shape energy of its tets; 0 where v is now.
+/// to the shape energy of its tets; 0 where v is.
 ///
 /// Fit.  The faces of the input's interfaces that the triangles carry (DistanceGuard) have area s
-/// and unit normal e; let n be the unit normal of the nearest triangle at v, r the distance along n
-/// from v's share of that triangle to the face's middle, and f the weight of v at the foot.  Then
+/// and unit normal e; let n be the unit normal of the nearest triangle at v, r the height of the
+/// face's middle above that triangle's plane, and f the weight of v at the foot.  Then
 ///   Q(x) = sum of w (f n.x - r)^2 with w = max(0, s e.n).
-/// That its gradient is zero says that the signed volume between input and output, weighted by the
-/// hat function of v, is zero; hat functions add up to 1, so labels keep their volumes.
+/// Where its gradient is zero, the signed volume between input and output, weighted by the hat
+/// function of v, is zero; hat functions add up to 1, so labels keep their volumes.
 ///
-/// Area.  A fit alone leaves what no face holds (spikes, folds) as it is.  Area pulls it straight,
-/// and a pressure P holds against the pull so much as the neighbours' curvature asks for, which
-/// makes it a diffusion of curvature: balls stay balls of the same volume.  On the box there is no
-/// area term, or surfaces would turn square to it.
+/// Area.  A fit alone leaves spikes and folds, which no face holds, as they are.  Area pulls them
+/// straight, and a pressure P counters the pull by as much as the neighbours' curvature asks for.
+/// Together they diffuse curvature, so that balls stay balls of the same volume.  On the box there
+/// is no area term, because it would turn surfaces perpendicular to the box.
 ///
-/// Debts.  What v could not do for its own balance last time (VolumeDebts), and what the ring could
-/// not, is added to what Q asks for: shapes and bends may hold a vertex back, its neighbours not.
-/// Where all of them owe the same way no neighbour can help: beyond a mean distance d of an eighth
-/// of a voxel, between two labels, bends count 1 / (1 + (8 d)^8) times as much.
+/// Debts.  The volume that v and its ring still owed after their last visits (VolumeDebts) is added
+/// to what Q asks for, because shapes and bends may hold v back but not its neighbours.  Where all
+/// of them owe in the same direction no neighbour can help.  So between two labels bends count
+/// 1 / (1 + (8 d)^8) times as much, where d is the mean distance that is owed, in voxels.
 ///
-/// Bends.  The energies (bend.h) of spokes and rims.
+/// Bends.  The sum of the bend energies (bend.h) of spokes and rims.
 ///
-/// In all, with E the present shape energy of v's tets and M the sum of w f^2 (or, where few faces
-/// are carried, a sixth of the triangles' area):
+/// The whole energy, with E the present shape energy of v's tets and M the sum of w f^2 (or, where
+/// few faces are carried, a sixth of the triangles' area), is
 ///   E (fit/M (Q + area (Area - P.x)) + bend/6 (sum of bend energies)), less its value at 0.
 class SurfaceEnergy {
  public:
   explicit SurfaceEnergy(const SurfaceWeights& weights) : weights_(weights) {}
 
-  /// The energy at the star's vertex.  What is null is left out: pressure, debts of the ring.
-  /// Keeps references to star and mesh.  REQUIRES: spokes and rims collected, for weights.bend > 0.
+  /// Computes the energy at the star's vertex.  A null curvature leaves out pressure, and null
+  /// debts leave out debts.  Keeps a reference to star.
+  /// REQUIRES: spokes and rims were collected if weights.bend > 0.
   void collect(const TetMesh& mesh, const Metric& metric, const SurfaceStar& star,
                const DistanceGuard& guard, const CurvatureField* curvature,
                const VolumeDebts* debts);
 
-  /// Without the factor E; 0 for x = 0.
+  /// The energy without the factor E; 0 for x = 0.
   [[nodiscard]] double value_at(const Vec3& x) const { return raw_value_at(x) - present_; }
   /// Adds `scale` times the derivatives; the Hessian is replaced by a positive semidefinite one.
   void add_derivatives(const Vec3& x, double scale, StarTerms& terms) const;
 
-  /// What v's own faces would still ask of it at x.
-  /// Valid until the next call.
+  /// The volumes that v's own faces would still ask of it at x.
+  /// The span is valid until the next call.
   [[nodiscard]] std::span<const VolumeDebt> debts_at(const Vec3& x);
 
   /// The least cosine of a spoke or rim at present; 1 when there is none.
@@ -91,7 +92,7 @@ class SurfaceEnergy {
     double volume = 0.0;  ///< sum of w f r
   };
 
-  /// Corners of four triangles, x, y and z of a and of b; all at v where there is none.
+  /// Corners of four triangles: x, y and z of a and of b; all at v where there is no triangle.
   struct CornerLanes {
     std::array<StoredLanes, 6> places{};
   };
@@ -112,22 +113,22 @@ class SurfaceEnergy {
 
   SurfaceWeights weights_;
   const SurfaceStar* star_ = nullptr;
-  std::vector<Vec3> unit_normals_;  ///< of the star's triangles at present
-  double mass_ = 0.0;               ///< M; 0: there is nothing to fit
+  std::vector<Vec3> unit_normals_;  ///< unit normals of the star's triangles
+  double mass_ = 0.0;               ///< M; 0 when there is nothing to fit
   double fit_weight_ = 0.0;
   double area_weight_ = 0.0;
-  double bend_weight_ = 0.0;                          ///< for each spoke and rim
+  double bend_weight_ = 0.0;                          ///< weight of each spoke and rim
   Eigen::Matrix3d square_ = Eigen::Matrix3d::Zero();  ///< Q is x.square x - 2 linear.x
   Vec3 linear_ = Vec3::Zero();
   Vec3 pressure_ = Vec3::Zero();
   double present_ = 0.0;
-  std::vector<TriangleFit> fits_;  ///< of the star's triangles
+  std::vector<TriangleFit> fits_;  ///< one for each of the star's triangles
   std::vector<CornerProducts> products_;
   std::vector<Balance> balances_;
   std::vector<VolumeDebt> debts_;
-  std::vector<CornerLanes> corners_;            ///< of the star's triangles
+  std::vector<CornerLanes> corners_;            ///< corners of the star's triangles
   mutable std::vector<SurfaceNormal> normals_;  ///< scratch; four for each of corners_
-  mutable std::vector<double> areas_;           ///< of the triangles, likewise
+  mutable std::vector<double> areas_;           ///< scratch; areas, in the same rows
 };
 
 }  // namespace mw

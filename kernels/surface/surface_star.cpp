@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The mwmesh authors
 // SPDX-License-Identifier: Apache-2.0
-// Pairs of triangles by a look at all of them: a star has a dozen at most, in general.
+// Finds pairs of triangles by comparing all of them, as most stars have a dozen at most.
 #include "kernels/surface/surface_star.h"
 
 #include <Eigen/Geometry>
@@ -14,10 +14,10 @@
 namespace mw {
 namespace {
 
-/// Where it cannot be told.
+/// The curvature where it cannot be told.
 constexpr double kUnknown = std::numeric_limits<double>::infinity();
 
-/// Bits of a number below 16.  (Counting them is a call on processors of the baseline.)
+/// How many bits are set in 0 to 15.  (Counting takes a function call on the baseline processor.)
 constexpr std::array<std::uint8_t, 1U << kLanes> kBitCounts{0, 1, 1, 2, 1, 2, 2, 3,
                                                             1, 2, 2, 3, 2, 3, 3, 4};
 
@@ -57,7 +57,7 @@ void SurfaceStar::collect_triangles(const TetMesh& mesh, const Metric& metric, L
 }
 
 /// Normals agree along an interface, so the two triangles of a spoke run through it in opposite
-/// ways: it is a of one and b of the other.
+/// directions: its far end is a of one and b of the other.
 void SurfaceStar::find_spokes() {
   spokes_.clear();
   gather_corners();
@@ -77,7 +77,7 @@ void SurfaceStar::find_spokes() {
   }
 }
 
-/// What is beyond the last triangle lies between a label and itself, so that nobody finds it.
+/// Lanes beyond the last triangle lie between a label and itself, so that no search finds them.
 void SurfaceStar::gather_corners() {
   corners_.assign((triangles_.size() + kLanes - 1) / kLanes, {});
   for (std::size_t i = 0; i < triangles_.size(); ++i) {
@@ -172,9 +172,9 @@ void SurfaceStar::find_rim(const TetMesh& mesh, const Metric& metric, std::uint3
   if (length > 0.0) rims_.push_back({row, normal / length});
 }
 
-/// The third corner of the triangle across the edge opposite v, if exactly two of its labels meet
-/// there.  Which tets follow each other around the edge is asked only of those that bear the two
-/// labels; where neither end is free, the ring must close before that.
+/// Returns the third corner of the triangle across the edge opposite v, if exactly two triangles of
+/// its labels meet there.  Only tets of the two labels are compared, so the ring needs no order;
+/// where neither end is free, collect_ring() tells whether all of it is loaded.
 std::optional<LocalVertex> SurfaceStar::across(const TetMesh& mesh, const SurfaceTriangle& t) {
   LocalVertex p = t.a, q = t.b;
   if (mesh.star(q).size() < mesh.star(p).size()) std::swap(p, q);
@@ -200,7 +200,7 @@ std::optional<LocalVertex> SurfaceStar::across(const TetMesh& mesh, const Surfac
       if (ring_.ends[k] == ring_.vertices[i]) add(ring_.vertices[i], false);
     }
   }
-  // Around an edge of six regions both may lead from low to high: no surface runs through it.
+  // Around an edge of six regions both may lead from low to high; then no surface runs through it.
   return others == 1 && rises == 1 ? std::optional(other) : std::nullopt;
 }
 

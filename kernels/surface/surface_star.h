@@ -34,11 +34,11 @@ struct SurfaceTriangle {
 /// A normal of any length.
 struct SurfaceNormal {
   Vec3 vector;
-  double square = 0.0;  ///< of its length
+  double square = 0.0;  ///< squared length
 };
 
-/// Two triangles at v that share an edge at v, are the only two of their labels there, and go on
-/// from each other: they run through the edge in opposite ways.
+/// Two triangles at v that share an edge at v, are the only two of their labels there, and continue
+/// each other, so that they run through the edge in opposite directions.
 struct Spoke {
   std::uint32_t first = 0;  ///< rows of triangles
   std::uint32_t second = 0;
@@ -51,45 +51,45 @@ struct Rim {
   Vec3 normal;                 ///< unit normal of the other, from low to high
 };
 
-/// The interface triangles at a vertex, as they were when it was collected.
+/// The interface triangles at a vertex, as they were when they were collected.
 class SurfaceStar {
  public:
-  /// Triangles without spokes and rims.  REQUIRES: v free.
+  /// Collects triangles without spokes and rims.  REQUIRES: v free.
   void collect_triangles(const TetMesh& mesh, const Metric& metric, LocalVertex v);
-  /// Triangles and spokes.  REQUIRES: v free.
+  /// Collects triangles and spokes.  REQUIRES: v free.
   void collect(const TetMesh& mesh, const Metric& metric, LocalVertex v);
-  /// Rims as well, of the star collected last: those with all tets around them loaded.
+  /// Collects the rims of the star that was collected last, where all tets around are loaded.
   void collect_rims(const TetMesh& mesh, const Metric& metric);
-  /// Only those of triangles for which wanted[row] is not 0.
+  /// Collects only the rims of triangles for which wanted[row] is not 0.
   void collect_rims(const TetMesh& mesh, const Metric& metric,
                     std::span<const std::uint8_t> wanted);
 
-  /// What is left of the stars of two vertices when both become one at a place that is `move` from
-  /// the first and `other_move` from the other: the triangles at both vanish.
+  /// Becomes what is left of the stars of two vertices when both become one vertex, at `move` from
+  /// the first and `other_move` from the other: triangles that have both vanish.
   /// REQUIRES: rims of both were collected.
   void merge(const SurfaceStar& star, const Vec3& move, const SurfaceStar& other,
              const Vec3& other_move);
 
-  /// Normals of all triangles, when v moves by x, into `out`.
+  /// Writes the normals of all triangles, when v moves by x, to `out`.
   void normals_at(const Vec3& x, std::vector<SurfaceNormal>& out) const;
   /// The sum of bend energies (bend.h) of spokes and rims, when v moves by x.
   [[nodiscard]] double bends_at(const Vec3& x) const;
-  /// Computes it from the normals there.
+  /// Computes this sum from the normals that normals_at() wrote.
   [[nodiscard]] double bends(std::span<const SurfaceNormal> normals) const;
 
   [[nodiscard]] LocalVertex vertex() const { return vertex_; }
-  /// What it was collected from.
+  /// The fan that it was collected from.
   [[nodiscard]] std::span<const FanTriangle> fan() const { return found_; }
   [[nodiscard]] const std::vector<SurfaceTriangle>& triangles() const { return triangles_; }
   [[nodiscard]] const std::vector<Spoke>& spokes() const { return spokes_; }
   [[nodiscard]] const std::vector<Rim>& rims() const { return rims_; }
 
  private:
-  /// Four triangles; low and high of the same label where there is none.
+  /// Four triangles; where there is none, low and high are the same label.
   struct CornerLanes {
     StoredInts a{}, b{}, low{}, high{};
 
-    /// One bit for each that has vertex w and lies between these labels.  REQUIRES: l < h.
+    /// One bit for each triangle that has vertex w and lies between these labels.  REQUIRES: l < h.
     [[nodiscard]] unsigned of_triangles_at(LocalVertex w, Label l, Label h) const;
   };
 
@@ -110,14 +110,14 @@ class SurfaceStar {
   mutable std::vector<SurfaceNormal> normals_;  ///< scratch
 };
 
-/// The curvature of threads of a voxel, 1 / voxel (bench/parameters.md, "Constants").
+/// The curvature of threads one voxel thick, 1 / voxel (bench/parameters.md, "Constants").
 inline constexpr double kMaxCurvature = 4.0;
 
 /// Mean curvature of interfaces (twice its usual value, 1 / length), where it can be told: at free
 /// vertices between two labels, off the box.  Positive where the smaller label is convex.
 class CurvatureField {
  public:
-  /// Measures all vertices at once, as they are now.  Values are cut at kMaxCurvature.
+  /// Measures all vertices at once, as they are.  Values are cut at kMaxCurvature.
   void measure(const TetMesh& mesh, const Metric& metric);
 
   [[nodiscard]] std::optional<double> at(LocalVertex v) const;

@@ -19,7 +19,7 @@ struct VolumeDebt {
   double volume = 0.0;  ///< what low lacks and high has too much of, for each triangle there
 };
 
-/// The debts of vertices that were visited, each by its last visit.
+/// The debts that vertices had after their last visit.
 class VolumeDebts {
  public:
   void set(LocalVertex v, std::span<const VolumeDebt> debts) {
@@ -30,7 +30,7 @@ class VolumeDebts {
     }
     lists_[rows_[v]].assign(debts.begin(), debts.end());
   }
-  /// 0 at vertices that were not visited.
+  /// Returns a debt per triangle; 0 at vertices that were not visited.
   [[nodiscard]] double of(LocalVertex v, Label low, Label high) const {
     if (v >= rows_.size() || rows_[v] == kNone) return 0.0;
     for (const VolumeDebt& d : lists_[rows_[v]]) {
@@ -42,7 +42,7 @@ class VolumeDebts {
  private:
   static constexpr std::uint32_t kNone = ~std::uint32_t{0};
 
-  std::vector<std::uint32_t> rows_;  ///< of lists_, by vertex
+  std::vector<std::uint32_t> rows_;  ///< row in lists_ of each vertex
   std::vector<std::vector<VolumeDebt>> lists_;
 };
 

@@ -24,8 +24,8 @@ struct Seeds {
 };
 
 /// Seeds keep to the middle 3/7 of their cells.  A voxel is then at most sqrt(3) * 5/7 = 1.24 edges
-/// from its own cell's seed and at least 1.28 from seeds two cells away: the 27 cells around are
-/// enough.
+/// from its own cell's seed and at least 1.28 from seeds two cells away, so that the 27 cells
+/// around are enough.
 Index3 seed_of(const CellGrid& grid, std::uint64_t seed, Index3 cell) {
   const std::uint64_t h = hash_position(seed, cell);
   const std::int64_t lo = (2 * grid.edge + 6) / 7;
@@ -34,7 +34,7 @@ Index3 seed_of(const CellGrid& grid, std::uint64_t seed, Index3 cell) {
           cell.z * grid.edge + pick(mix_bits(h + 1), lo, hi)};
 }
 
-/// In ascending order of cells, so that a tie has the same winner seen from every cell.
+/// Seeds ascend with their cells, so that a tie has the same winner seen from every cell.
 Seeds seeds_around(const CellGrid& grid, std::uint64_t seed, Index3 cell) {
   Seeds seeds;
   for (std::int64_t z = cell.z - 1; z <= cell.z + 1; ++z) {
@@ -66,8 +66,8 @@ void fill_row(const Seeds& seeds, Index3 first, std::int64_t count, RawLabel* ou
   }
 }
 
-/// Labels the voxels of one row that are within radius of (x, any y) given what is left of the
-/// squared radius in the other directions.
+/// Labels the voxels of one row whose squared distance to centre_x along x is at most squared_left,
+/// which is what the other directions leave of the squared radius.
 void mark_row(const Box3& box, Index3 first, std::int64_t centre_x, std::int64_t squared_left,
               RawLabel label, RawLabel* out) {
   if (squared_left < 0) return;
@@ -76,7 +76,7 @@ void mark_row(const Box3& box, Index3 first, std::int64_t centre_x, std::int64_t
   }
 }
 
-/// Value at t of a curve through random values at 0, span, 2 span, ...: smooth steps between them.
+/// Value at t of a curve through random values at 0, span, 2 span, ..., with smooth steps between.
 std::int64_t wander(std::uint64_t key, std::int64_t t, std::int64_t span, std::int64_t amplitude) {
   constexpr std::int64_t kOne = 1 << 10;
   const std::int64_t knot = t / span;
@@ -95,7 +95,7 @@ struct Disc {
   std::int64_t squared_radius;
 };
 
-/// Radius and wandering keep it inside its cell.
+/// The radius and the wandering of a tube keep it inside its cell.
 Disc tube_section(const CellGrid& grid, std::uint64_t key, Index3 cell, std::int64_t z) {
   const std::int64_t radius = grid.edge / 4;
   const std::int64_t amplitude = std::max<std::int64_t>(0, grid.edge / 2 - radius - kSynthUnits);
@@ -109,7 +109,7 @@ Disc tube_section(const CellGrid& grid, std::uint64_t key, Index3 cell, std::int
 }  // namespace
 
 CellGrid make_cell_grid(Index3 shape, std::uint64_t labels, CellFit fit, bool flat) {
-  std::int64_t low = kSynthUnits;  // always taken
+  std::int64_t low = kSynthUnits;  // taken even if it leaves too few cells
   std::int64_t high = std::max({shape.x, shape.y, shape.z}) * kSynthUnits + 1;
   while (high - low > 1) {
     const std::int64_t middle = low + (high - low) / 2;

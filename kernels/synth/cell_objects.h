@@ -13,12 +13,12 @@
 
 namespace mw {
 
-/// Fixed point: voxel i covers i * kSynthUnits .. (i + 1) * kSynthUnits.
+/// Units in a voxel: voxel i covers i * kSynthUnits .. (i + 1) * kSynthUnits.
 inline constexpr std::int64_t kSynthUnits = 64;
 
 /// Cells of one size from the first corner on.
 struct CellGrid {
-  std::int64_t edge = kSynthUnits;  ///< of a cell, in units
+  std::int64_t edge = kSynthUnits;  ///< edge of a cell, in units
   Index3 count;                     ///< cells along each axis
   std::uint64_t labels = 1;
 
@@ -31,14 +31,14 @@ struct CellGrid {
   }
   [[nodiscard]] bool contains(Index3 c) const { return Box3{{}, count}.contains(c); }
 
-  /// 0 .. N-1, each for as many cells as any other, give or take one.
+  /// A number from 0 to N-1; each has as many cells as any other, give or take one.
   [[nodiscard]] std::uint64_t rank(Index3 cell) const {
     const auto index = static_cast<std::uint64_t>(Box3{{}, count}.offset(cell));
     const auto cells = static_cast<std::uint64_t>(count.product());
     if (cells <= labels) return index;
     return static_cast<std::uint64_t>(Wide{index} * labels / cells);
   }
-  /// Whether the cell is the first of its rank: where there is one object a label, it is there.
+  /// Whether the cell is the first of its rank; only such cells have tubes and balls, one a label.
   [[nodiscard]] bool is_first(Index3 cell) const {
     return (cell.x == 0 && cell.y == 0 && cell.z == 0) || rank(cell) != rank(before(cell));
   }
@@ -90,7 +90,7 @@ void for_each_cell(const CellGrid& grid, const Box3& slab, Visit visit) {
   return d * d;
 }
 
-/// All: out has the voxels of slab, whole planes of the volume, x fastest.
+/// Each fills out with the voxels of slab, which are whole planes of the volume, x fastest.
 void synth_voronoi(const SynthSpec& spec, const Box3& slab, std::span<RawLabel> out);
 void synth_tubes(const SynthSpec& spec, const Box3& slab, std::span<RawLabel> out);
 void synth_spheres(const SynthSpec& spec, const Box3& slab, std::span<RawLabel> out);

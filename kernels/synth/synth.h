@@ -21,7 +21,7 @@ enum class SynthKind {
   kCheckerboard,  ///< (x + y + z) mod N
 };
 
-/// "voronoi", "tubes", "spheres", "noise", "checkerboard".
+/// Knows "voronoi", "tubes", "spheres", "noise" and "checkerboard".
 [[nodiscard]] std::optional<SynthKind> parse_synth_kind(std::string_view name);
 
 struct SynthSpec {
@@ -34,13 +34,13 @@ struct SynthSpec {
 /// ERRORS: mw::Error(kUsage) unless N >= 1 and each axis has 1 to 2^20 voxels.
 void check_synth_spec(const SynthSpec& spec);
 
-/// The voxels of planes z0 .. z0+nz-1, x fastest.
-/// Objects sit one each in the cells of a jittered grid of at least N cells (fewer only when there
-/// are fewer voxels), neighbouring cells of a row sharing a label when there are more; a grain
-/// whose seed lies behind the last voxel may have none, so about N labels occur.  Integers only, so
-/// that the bits are the same everywhere; a voxel depends on spec and its place alone. REQUIRES:
-/// check_synth_spec passes; planes inside the shape; out.size() == nz * shape.y * shape.x. Cost:
-/// voronoi 27 distances a voxel, others less; no memory that grows with the volume.
+/// Writes the voxels of planes z0 .. z0+nz-1, x fastest.  Objects sit in the cells of a jittered
+/// grid of at least N cells (fewer only when there are fewer voxels).  Where there are more,
+/// neighbouring cells of a row share a label; each has a grain, but only the first a tube or ball.
+/// A grain whose seed lies behind the last voxel may have no voxel, so about N labels occur.  Only
+/// integers decide, so the bits are the same everywhere; a voxel depends on spec and place alone.
+/// REQUIRES: check_synth_spec passes; planes in the shape; out.size() == nz * shape.y * shape.x.
+/// Cost: voronoi 27 distances a voxel, others less; no memory that grows with the volume.
 void synth_slab(const SynthSpec& spec, std::int64_t z0, std::int64_t nz, std::span<RawLabel> out);
 
 }  // namespace mw

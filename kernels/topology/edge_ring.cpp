@@ -16,7 +16,7 @@
 namespace mw {
 namespace {
 
-/// Entries that are looked at together: as many as a word has bits for.
+/// How many entries are looked at together, which is as many as a word has bits for.
 constexpr std::size_t kTogether = 16;
 
 constexpr std::array<std::size_t, 3> kNext{1, 2, 0};
@@ -28,7 +28,7 @@ LaneInts is_corner(const LinkTriangle& t, LocalVertex q) {
   return entry == static_cast<std::int32_t>(q);
 }
 
-/// Four bits an entry: the corners that are q.
+/// Returns four bits for each entry, which tell the corners that are q.
 std::uint64_t corners_at(std::span<const LinkTriangle> entries, LocalVertex q) {
   constexpr std::uint64_t kAllCorners = 0x7777'7777'7777'7777U;  // a label may be q's number
   std::uint64_t found = 0;
@@ -53,7 +53,7 @@ void resize(EdgeRing& ring, std::size_t n) {
 
 }  // namespace
 
-/// Which entries have q cannot be foretold, so no branch asks each of them.
+/// No predictor can tell which entries have q, so there is no branch for each entry.
 void collect_ring_tets(const TetMesh& mesh, LocalVertex p, LocalVertex q, EdgeRing& ring) {
   const auto star = mesh.star(p);
   std::size_t n = 0;

@@ -20,8 +20,8 @@ struct EdgeRing {
   [[nodiscard]] std::size_t size() const { return vertices.size(); }
 };
 
-/// Collects the tets around (p, q) into `ring` as its star has them: tet i is (p, q, vertices[i],
-/// ends[i]), positive.  They are a whole ring if p is free.  Cost: O(star(p)).
+/// Collects the tets around (p, q) into `ring` in the order of p's star: tet i is (p, q,
+/// vertices[i], ends[i]), positive.  They are a whole ring if p is free.  Cost: O(star(p)).
 void collect_ring_tets(const TetMesh& mesh, LocalVertex p, LocalVertex q, EdgeRing& ring);
 
 /// Collects the ring of (p, q) into `ring`, keeping its capacity.

@@ -7,7 +7,7 @@ namespace mw {
 
 enum class KeptTopology {
   kLabels,      ///< the closed and the open region of every label
-  kInterfaces,  ///< these, where labels meet, and every pairwise interface
+  kInterfaces,  ///< also the places where labels meet, and every pairwise interface
 };
 
 }  // namespace mw

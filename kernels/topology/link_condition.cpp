@@ -28,7 +28,7 @@ bool LinkCondition::look_from(const TetMesh& mesh, LocalVertex end, LocalVertex 
       if (s != kNoSlot) side.vertex_labels[s] |= bit;
     }
     if (t.has(other)) continue;
-    // Remainders would be divisions.
+    // A remainder would take a division.
     const auto after = [n](std::size_t s) { return s + 1 == n ? 0 : s + 1; };
     for (std::size_t i = 0; i < 3; ++i) {
       const std::size_t s = slot[i], r = slot[i == 2 ? 0 : i + 1];
@@ -78,7 +78,7 @@ bool LinkCondition::all_labels_allow() const {
   return true;
 }
 
-/// Condition (1); fills edge_pairs_.
+/// Tests condition (1) and fills edge_pairs_.
 bool LinkCondition::meetings_allow() {
   const std::size_t n = ring_.size();
   edge_pairs_.reset(labels_.size());
@@ -97,7 +97,7 @@ bool LinkCondition::meetings_allow() {
   return edge == p_.labels || edge == q_.labels;
 }
 
-/// Condition (2).  Only labels that meet at the edge, but in no triangle, need a look at the stars.
+/// Tests condition (2).  Only labels that meet at the edge but in no triangle need the stars.
 bool LinkCondition::interfaces_allow(const TetMesh& mesh, LocalVertex p, LocalVertex q) {
   const Mask edge = p_.labels & q_.labels;
   const auto apart = [&](std::size_t a) {

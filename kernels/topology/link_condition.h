@@ -18,7 +18,7 @@ class LabelPairs {
   using Mask = std::uint64_t;
 
   void reset(std::size_t labels) { with_.assign(labels, 0); }
-  /// Nothing happens for a == b.
+  /// Pairs a and b; does nothing for a == b.
   void add(std::size_t a, std::size_t b) {
     if (a == b) return;
     with_[a] |= Mask{1} << b;
@@ -50,7 +50,7 @@ class LabelPairs {
 /// e = pq, and t for a vertex or edge of the ring or nothing:
 ///   (1) L(et) = L(pt) or L(et) = L(qt), for every t
 ///   (2) e in I_AB wherever p and q are.
-/// Cases 1 and 2 satisfy (1) and (2): all labels at an inner end are one.
+/// Cases 1 and 2 satisfy (1) and (2), because all labels at an inner end are one.
 ///
 /// REQUIRES: p, q free and joined by an edge; all surviving tets will be strictly positive.  That
 ///           makes Lk(p) n Lk(q) lie in the ring around pq, so that bit masks over it suffice.
@@ -85,7 +85,7 @@ class LinkCondition {
   [[nodiscard]] bool interfaces_allow(const TetMesh& mesh, LocalVertex p, LocalVertex q);
   void collect_pairs(const TetMesh& mesh, LocalVertex v, LabelPairs& pairs);
 
-  /// A tet at a triangle (v, a, b) of a star; its label by index into labels_.
+  /// A tet at a triangle (v, a, b) of a star; its label is an index into labels_.
   struct FaceSide {
     LocalVertex a = 0;
     LocalVertex b = 0;

@@ -15,7 +15,7 @@ using io::Json;
 
 constexpr std::size_t kNameWidth = 13;
 
-/// Strings stay in quotes within a row.
+/// Returns a value as text within a row, where strings stay in quotes.
 std::string text_of(const Json& value) {
   if (value.is_float()) return format_figure(value.number());
   if (!value.is_array()) return value.dump();

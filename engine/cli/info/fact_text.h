@@ -9,11 +9,11 @@
 
 namespace mw::cli {
 
-/// One line a fact on stdout, and one for each object of a list; those of an object are named
-/// "object.fact".
+/// Prints a line for each fact, and for each object of a list, on stdout; facts of an object are
+/// named "object.fact".
 void print_facts(const io::Json& facts, const std::string& prefix = {});
 
-/// One line: the name, and the row as "label 3, volume 12.5".
+/// Prints one line with the name and the row as "label 3, volume 12.5".
 void print_row(std::string name, const io::Json& row);
 
 }  // namespace mw::cli

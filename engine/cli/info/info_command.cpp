@@ -26,7 +26,7 @@ namespace {
 
 struct InfoJob {
   std::filesystem::path file;
-  VolumeRequest volume;  ///< of a mesh: --volume; else the file
+  VolumeRequest volume;  ///< --volume if the file is a mesh, else the file
   bool betti = false;
   bool contacts = false;
   bool json = false;
@@ -50,7 +50,7 @@ MeshInfo look_at_mesh(const InfoJob& job) {
   io::NoSink nowhere;
   engine::ConnectedSink connected(nowhere, {.options = {}, .folder = io::scratch_folder()});
   io::TeeSink told(merged,
-                   connected);  // in this order: rows have been checked when places are told
+                   connected);  // `merged` is first: it checks rows before their places are told
   io::TeeSink all(told, digest);
   io::copy_mesh(job.file, all);
   io::GroupedMesh& mesh = sink.mesh();

@@ -23,7 +23,7 @@ namespace mw::cli {
 struct VolumeSide {
   std::unordered_map<RawLabel, std::uint64_t> voxels;
   double voxel_volume = 1;  ///< cubic physical units
-  std::string unit = {};    ///< of lengths; empty: unknown
+  std::string unit = {};    ///< of lengths; empty if unknown
   io::LabelNames names;
   /// Area of voxel faces of each contact, the smaller label first; in square physical units.
   std::map<std::pair<RawLabel, RawLabel>, double> areas;
@@ -65,7 +65,7 @@ struct Contact {
 /// Returns the label's row of the volume; empty without a volume, or if it lacks that label.
 [[nodiscard]] std::optional<audit::VolumeRow> voxels_of(const MeshInfo& facts, Label rank);
 
-/// Returns "kind", "file", "vertices", ... as a JSON object.  contacts: also the contacts.
+/// Returns "kind", "file", "vertices", ... as a JSON object; `contacts` adds the contacts.
 [[nodiscard]] io::Json mesh_json(const MeshInfo& facts, bool contacts);
 
 }  // namespace mw::cli

@@ -71,7 +71,7 @@ Json box_json(const MeshStats& mesh) {
   return {{"lo", lo}, {"hi", hi}};
 }
 
-/// Volumes of labels, and their errors when there is a volume to hold them against.
+/// Returns the volumes of labels, and their errors if there is a volume to compare them with.
 Json volumes_json(const MeshInfo& facts) {
   audit::CompensatedSum total;
   audit::VolumeMeter errors;
@@ -89,7 +89,7 @@ Json volumes_json(const MeshInfo& facts) {
   return out;
 }
 
-/// Pairs of labels, from which to which wedges go; "*": all.
+/// Returns the pairs of labels from which to which wedges go, or "*" for all.
 Json cohesive_json(const MeshInfo& facts) {
   if (facts.cohesive.all) return "*";
   Json out = Json::array();
@@ -100,7 +100,7 @@ Json cohesive_json(const MeshInfo& facts) {
   return out;
 }
 
-/// A mesh in a file is not changed any more.
+/// Leaves out what tells how a run changed the mesh, which is not known of a file.
 Json parts_json(const MeshInfo& facts) {
   Json out = report::connect_json(facts.parts, facts.table.is_signed());
   for (const char* key : {"found", "doubled"}) out.erase(key);

@@ -24,7 +24,7 @@ double area_of(const Position& a, const Position& b, const Position& c) {
   return std::sqrt(dot(normal, normal)) / 2;
 }
 
-/// The tets of one label.
+/// Sums over the tets of one label.
 class LabelSums {
  public:
   void add(const std::array<Position, 4>& corners) {
@@ -37,7 +37,7 @@ class LabelSums {
     ratios_.add(ratio);
     ++tets_;
     for (std::size_t k = 0; k < 3; ++k) {
-      // Relative to a corner, so that far from the origin nothing is lost.
+      // Moments are relative to a corner, so that far from the origin nothing is lost.
       moment_[k].add(
           volume *
           ((a[k] - first_[k]) + (b[k] - first_[k]) + (c[k] - first_[k]) + (d[k] - first_[k])) / 4);
@@ -104,7 +104,7 @@ void measure_facets(io::GroupedMesh& mesh, MeshStats& stats) {
   }
 }
 
-/// Whether all tets together are the whole box: nothing was left out.
+/// Returns whether all tets together are the whole box, so that nothing was left out.
 bool fills_box(const io::GroupedMesh& mesh) {
   return std::none_of(mesh.facet_groups().begin(), mesh.facet_groups().end(),
                       [](const io::FacetGroup& group) { return group.side == io::Side::kOuter; });

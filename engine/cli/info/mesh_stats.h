@@ -11,18 +11,18 @@
 
 namespace mw::cli {
 
-/// In physical units.
+/// What is measured of one label, in physical units.
 struct LabelStats {
   std::uint64_t tets = 0;
   double volume = 0;
   double area = 0;         ///< of the label's whole surface
-  double area_on_box = 0;  ///< of that, on the box of the volume
+  double area_on_box = 0;  ///< the part of area on the box of the volume
   double radius_ratio_min = 0;
   double radius_ratio_mean = 0;
   io::Position lo{};
   io::Position hi{};
   io::Position centroid{};                  ///< of its volume
-  std::optional<audit::RegionBetti> betti;  ///< empty: not counted
+  std::optional<audit::RegionBetti> betti;  ///< empty if not counted
 };
 
 struct ContactStats {
@@ -37,9 +37,9 @@ struct MeshStats {
   std::vector<ContactStats> contacts;  ///< ascending
 };
 
-/// Sums are compensated and in the order of tets and facets.  Betti numbers are those of the closed
-/// and open regions that `verify` compares.  Memory: 200 bytes a label and a contact; with
-/// count_betti the mesh besides, 24 bytes a vertex and some 120 a tet.
+/// Measures the mesh; sums are compensated and in the order of tets and facets.  Betti numbers are
+/// those of the closed and open regions that `verify` compares.  Memory: 200 bytes for each label
+/// and contact; with count_betti also the mesh, 24 bytes a vertex and some 120 a tet.
 /// ERRORS: see GroupedMesh; mw::Error(kInput) for coordinates that are not finite.
 [[nodiscard]] MeshStats measure_mesh(io::GroupedMesh& mesh, bool count_betti);
 

@@ -25,7 +25,7 @@ void add_position(Fields& row, const io::Position& p, Digits digits) {
   for (const double x : p) row.push_back(number(digits, x));
 }
 
-/// People ask for millilitres where lengths are millimetres, which the volume tells.
+/// Returns whether a table for people has millilitres: the volume tells that lengths are in mm.
 bool shows_millilitres(const MeshInfo& facts, Digits digits) {
   return digits == Digits::kFour && facts.volume && facts.volume->unit == "mm";
 }

@@ -8,16 +8,16 @@
 
 namespace mw::cli {
 
-/// Numbers of a table: whole for scripts, four digits for eyes.
+/// How numbers of a table are written: with all digits for scripts, with four for people.
 enum class Digits { kAll, kFour };
 
 /// What a table of labels holds.
 enum class LabelColumns { kSizes, kPlaces, kBoth };
 
-/// A row for each label, ascending.
+/// Returns a table with a row for each label, ascending.
 [[nodiscard]] TextTable label_table(const MeshInfo& facts, Digits digits, LabelColumns columns);
 
-/// A row for each of contacts_of().
+/// Returns a table with a row for each of contacts_of().
 [[nodiscard]] TextTable contact_table(const MeshInfo& facts, Digits digits);
 
 }  // namespace mw::cli

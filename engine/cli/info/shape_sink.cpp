@@ -15,7 +15,7 @@ namespace {
 
 using io::Position;
 using FaceRecord = std::array<std::uint64_t, 4>;
-/// Two ascending rows, the third row of the triangle doubled and odd when its wing is turned, and
+/// Two ascending rows; the third row of the triangle, doubled, and odd when its wing is turned; and
 /// the two labels.
 using EdgeRecord = std::array<std::uint64_t, 5>;
 
@@ -40,7 +40,7 @@ void each_pair(io::ExternalSort<N>& records, Key key, Visit visit) {
   close();
 }
 
-/// The edges of a triangle with two labels.
+/// Adds the edges of a triangle between two labels.
 void add_edges(const FaceRecord& one, const FaceRecord& other, io::ExternalSort<5>& edges) {
   const auto [a, b, c] = rows_of(one);
   const FaceRecord& low = one[3] < other[3] ? one : other;

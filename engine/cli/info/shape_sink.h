@@ -26,7 +26,7 @@ class ShapeSink : public io::MeshSink {
   void write_tets(std::span<const io::TetRows> tets, std::span<const RawLabel> labels) override;
   void finish() override {}
 
-  /// Sums of absolute volumes, cubic physical units.
+  /// Returns for each label the sum of its absolute volumes, in cubic physical units.
   [[nodiscard]] const std::map<RawLabel, audit::CompensatedSum>& volumes() const {
     return volumes_;
   }
@@ -40,8 +40,8 @@ class ShapeSink : public io::MeshSink {
 
   std::filesystem::path folder_;
   io::PagedFile<io::Position> positions_;
-  /// Three ascending rows, the last doubled and odd when their triangle's normal points out of the
-  /// tet; the tet's label.
+  /// Three ascending rows of a triangle, and the label of its tet.  The last row is doubled, and
+  /// odd when the triangle's normal points out of the tet.
   io::ExternalSort<4> faces_;
   std::map<RawLabel, audit::CompensatedSum> volumes_;
 };

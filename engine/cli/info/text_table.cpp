@@ -15,7 +15,7 @@ bool is_number(const std::string& field) {
   return field.empty() || field.find_first_not_of("0123456789+-.e% ") == std::string::npos;
 }
 
-/// Characters, not bytes: those that continue one in UTF-8 do not count.
+/// Returns the number of characters: bytes that continue one in UTF-8 do not count.
 std::size_t width_of(const std::string& field) {
   return static_cast<std::size_t>(
       std::count_if(field.begin(), field.end(), [](char c) { return (c & 0xc0) != 0x80; }));

@@ -12,11 +12,11 @@ namespace mw::cli {
 /// The first row holds the titles; all rows have as many fields.
 using TextTable = std::vector<std::vector<std::string>>;
 
-/// Columns of equal width, two blanks between them; numbers to the right, names to the left.  A
-/// column without any entry is left out.
+/// Prints columns as wide as their widest field, two blanks apart, with numbers to the right and
+/// names to the left.  A column that has nothing below its title is left out.
 void print_columns(const TextTable& table, std::ostream& out);
 
-/// RFC 4180: fields with commas, quotes or line ends are quoted; lines end with '\n'.
+/// Prints RFC 4180 with '\n' at line ends: fields with commas, quotes or line ends are quoted.
 void print_csv(const TextTable& table, std::ostream& out);
 
 }  // namespace mw::cli

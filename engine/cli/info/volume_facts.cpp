@@ -20,7 +20,7 @@ using io::Json;
 
 constexpr std::size_t kMaxPrinted = 1000;
 
-/// Rows of the matrix that takes corners of voxels, (i, j, k, 1), to the world.
+/// Returns the rows of the matrix that takes corners of voxels, (i, j, k, 1), to the world.
 Json affine_json(const io::VolumeSpace& space) {
   Json rows = Json::array();
   for (std::size_t k = 0; k < 3; ++k) {
@@ -56,7 +56,7 @@ Json facts_of(const VolumeRequest& request, const io::VolumeInfo& info,
                                      : labels_json(regions, has_signed_labels(info))}};
 }
 
-/// A row for each, where there are several.
+/// Returns a row for each level of a pyramid.
 Json scales_json(const std::vector<io::VolumeScale>& scales) {
   Json rows = Json::array();
   for (const auto& [number, info] : scales) {
@@ -68,7 +68,7 @@ Json scales_json(const std::vector<io::VolumeScale>& scales) {
   return rows;
 }
 
-/// A remote volume may be too large to be read because somebody asks what it is.
+/// Returns false for a remote volume that was not narrowed down: it may be too large to be read.
 bool reads_labels(const VolumeRequest& request) {
   return !io::is_remote_address(request.path.string()) || request.scale || request.crop;
 }

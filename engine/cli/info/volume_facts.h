@@ -11,7 +11,7 @@
 
 namespace mw::cli {
 
-/// A volume and its labels, read once; those of a remote volume with --scale or --crop only.
+/// A volume and its labels, which are read once; remote ones only with --scale or --crop.
 class VolumeFacts {
  public:
   /// ERRORS: those of open() and of reading the volume.
@@ -32,9 +32,9 @@ class VolumeFacts {
   io::Json facts_;
 };
 
-/// Prints them as text on stdout, with one line for each of the first 1,000 labels.
+/// Prints the facts as text on stdout, with one line for each of the first 1,000 labels.
 void print_volume(const VolumeFacts& volume);
-/// Prints all as JSON on stdout, rows as labels.per_label.  Memory: that of one row at a time.
+/// Prints all facts as JSON on stdout, with the rows of labels.  Memory: one row at a time.
 void print_volume_json(const VolumeFacts& volume);
 
 }  // namespace mw::cli

@@ -31,13 +31,13 @@
 namespace mw::cli {
 namespace {
 
-/// What the digest may sort in: a small part of the budget.
+/// Returns the memory that the digest may sort in, a small part of the budget.
 std::size_t digest_memory(std::uint64_t budget) {
   constexpr std::uint64_t kMin = 1 << 18;
   return std::clamp<std::uint64_t>(budget / 64, kMin, io::DigestSink::kMemoryBytes);
 }
 
-/// Whether this process leaves the mesh to another one, or to all of them.
+/// Returns whether this process leaves the mesh to another one, or to all of them.
 bool has_no_sink(const SharedOutput& shared) {
   return !run_processes().speaks() || shared.mesh != nullptr;
 }
@@ -67,7 +67,7 @@ struct MeshFiles {
     three.emplace(*both, *grouped);
   }
 
-  /// Where the mesh goes.
+  /// Returns where the mesh goes.
   [[nodiscard]] io::MeshSink& all() {
     if (three) return *three;
     if (both) return *both;
@@ -83,16 +83,16 @@ struct MeshFiles {
   std::optional<io::AtomicFile> delta;
   std::optional<io::DigestSink> digest;  ///< for report and page; it waits beside the output
   std::optional<io::TeeSink> both;
-  std::optional<io::GroupedSink> grouped;  ///< for the page, the same
+  std::optional<io::GroupedSink> grouped;  ///< for the page; it waits there, too
   std::optional<io::TeeSink> three;
   std::optional<TraceFile> trace;
 };
 
-/// Null: there is no image of sizes.
+/// Returns null if there is no image of sizes.
 std::unique_ptr<io::LabelVolume> open_sizes(const MeshRequest& request) {
   const std::string& image = request.job.settings.sizes.rules.image;
   if (image.empty()) return nullptr;
-  // On the grid of the labels, wherever its own file says that it lies.
+  // The image is on the grid of the labels, wherever its own file says that it lies.
   return io::open_volume(image, {.spacing = open_options(request.volume).spacing});
 }
 
@@ -111,7 +111,7 @@ void open_samples(const MeshRequest& request, std::vector<engine::SampleImage>& 
   }
 }
 
-/// Says where the work is when a run that ends early leaves some.
+/// Meshes the volume, and says where the work is when a run that ends early leaves some.
 report::FinishedRun mesh_into(const MeshRequest& request, const io::LabelVolume& volume,
                               MeshFiles& files) {
   Progress progress(request.progress);
@@ -160,7 +160,7 @@ void print_writers(const SharedOutput& shared) {
   }
 }
 
-/// Who did what, also where no report is written.
+/// Logs who did what, also where no report is written.
 void log_processes(const engine::RunReport& run) {
   for (std::size_t rank = 0; rank < run.processes.size(); ++rank) {
     const engine::ProcessFacts& facts = run.processes[rank];
@@ -205,7 +205,7 @@ int threads_at_hand(int asked) {
   return given;
 }
 
-/// What is written once the mesh is complete; each file adds its name to those that are there.
+/// Writes what follows once the mesh is complete; each file adds its name to `complete`.
 void write_side_files(const MeshRequest& request, report::FinishedRun& run, MeshFiles& files,
                       const OptionSet& options, std::vector<std::string>& complete) {
   if (files.trace) {
@@ -233,7 +233,7 @@ void write_side_files(const MeshRequest& request, report::FinishedRun& run, Mesh
   std::cout << "page        " << request.html.string() << std::endl;
 }
 
-/// An error about a file that is missing says, too, what is there, and how to get the rest.
+/// Writes the other files.  An error about one says, too, which are there, and how to get the rest.
 void deliver_rest(const MeshRequest& request, report::FinishedRun& run, MeshFiles& files,
                   const OptionSet& options) {
   std::vector<std::string> complete{request.output.string()};
@@ -251,7 +251,7 @@ void deliver_rest(const MeshRequest& request, report::FinishedRun& run, MeshFile
 int mesh(const MeshRequest& request, const OptionSet& options) {
   watch_interrupts();
   if (runs_are_divided()) watch_save_requests();
-  // Refused before any file is opened.
+  // A certificate that cannot be made is refused before any file is opened.
   const bool is_certified = engine::plan_certificate(request.job).why_not.empty();
   const std::string why = engine::why_no_volumes(engine::promises_of(request.job.settings));
   if (!why.empty()) log_warning(why + ": the volumes of labels are not promised (P8)");

@@ -64,7 +64,7 @@ void require_names_used_once(const MeshRequest& request) {
   }
 }
 
-/// The path with its links followed as far as it is there, without '/' at its end.
+/// Returns the path with its links followed as far as it exists, without '/' at its end.
 fs::path whole_path(const fs::path& path) {
   std::error_code ignored;
   fs::path whole = fs::weakly_canonical(fs::absolute(path, ignored), ignored);
@@ -72,7 +72,7 @@ fs::path whole_path(const fs::path& path) {
   return whole.has_filename() ? whole : whole.parent_path();
 }
 
-/// Equal, or somewhere below it.
+/// Returns whether the path is the folder or lies below it.
 bool is_at_or_in(const fs::path& path, const fs::path& folder) {
   return std::mismatch(folder.begin(), folder.end(), path.begin(), path.end()).first ==
          folder.end();
@@ -93,7 +93,7 @@ std::vector<Named> files_of(const MeshRequest& request) {
   return out;
 }
 
-/// Who has the mesh written into a folder of slices may have the work there as well.
+/// Returns whether the input is a folder that the mesh is written into: the work may be there, too.
 bool is_input_around_all(const fs::path& file, const MeshRequest& request) {
   return file == whole_path(request.volume.path) && is_at_or_in(whole_path(request.output), file);
 }
@@ -112,8 +112,8 @@ void require_folder_apart(const MeshRequest& request, const std::string& flag,
   }
 }
 
-/// What one of these has, a mesh of ours has near its beginning or its end: the record of its run,
-/// and words of the formats that have no place for it.
+/// A mesh of ours has one of these near its beginning or its end: the record of its run, or words
+/// of the formats that have no place for it.
 constexpr std::array<std::string_view, 4> kMarks{"mwmesh", "$MeshFormat\n", "\nTetrahedra of ",
                                                  "placeholders: one for each label"};
 

@@ -44,7 +44,7 @@ void add_size_file_option(OptionSet& options, MeshRequest& request) {
        }});
 }
 
-/// "X0,Y0,Z0,X1,Y1,Z1;..."
+/// Parses "X0,Y0,Z0,X1,Y1,Z1;...".
 std::vector<Box3> parse_boxes(const std::string& text) {
   std::vector<Box3> out;
   for (std::size_t begin = 0; begin <= text.size();) {
@@ -55,7 +55,7 @@ std::vector<Box3> parse_boxes(const std::string& text) {
   return out;
 }
 
-/// Nothing else could be used again in another order.
+/// Sets the colour order, since nothing could be used again in another one.
 OptionTexts implied_by_keep(const std::string& folder) {
   if (folder.empty()) return {};
   return {{"order", "colour"}};
@@ -261,7 +261,7 @@ void add_output_options(OptionSet& options, MeshRequest& request) {
                .assign = into(request.force)});
 }
 
-/// The page is drawn when the mesh is written, in what it leaves of the budget.
+/// Checks the budget for the page, which is drawn in what the written mesh leaves of it.
 void require_memory_for_page(const MeshRequest& request) {
   constexpr std::uint64_t kMin = 192 << 20;
   if (request.html.empty() || request.job.run.store.memory >= kMin) return;
@@ -308,8 +308,8 @@ void check_pairs(const MeshRequest& request) {
       "--open-hinges");
 }
 
-/// A folder that an earlier run has used is updated; one that a run was killed over is gone on
-/// with.
+/// Settles what is done with the folder: --from updates what an earlier run left there, --resume
+/// goes on with what a killed run left, and without either the folder is begun.
 void settle_keep(MeshRequest& request) {
   engine::KeepOptions& keep = request.job.run.keep;
   const bool updates = !request.from.empty();
@@ -334,7 +334,7 @@ void settle_keep(MeshRequest& request) {
                                             : engine::KeepUse::kBegin;
 }
 
-/// What follows from other values.
+/// Fills in what follows from other values.
 void settle_job(MeshRequest& request) {
   engine::MeshJob& job = request.job;
   engine::StoreOptions& store = job.run.store;

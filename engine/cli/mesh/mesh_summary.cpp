@@ -33,7 +33,7 @@ void print_space(const io::VolumeSpace& space) {
   if (!what.empty()) std::cout << "coordinates " << what << "\n";
 }
 
-/// How near edges are to the sizes that were asked of their labels, where that was measured.
+/// Prints how near edges are to the sizes asked of their labels, where that was measured.
 void print_sizes(const report::FinishedRun& run) {
   const engine::EdgeRatios& ratios = run.engine.edge_ratios;
   double all = 0, near = 0;
@@ -48,7 +48,7 @@ void print_sizes(const report::FinishedRun& run) {
             << " % of edges are 0.6 to 1.5 of what was asked\n";
 }
 
-/// What was asked of the number of tets, and why the mesh has another one, if it has.
+/// Prints how many tets were asked for, and warns if the mesh cannot have that number.
 void print_count(const report::FinishedRun& run) {
   if (!run.count) return;
   const report::CountFacts& count = *run.count;
@@ -129,7 +129,7 @@ std::string name_of(RawLabel label, const report::FinishedRun& run) {
   return label_text(label, run.labels.is_signed(), run.volume.names);
 }
 
-/// How many there are, and what the first few are called.
+/// Prints how many labels there are, and what the first few are called.
 void print_labels(const report::FinishedRun& run, const LabelTets& tets) {
   constexpr std::size_t kMaxListed = 6;
   const std::size_t all = run.labels.size(), count = tets.counts().size();
@@ -146,7 +146,7 @@ void print_labels(const report::FinishedRun& run, const LabelTets& tets) {
   std::cout << "\n";
 }
 
-/// Label 0, where nobody chose and it is most of the mesh, is what lies around the others.
+/// Tells of label 0 if nobody chose labels and it has the most tets: it is then the background.
 void print_background(const report::FinishedRun& run, const MeshRequest& request,
                       const LabelTets& tets) {
   const auto& counts = tets.counts();

@@ -10,7 +10,7 @@
 
 namespace mw::cli {
 
-/// How many tets of each label pass by.
+/// Counts the tets of each label that pass by.
 class LabelTets : public io::MeshSink {
  public:
   void begin(const io::MeshHeader& /*header*/) override {}
@@ -25,7 +25,7 @@ class LabelTets : public io::MeshSink {
   std::map<RawLabel, std::uint64_t> counts_;
 };
 
-/// Figures for people, a line each on stdout.
+/// Prints figures for people, a line each, on stdout.
 void print_summary(const report::FinishedRun& run, const MeshRequest& request,
                    const LabelTets& tets);
 

@@ -20,7 +20,7 @@ double seconds_between(std::chrono::steady_clock::time_point a,
   return std::chrono::duration<double>(b - a).count();
 }
 
-/// "47 s", "12 min", "3.4 h".
+/// Returns "47 s", "12 min" or "3.4 h".
 std::string rough_time(double seconds) {
   if (seconds < 100) return format_fixed(seconds, 0) + " s";
   if (seconds < 100 * 60) return format_fixed(seconds / 60, 0) + " min";
@@ -35,7 +35,7 @@ void show_bar(const engine::RunProgress& at) {
   std::fprintf(stderr, "\r\033[K%s", text.c_str());
 }
 
-/// seconds: since the run began.
+/// Prints a line of JSON; seconds are those since the run began.
 void show_line(const engine::RunProgress& at, double seconds) {
   const std::string left = at.seconds_left ? format_fixed(*at.seconds_left, 3) : "null";
   const std::string text = "{\"event\":\"window\",\"done\":" + std::to_string(at.done) +

@@ -34,7 +34,7 @@ class Progress {
   std::uint64_t done_ = 0;  ///< windows that were shown
 };
 
-/// Comma-separated values: a line of names, then a line for each visit in order of completion.
+/// Writes comma-separated values: a line of names, then a line for each visit as it is completed.
 ///   march    from 0
 ///   x,y,z    the window's place among the windows of its march
 ///   start_s, end_s   wall seconds since the run began

@@ -16,7 +16,7 @@ namespace {
 
 engine::Processes* processes_of_program = nullptr;
 
-/// Cores of the machine; those that this process may use can be fewer.
+/// Returns the cores of the machine; those that this process may use can be fewer.
 int cores_of_machine() {
   return static_cast<int>(std::max(1L, ::sysconf(_SC_NPROCESSORS_ONLN)));
 }
@@ -35,7 +35,7 @@ int threads_of_process(int asked, int processes_here) {
   return own;
 }
 
-/// Empty where several processes can write the mesh.
+/// Returns why one process alone writes the mesh; empty where several can.
 std::string obstacle(const MeshRequest& request, bool can_be_shared, bool is_certified) {
   if (run_processes().count() == 1) return "there is no other";
   if (!can_be_shared) return "only a .vtkhdf of tet4 can be written by several";

@@ -19,8 +19,8 @@ namespace mw::cli {
 /// To be called once by a program, before any command runs.
 void divide_runs_among(engine::Processes& processes);
 
-/// Makes a request this process's part of it: threads and memory are those of the machine, and
-/// divided by the processes on it; only the process that speaks shows, checks and reports.
+/// Makes a request this process's part of it: the machine's threads and memory are divided by the
+/// processes on it, and only the process that speaks shows progress, certifies and reports.
 void take_part(MeshRequest& request);
 
 /// What one process of a run writes the mesh into, together with the others.
@@ -32,9 +32,9 @@ struct SharedOutput {
   std::string why_alone;
 };
 
-/// Returns nothing where runs_are_divided() is false.  is_certified: the process that speaks makes
-/// a certificate, for which, as for a page, the whole mesh has to pass through it.  ERRORS: those
-/// of making the file, which the process that speaks does.
+/// Returns nothing where runs_are_divided() is false.  is_certified tells that the process that
+/// speaks makes a certificate, for which, as for a page, the whole mesh has to pass through it.
+/// ERRORS: those of making the file, which the process that speaks does.
 [[nodiscard]] SharedOutput open_shared_output(const MeshRequest& request, bool is_certified);
 
 }  // namespace mw::cli

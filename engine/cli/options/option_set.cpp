@@ -59,7 +59,7 @@ toml::table parse_config(const std::filesystem::path& path) {
   }
 }
 
-/// Names of the variables with our prefix that are not empty.
+/// Returns the names of the variables with our prefix that are not empty.
 std::set<std::string> set_variables() {
   std::set<std::string> out;
   for (char** entry = environ; entry != nullptr && *entry != nullptr; ++entry) {
@@ -142,7 +142,7 @@ void OptionSet::read_config(const std::filesystem::path& path) {
     found->where = where + " = " + *text;
     found->is_given = true;
     if (text->empty()) refuse(where, ": empty; leave the key out instead");
-    // Names of files would end there.
+    // The system would end the name of a file there.
     if (text->find('\0') != text->npos) refuse(where, ": has a zero byte in it");
   }
 }

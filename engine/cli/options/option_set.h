@@ -41,23 +41,23 @@ enum class Listed {
 using OptionTexts = std::vector<std::pair<std::string, std::string>>;
 
 struct Option {
-  std::string name;   ///< of the flag without dashes; the config key has '_' for '-'
+  std::string name;   ///< the flag without dashes; the config key has '_' for '-'
   std::string value;  ///< what help calls the value; nothing where it shows the choices
   std::string help;   ///< one line
   std::string group;  ///< the heading that help lists it under
   ValueKind kind = ValueKind::kText;
   std::string fallback;              ///< the default as text; empty: unset
   std::vector<std::string> choices;  ///< the only texts allowed; empty: any of the kind
-  /// All names of the flag, in capitals that of an argument: "-o,--output"; empty: "--name".
+  /// All names of the flag, "-o,--output", that of an argument in capitals; empty for "--name".
   std::string flags;
   Listed listed = Listed::kInHelp;
   bool required = false;
   bool only_flag = false;   ///< neither a key nor a variable has it
   bool repeats = false;     ///< may be given several times: the texts are joined by ';'
-  bool has_labels = false;  ///< of another kind than kLabels, but with labels in it
+  bool has_labels = false;  ///< the value has labels in it, though its kind is not kLabels
   /// Takes the value over.  ERRORS: mw::Error(kUsage) for one that is not allowed.
   std::function<void(const std::string&)> assign;
-  /// Values of other options that this value stands for, where nothing else gives them.
+  /// Returns values of other options that this value implies, where nothing else gives them.
   std::function<OptionTexts(const std::string&)> implied;
 };
 
@@ -67,26 +67,26 @@ class OptionSet {
  public:
   void add(Option option);
 
-  /// Finds and assigns every value, in the order of the list; values with names of labels wait.
-  /// flags: values of those that were given, by name; "true" of a switch.
-  /// ERRORS: mw::Error(kUsage) naming flag, variable, or file, line and key.
+  /// Finds and assigns every value, in the order of the list; those with names of labels wait for
+  /// resolve_names().  flags holds the texts of those that were given, by name; a switch is "true"
+  /// or "false".  ERRORS: mw::Error(kUsage) naming flag, variable, or file, line and key.
   void resolve(const std::map<std::string, std::string>& flags);
   /// REQUIRES (all that follow): resolve().
-  /// Assigns the values with names of labels (engine/settings/named_labels.h), if any, for which
-  /// alone it asks. ERRORS: as resolve(); those of names().
+  /// Assigns the values with names of labels (engine/settings/named_labels.h); only if there are
+  /// any, it calls names().  ERRORS: those of resolve() and of names().
   void resolve_names(const std::function<io::LabelNames()>& names);
   /// ERRORS: mw::Error(kUsage) naming the first required option without a value.
   void require_all() const;
-  /// The effective value; empty: unset.  REQUIRES: an option of that name.
+  /// Returns the effective value, empty if unset.  REQUIRES: there is an option of that name.
   [[nodiscard]] const std::string& text(const std::string& name) const { return find(name).text; }
-  /// The effective values as a config file that gives the same ones.
+  /// Returns the effective values as a config file that gives the same ones.
   [[nodiscard]] std::string toml() const;
   /// Returns the values of toml() as JSON; an unset one is null.
   [[nodiscard]] io::Json json() const;
 
   struct Entry {
     Option option;
-    std::string text;   ///< effective, in canonical form; empty: unset
+    std::string text;   ///< effective, in canonical form; empty if unset
     std::string where;  ///< "--window 41", "MW_WINDOW=41", "run.toml:3: window = 41"
     bool is_given = false;
   };
@@ -105,15 +105,15 @@ class OptionSet {
   std::vector<Entry> entries_;
 };
 
-/// The variable of an option: MW_EDGE_VARIANCE for edge-variance.
+/// Returns the environment variable of an option: MW_EDGE_VARIANCE for edge-variance.
 [[nodiscard]] std::string variable_of(const std::string& option);
 
-/// A variable MW_... that none of these read is a mistake, unless it is empty.  Those of tests and
-/// benchmarks, which run the program with them set, are not: MW_PROGRAM and MW_TEST_...
+/// Refuses a variable MW_... that none of these options reads, unless it is empty or known
+/// otherwise, as are those that tests and benchmarks set: MW_PROGRAM and MW_TEST_...
 /// ERRORS: mw::Error(kUsage) naming the first one.
 void refuse_unknown_variables(const std::vector<const OptionSet*>& all);
 
-/// Joined by what goes between.
+/// Returns the words with `between` between them.
 [[nodiscard]] std::string joined(const std::vector<std::string>& words, const std::string& between);
 
 }  // namespace mw::cli

@@ -10,7 +10,7 @@ namespace {
 
 constexpr const char* kNone = "none";
 
-/// What an option takes beside numbers.
+/// Returns the word that an option takes beside numbers.
 const char* word_of(ValueKind kind) {
   return kind == ValueKind::kNumberOrAuto ? "auto" : kNone;
 }
@@ -44,7 +44,7 @@ std::optional<std::string> number_of_toml(const toml::node& node) {
   return std::nullopt;
 }
 
-/// Elements of an array of numbers, joined by commas.
+/// Returns the elements of an array of numbers, joined by commas.
 std::optional<std::string> list_of_toml(const toml::node& node) {
   const toml::array* array = node.as_array();
   if (array == nullptr) return std::nullopt;

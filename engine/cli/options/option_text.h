@@ -12,13 +12,14 @@
 
 namespace mw::cli {
 
-/// The text in one form for one value.  ERRORS: mw::Error(kUsage) when it is not of the kind.
+/// Returns a text that is the same for equal values; labels and sizes stay as they are written.
+/// ERRORS: mw::Error(kUsage) when the text is not of the kind.
 [[nodiscard]] std::string canonical_text(ValueKind kind, const std::string& text);
 
-/// A config file's value as text; nothing when its type is not the kind's.
+/// Returns a config file's value as text, or nothing when its type is not that of the kind.
 [[nodiscard]] std::optional<std::string> text_of_toml(ValueKind kind, const toml::node& node);
 
-/// What a config file holds for the kind, for messages: "an integer".
+/// Returns what a config file holds for the kind, in words for messages: "an integer".
 [[nodiscard]] const char* toml_type(ValueKind kind);
 
 /// REQUIRES: canonical text.

@@ -114,7 +114,7 @@ void add_mesh_option(OptionSet& options, std::filesystem::path& mesh, const std:
 
 namespace {
 
-/// Takes what is known before the first row, and ends the reading by throwing itself.
+/// Takes what is known before the first row, and ends the reading by throwing Enough.
 struct NamesSink : io::MeshSink {
   struct Enough {};
 

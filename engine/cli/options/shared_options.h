@@ -27,15 +27,15 @@ inline constexpr const char* kOutputGroup = "Output";
 /// REQUIRES (all that follow): what is written to outlives options.
 void add_setting_options(OptionSet& options, engine::MeshSettings& settings);
 
-/// Adds --memory and --threads.  threads: 0 for all cores; memory: empty unless given.  budget:
-/// what the memory is, for the help.
+/// Adds --memory and --threads.  threads becomes 0 for all cores, and memory stays empty unless
+/// given; budget says in the help what the memory is.
 void add_resource_options(OptionSet& options, int& threads, std::optional<std::uint64_t>& memory,
                           const std::string& budget);
 
 /// Adds --labels and --background.
 void add_choice_options(OptionSet& options, engine::LabelChoice& choice);
 
-/// Adds the argument MESH.  what: what the command does with it, for the help.
+/// Adds the argument MESH; `what` says in the help what the command does with it.
 void add_mesh_option(OptionSet& options, std::filesystem::path& mesh, const std::string& what);
 
 /// Returns the names of labels in a mesh's file.  ERRORS: those of io::copy_mesh().

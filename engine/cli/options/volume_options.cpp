@@ -58,7 +58,7 @@ void set_order(VolumeRequest& request, const std::string& text) {
   request.order = text == "big" ? io::ByteOrder::kBig : io::ByteOrder::kLittle;
 }
 
-/// "u16", or "u16be" for the other byte order.
+/// Parses "u16", or with a byte order "u16be" or "u16le".
 void parse_dtype(VolumeRequest& request, const std::string& text) {
   const bool is_big = text.ends_with("be"), has_order = is_big || text.ends_with("le");
   request.type = io::parse_voxel_type(text.substr(0, text.size() - (has_order ? 2 : 0)));

@@ -26,12 +26,12 @@ struct VolumeRequest {
   io::VoxelValues values = io::VoxelValues::kLabels;
   std::optional<Box3> crop;
   std::vector<RawLabel> object;          ///< labels that alone matter; empty: all do
-  std::optional<io::CacheFolder> cache;  ///< of what servers send
+  std::optional<io::CacheFolder> cache;  ///< keeps what servers send
   bool trust_paths = false;
   io::InputSteps steps;  ///< what is done with the labels that were opened
   /// How many bytes of unpacked chunks a chunked volume may keep.
   std::uint64_t cache_bytes = io::OpenOptions{}.cache_bytes;
-  std::filesystem::path names;  ///< of labels; empty: only those in the volume's file
+  std::filesystem::path names;  ///< file with names of labels; if empty, the volume has them
 };
 
 /// Adds the argument INPUT.

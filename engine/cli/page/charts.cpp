@@ -11,7 +11,7 @@
 namespace mw::cli {
 namespace {
 
-// Of the view box of a chart.
+// The sides of a chart's view box, and where its columns begin and end at most.
 constexpr double kWidth = 270, kHeight = 140, kBase = 116, kTop = 8;
 
 std::string at(double position) {
@@ -39,7 +39,7 @@ std::string axis(const Histogram& histogram) {
     const double share = static_cast<double>(i) / kTicks;
     const char* const anchor = i == 0 ? "start" : i == kTicks ? "end" : "middle";
     const double value = histogram.from + share * (histogram.to - histogram.from);
-    // Rounded away from digits that only binary fractions have.
+    // The text is rounded, to drop digits that only binary fractions have.
     const std::string text = format_number(parse_number(format_fixed(value, 4)));
     out += "<text x=\"" + at(share * kWidth) + "\" y=\"" + at(kHeight - 6) + "\" text-anchor=\"" +
            anchor + "\">" + text + histogram.unit + "</text>";

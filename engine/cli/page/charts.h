@@ -13,11 +13,11 @@ struct Histogram {
   std::string title;
   std::string note;            ///< a line below the title
   double from = 0, to = 1;     ///< ends of the axis
-  std::string unit;            ///< behind numbers of the axis, "°"
-  std::vector<double> shares;  ///< of each column; their sum is 1 or, with nothing to show, 0
+  std::string unit;            ///< stands behind numbers of the axis, "°"
+  std::vector<double> shares;  ///< one for each column; they sum to 1 or, with nothing to show, 0
 };
 
-/// A figure with title, columns that tell their range and share when pointed at, and an axis.
+/// Returns a figure with title, axis, and columns that tell range and share when pointed at.
 [[nodiscard]] std::string histogram_figure(const Histogram& histogram);
 
 struct BarRow {
@@ -26,7 +26,7 @@ struct BarRow {
   std::string text;  ///< the value, for people
 };
 
-/// A figure with one bar a row, the longest for the largest value.
+/// Returns a figure with one bar for each row; the longest is that of the largest value.
 [[nodiscard]] std::string bar_figure(const std::string& title, const std::vector<BarRow>& rows);
 
 }  // namespace mw::cli

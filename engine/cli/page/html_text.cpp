@@ -74,7 +74,7 @@ void Base64::finish() {
   append_(text_);
 }
 
-/// The first characters of three bytes.
+/// Appends the first `count` of the four characters that stand for three bytes.
 void Base64::encode(std::size_t count) {
   constexpr std::string_view kDigits =
       "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";

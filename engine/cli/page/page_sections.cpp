@@ -21,7 +21,7 @@ std::string percent(double share, int digits) {
   return format_fixed(100 * share, digits) + " %";
 }
 
-/// A setting as its flag takes it.
+/// Returns a setting as its flag takes it.
 std::string flag_text(const Json& value) {
   if (value.is_string()) return value.text();
   if (value.is_float()) return format_number(value.number());
@@ -101,7 +101,7 @@ Verdict resume_verdict(const Json& report) {
                        : with_commas(resumed) + " windows were done before it was interrupted"};
 }
 
-/// What the certificate says of a promise; without one, how to check it.
+/// Returns what the certificate says of a promise or, without one, how to check it.
 Verdict certified(const Json& report, const char* name, const char* promise, const char* how) {
   const Json& certificate = report["certificate"];
   if (!certificate["made"].boolean()) return unchecked(name, promise, how);
@@ -147,8 +147,8 @@ std::string promise_row(const Verdict& verdict) {
          "</td></tr>\n";
 }
 
-/// Shares, as stages are told by threads that wait for each other and for a processor: in seconds
-/// they would add up to neither of the run's times.
+/// Returns stages as shares.  In seconds they would add up to neither of the run's times, as they
+/// hold the time that threads wait for each other and for a processor.
 std::vector<BarRow> stage_rows(const Json& stages) {
   double total = 0;
   for (const auto& [key, value] : stages.items()) total += value.number();
@@ -170,7 +170,7 @@ std::vector<BarRow> memory_rows(const Json& purposes) {
   return out;
 }
 
-/// Whether an option of the input is not given, or says what it says anyway.
+/// Returns whether an option of the input is not given, or is given as its default.
 bool is_fallback(const Json& value) {
   return value.is_null() || (value.is_boolean() && !value.boolean()) || value == "file" ||
          value == "labels";

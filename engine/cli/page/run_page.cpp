@@ -49,7 +49,7 @@ Histogram volume_errors(const report::FinishedRun& run) {
           .shares = shares_of(counts)};
 }
 
-/// How many edges are how long; each is counted by each of its tets.
+/// Returns the shares of edges by length; each edge is counted by each of its tets.
 std::vector<BarRow> edge_rows(const engine::EdgeRatios& ratios) {
   double total = 0;
   for (const std::uint64_t count : ratios.counts) total += static_cast<double>(count);
@@ -103,7 +103,7 @@ struct PageLabels {
   [[nodiscard]] std::string digits(Label rank) const {
     return format_label(raw(rank), mesh.table().is_signed());
   }
-  /// "17.18 mL", "490 mm³".
+  /// Returns "17.18 mL" or "490 mm³".
   [[nodiscard]] std::string volume(double voxels) const {
     for (const double edge : space.spacing) voxels *= edge;
     std::string out = format_volume(voxels, space.unit);
@@ -134,7 +134,7 @@ std::string hex(const picture::Colour& colour) {
   return out;
 }
 
-/// place: in the view, if it is there.
+/// Returns a row of the table of labels; position is the label's index in the view, if it is there.
 std::string label_row(const PageLabels& labels, Label rank, std::optional<std::size_t> position) {
   const io::LabelNames& names = labels.mesh.names();
   const std::string swatch =
@@ -155,7 +155,7 @@ std::string label_row(const PageLabels& labels, Label rank, std::optional<std::s
          format_fixed(100 * volume->error, 2) + " %</td></tr>\n";
 }
 
-/// Rows of all labels, or of too many only of those in the view.
+/// Returns rows of all labels or, if these are too many, of those in the view only.
 std::string label_rows(const PageLabels& labels, const ViewData& view) {
   std::string out;
   std::size_t position = 0;
@@ -204,7 +204,7 @@ std::string label_section(const PageLabels& labels, const ViewData& view) {
   return stage + label_rows(labels, view) + "</tbody></table></div></div></div></section>\n";
 }
 
-/// The scene as a figure.
+/// Adds the scene as a figure.
 void add_picture(io::AtomicFile& file, picture::MeshScene& scene, const std::string& title,
                  const picture::View& view) {
   file.append("<figure class=\"card\"><figcaption><b>" + title +
@@ -217,7 +217,7 @@ void add_picture(io::AtomicFile& file, picture::MeshScene& scene, const std::str
   file.append("\"></figure>\n");
 }
 
-/// All labels but the surrounding one, whole and cut.
+/// Adds pictures of all labels except the surrounding one, whole and cut.
 void add_pictures(io::AtomicFile& file, const PageLabels& labels) {
   std::vector<bool> shown(labels.volumes.size(), true);
   if (labels.surrounding) shown[*labels.surrounding] = false;
@@ -254,8 +254,8 @@ void add_data(io::AtomicFile& file, const PageLabels& labels, ViewData& view) {
   file.append("</script>\n<script>\n" + std::string(kPageScript) + "</script>\n");
 }
 
-/// The policy forbids what the page does not do: to ask a network for anything.  Until its script
-/// runs, and finds WebGL 2, there is no view.
+/// Returns the top of the page.  Its policy forbids what the page does not do: to ask a network for
+/// anything.  Until its script runs, and finds WebGL 2, there is no view.
 std::string page_top(const Json& report) {
   return R"(<!DOCTYPE html>
 <html lang="en" data-view="none"><head><meta charset="utf-8">

@@ -12,7 +12,7 @@ namespace {
 
 static_assert(std::endian::native == std::endian::little, "pages hold little endian numbers");
 
-/// Labels from the one with the most tets on, the surrounding one at the end.
+/// Returns the labels from the one with the most tets on, with the surrounding one at the end.
 std::vector<Label> by_size(const io::GroupedMesh& mesh, std::optional<Label> surrounding) {
   std::vector<Label> out(mesh.table().size());
   for (Label rank = 0; rank < out.size(); ++rank) out[rank] = rank;

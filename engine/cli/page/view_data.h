@@ -18,7 +18,7 @@ inline constexpr std::size_t kMaxViewLabels = 1000;
 /// The surrounding label (picture::surrounding_label) is chosen last, as it hides the others.
 class ViewData {
  public:
-  /// The mesh outlives it.  surrounding: may be empty.
+  /// The mesh outlives it; surrounding may be empty.
   /// Memory: 24 bytes a triangle in the view, and 16 a group of facets.
   ViewData(io::GroupedMesh& mesh, std::optional<Label> surrounding);
 
@@ -27,9 +27,9 @@ class ViewData {
   [[nodiscard]] std::size_t left_out() const { return mesh_.table().size() - labels_.size(); }
   [[nodiscard]] std::uint64_t triangles() const { return triangles_; }
 
-  /// "lo", "hi": what the numbers of vertices count between, 0 to 65535; "box": its "origin" and
-  /// "edges"; "groups": [place of the first label in labels() or -1, the same of the second, how
-  /// many triangles], in the order of the triangles.
+  /// Returns "lo" and "hi", the corners that numbers of vertices from 0 to 65535 count between;
+  /// "box" with its "origin" and "edges"; and "groups" in the order of the triangles, each with the
+  /// indices of its two labels in labels() (-1 if not there) and its number of triangles.
   [[nodiscard]] io::Json json() const;
   /// Writes three 16-bit numbers for each vertex, little endian, in base64.
   void write_vertices(const AppendText& append);
@@ -44,7 +44,7 @@ class ViewData {
   io::GroupedMesh& mesh_;
   std::vector<Label> labels_;
   std::vector<io::FacetGroup> groups_;
-  std::vector<std::uint64_t> rows_;  ///< of vertices, ascending
+  std::vector<std::uint64_t> rows_;  ///< of the vertices in the view, ascending
   std::uint64_t triangles_ = 0;
   io::Position lo_{}, hi_{};
 };

@@ -24,7 +24,7 @@ void check(const PictureRequest& request) {
   }
 }
 
-/// By rank of label.
+/// Returns by rank whether a label was asked for.
 std::vector<bool> asked_labels(const io::LabelTable& table, const std::vector<RawLabel>& labels) {
   std::vector<bool> shown(table.size());
   for (const RawLabel label : labels) {
@@ -38,7 +38,7 @@ std::vector<bool> asked_labels(const io::LabelTable& table, const std::vector<Ra
   return shown;
 }
 
-/// All but the surrounding one, which is said.
+/// Chooses all labels except the surrounding one, and says which one that is.
 std::vector<bool> inner_labels(io::GroupedMesh& mesh, const io::LabelNames& names) {
   const io::LabelTable& table = mesh.table();
   std::vector<bool> shown(table.size(), true);
@@ -50,13 +50,13 @@ std::vector<bool> inner_labels(io::GroupedMesh& mesh, const io::LabelNames& name
   return shown;
 }
 
-/// Those of the mesh, and of --names.
+/// Returns the names in the mesh, and those of --names.
 io::LabelNames names_of(const PictureRequest& request) {
   const io::LabelNames names = cli::names_of(request.mesh);
   return request.names.empty() ? names : names.merged_with(io::read_names(request.names));
 }
 
-/// What is wrong with the mesh names its file.
+/// Throws the error; one about the mesh names its file.
 [[noreturn]] void fail(const std::filesystem::path& mesh, const Error& error) {
   const std::string what = error.what();
   if (error.kind() != ErrorKind::kInput || what.starts_with(mesh.string())) throw error;

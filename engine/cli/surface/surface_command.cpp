@@ -52,7 +52,7 @@ class SurfaceJob {
                                        " lists those that it has");
   }
 
-  /// Those asked for, or all.
+  /// Returns the ranks of the labels that were asked for, or of all.
   [[nodiscard]] std::vector<Label> ranks() const {
     std::vector<Label> out;
     for (const RawLabel label : request_.labels) out.push_back(rank_of(label));

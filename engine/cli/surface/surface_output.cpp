@@ -26,7 +26,7 @@ class FileOutput : public SurfaceOutput {
   std::unique_ptr<io::SurfaceSink> sink_;
 };
 
-/// Returns the file that a link names, or throws, as AtomicFile does under the final name.
+/// Returns the path, or the file that it links to; throws, as AtomicFile does, for what is no file.
 std::filesystem::path replaceable(const std::filesystem::path& path) {
   std::error_code ignored;
   const auto status = std::filesystem::status(path, ignored);

@@ -14,22 +14,22 @@ namespace mw::cli {
 /// What stands for the label in the path of --each.
 inline constexpr const char* kLabelPlaceholder = "{label}";
 
-/// "precomputed" and "draco".
+/// Returns whether the format is "precomputed" or "draco".
 [[nodiscard]] bool is_folder_format(std::string_view format);
 
 class SurfaceOutput {
  public:
   virtual ~SurfaceOutput() = default;
-  /// For the next surface, which is that of `label`, called by these digits.
-  /// ERRORS: as SurfaceSink.
+  /// Returns the sink of the next surface, which is that of `label`, written with these digits.
+  /// ERRORS: those of SurfaceSink.
   [[nodiscard]] virtual std::unique_ptr<io::SurfaceSink> sink(RawLabel label,
                                                               const std::string& digits) = 0;
-  /// After all surfaces.
+  /// Must be called after all surfaces.
   virtual void finish(const io::LabelNames& names) = 0;
 };
 
-/// Opens what can be opened before anything is known of the mesh; kFile is asked for one sink, and
-/// does not look at the label.
+/// Opens what can be opened before anything is known of the mesh.  The output of kFile gives one
+/// sink only, and does not look at the label.
 [[nodiscard]] std::unique_ptr<SurfaceOutput> open_surface_output(const SurfaceRequest& request);
 
 }  // namespace mw::cli

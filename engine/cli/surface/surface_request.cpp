@@ -43,7 +43,7 @@ std::array<RawLabel, 2> parse_pair(const std::string& text) {
   return {labels[0], labels[1]};
 }
 
-/// By --format, else the extension; a path without one is a folder.
+/// Returns the format by --format, else by the extension; a path without one is a folder.
 std::string format_of(const SurfaceFlags& flags) {
   const std::string extension = std::filesystem::path(flags.output).extension().string();
   if (flags.format.empty()) {
@@ -68,7 +68,7 @@ bool names_each(const SurfaceFlags& flags) {
   return flags.each || flags.output.find(kLabelPlaceholder) != std::string::npos;
 }
 
-/// Where each label goes: as it is with `{label}` in it, else into a folder.
+/// Returns the pattern of file names: the output if it has `{label}`, else files in that folder.
 std::string pattern_of(const SurfaceFlags& flags, const std::string& format) {
   if (flags.output.find(kLabelPlaceholder) != std::string::npos) return flags.output;
   if (io::is_surface_path(flags.output)) {

@@ -13,7 +13,7 @@
 
 namespace mw::cli {
 
-/// What was asked for; empty: not given.
+/// What was asked for; empty where it was not given.
 struct SurfaceFlags {
   std::filesystem::path mesh;
   std::string output;
@@ -37,7 +37,7 @@ struct SurfaceRequest {
   std::string output;
   SurfaceTarget target = SurfaceTarget::kFile;
   io::MeshFolderOptions folder;  ///< with kFolder
-  std::vector<RawLabel> labels;  ///< surfaces of these; empty: of all, or interfaces
+  std::vector<RawLabel> labels;  ///< labels with a surface each; if empty, all, or the interfaces
   std::optional<std::array<RawLabel, 2>> pair;
   bool manifold = false;
   bool closed = true;
@@ -46,8 +46,7 @@ struct SurfaceRequest {
 /// REQUIRES: flags outlives options.
 void add_surface_options(OptionSet& options, SurfaceFlags& flags);
 
-/// ERRORS: mw::Error(kUsage) for values that contradict each other or are not
-/// written.
+/// ERRORS: mw::Error(kUsage) for values that contradict each other, or that cannot be written.
 [[nodiscard]] SurfaceRequest parse_surface_request(const SurfaceFlags& flags);
 
 }  // namespace mw::cli

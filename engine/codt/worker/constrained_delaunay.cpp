@@ -16,8 +16,8 @@ namespace {
 constexpr unsigned kSeed = 1;
 constexpr std::uint32_t kNoRegion = 0xffffffffU;
 
-/// p: a piecewise linear complex; Y: no Steiner points on facets and segments; A: each region
-/// leaves its number in its tets; Q: no output.
+/// p: triangulate a piecewise linear complex; Y: put no Steiner points on facets and segments; A:
+/// give each tet the number of its region; Q: print nothing.
 constexpr const char* kSwitches = "pYAQ";
 
 void set_points(const Plc& plc, tetgenio& in) {

@@ -7,9 +7,9 @@
 
 namespace mw::engine::codt {
 
-/// A Triangulate; not thread-safe, and it may crash, hang or end the process.
-/// ENSURES: facets are kept as they are, where TetGen keeps its word; the same answer whatever was
-///          asked before.
+/// A Triangulate.  It is not thread-safe, and it may crash, hang or end the process.
+/// ENSURES: facets are kept as they are, if TetGen does what it promises; the answer does not
+///          depend on earlier requests.
 [[nodiscard]] std::optional<Triangulation> constrained_delaunay(const Plc& plc);
 
 }  // namespace mw::engine::codt

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The mwmesh authors
 // SPDX-License-Identifier: Apache-2.0
-// Orders in, replies out, until the engine is gone.
+// Answers orders until the engine is gone.
 #include "engine/codt/worker/serve.h"
 
 #include <poll.h>
@@ -65,7 +65,7 @@ void serve(const Triangulate& triangulate) {
   try {
     std::thread(watch_engine).detach();
   } catch (const std::system_error&) {
-    // The system gives no thread: the end of the engine is then seen after a triangulation.
+    // Without a thread the end of the engine is seen only after a triangulation.
   }
   Worker worker(triangulate);
   Order order;

@@ -7,8 +7,8 @@
 
 namespace mw::engine::codt {
 
-/// Answers orders on kControlDescriptor until the engine is gone.  An engine that breaks the
-/// protocol finds a dead worker.
+/// Answers orders on kControlDescriptor until the engine is gone.  If the engine breaks the
+/// protocol, the worker dies.
 void serve(const Triangulate& triangulate);
 
 }  // namespace mw::engine::codt

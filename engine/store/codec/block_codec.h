@@ -12,7 +12,7 @@
 
 namespace mw::engine {
 
-/// Which block of which march; ascending by march, then z, y, x is the order of the march.
+/// Names a block of a march.  Blocks are ordered by march, then z, y, x.
 struct BlockKey {
   std::uint32_t march = 0;
   Index3 block;
@@ -20,7 +20,7 @@ struct BlockKey {
   friend bool operator==(const BlockKey&, const BlockKey&) = default;
 };
 
-/// The block's bytes.  All numbers little-endian; "var" is a varint
+/// Returns the block's bytes.  All numbers are little-endian; "var" is a varint
 /// (engine/store/codec/byte_codes.h).
 ///
 ///     offset  size  what
@@ -51,7 +51,7 @@ struct BlockKey {
 /// of a canonical mesh of this block; memory asked for is bounded by their number.
 [[nodiscard]] BlockMesh decode_block(const BlockKey& key, std::span<const std::byte> bytes);
 
-/// Memory that the mesh's lists take.
+/// Returns the memory that the mesh's lists take.
 [[nodiscard]] std::uint64_t memory_bytes(const BlockMesh& mesh);
 
 /// How messages call a block: "block (3, 4, 5) of march 1".

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The mwmesh authors
 // SPDX-License-Identifier: Apache-2.0
-// Bytes to a block, or to an error that says what is wrong with them.
+// Decodes a block from bytes, or throws an error that says what is wrong with them.
 #include <algorithm>
 #include <bit>
 

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The mwmesh authors
 // SPDX-License-Identifier: Apache-2.0
-// A block to bytes.
+// Encodes a block as bytes.
 #include <algorithm>
 #include <bit>
 #include <limits>
@@ -21,7 +21,7 @@ QuadricBits bits_of(const Quadric& q) {
   return out;
 }
 
-/// Bytes from the highest down to the last that is not 0.
+/// Returns the number of bytes from the highest down to the last that is not 0.
 unsigned significant_bytes(std::uint64_t bits) {
   return bits == 0 ? 0 : kDoubleBytes - static_cast<unsigned>(std::countr_zero(bits)) / 8;
 }
@@ -118,7 +118,7 @@ class Encoder {
     }
   }
 
-  /// The end of the list of samples that begins at `first`.
+  /// Returns the end of the list of samples that begins at `first`.
   [[nodiscard]] std::size_t list_end(std::size_t first) const {
     std::size_t end = first + 1;
     while (end < mesh_.samples.size() &&

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: The mwmesh authors
 // SPDX-License-Identifier: Apache-2.0
-// Numbers of few bytes, which block codec and journal are written with, and what both sides of the
-// codec share; the layout itself is told in block_codec.h.
+// Numbers of few bytes, which blocks and the journal are written with, and what encoder and decoder
+// of blocks share; block_codec.h describes the layout.
 #pragma once
 
 #include <algorithm>
@@ -19,7 +19,7 @@ namespace mw::engine {
 /// Most bytes of a varint: 7 bits a byte, low ones first, the high bit says that more follow.
 inline constexpr std::size_t kMaxVarintBytes = 10;
 
-/// Small numbers of either sign as small numbers: 0, -1, 1, -2 become 0, 1, 2, 3.
+/// Maps small numbers of either sign to small numbers: 0, -1, 1, -2 become 0, 1, 2, 3.
 [[nodiscard]] inline std::uint64_t zigzag(std::int64_t value) {
   return static_cast<std::uint64_t>(value) << 1 ^ static_cast<std::uint64_t>(value >> 63);
 }
@@ -35,7 +35,7 @@ class ByteWriter {
     for (; value >= 0x80; value >>= 7) bytes_[size_++] = static_cast<std::byte>(value | 0x80);
     bytes_[size_++] = static_cast<std::byte>(value);
   }
-  /// The low `count` bytes of value, least significant first.  REQUIRES: count <= 8.
+  /// Appends the low `count` bytes of value, least significant first.  REQUIRES: count <= 8.
   void low_bytes(std::uint64_t value, std::size_t count) {
     room(sizeof value);
     io::store_little(value, bytes_.data() + size_);
@@ -47,7 +47,7 @@ class ByteWriter {
     size_ += bytes.size();
   }
   [[nodiscard]] std::size_t size() const { return size_; }
-  /// What was written; can be changed in place.
+  /// Returns what was written, which can be changed in place.
   [[nodiscard]] std::span<std::byte> written() { return std::span(bytes_).first(size_); }
 
  private:
@@ -59,7 +59,7 @@ class ByteWriter {
   std::size_t size_ = 0;
 };
 
-/// Thrown by ByteReader; who knows what the bytes are turns it into an mw::Error.
+/// Thrown by ByteReader; a caller that knows what the bytes are turns it into an mw::Error.
 struct BadBytes {
   const char* reason;
 };
@@ -87,20 +87,21 @@ class ByteReader {
     rest_ = rest_.subspan(count);
     return value;
   }
-  /// The next bytes as they are.
+  /// Reads the next bytes as they are.
   [[nodiscard]] std::span<const std::byte> bytes(std::size_t count) {
     if (count > rest_.size()) throw BadBytes{"it ends too early"};
     const std::span<const std::byte> out = rest_.first(count);
     rest_ = rest_.subspan(count);
     return out;
   }
-  /// A number of things that take at least one byte each, so that nobody makes room for more.
+  /// Reads a number of things that take at least one byte each; a number of more things than bytes
+  /// are left is refused, so that nobody makes room for them.
   [[nodiscard]] std::size_t count() {
     const std::uint64_t value = varint();
     if (value > rest_.size()) throw BadBytes{"it is too short for what it says it holds"};
     return static_cast<std::size_t>(value);
   }
-  /// A varint below limit.
+  /// Reads a varint below limit.
   [[nodiscard]] std::uint64_t below(std::uint64_t limit) {
     const std::uint64_t value = varint();
     if (value >= limit) throw BadBytes{"a number is out of range"};
@@ -113,7 +114,7 @@ class ByteReader {
     }
   }
   [[nodiscard]] bool at_end() const { return rest_.empty(); }
-  /// What was not read yet.
+  /// Returns what was not read yet.
   [[nodiscard]] std::span<const std::byte> rest() const { return rest_; }
 
  private:

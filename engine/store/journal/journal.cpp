@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The mwmesh authors
 // SPDX-License-Identifier: Apache-2.0
-// Records to bytes and back.
+// Turns records into bytes and back, and finds where the whole ones end.
 #include "engine/store/journal/journal.h"
 
 #include <algorithm>
@@ -18,9 +18,9 @@ namespace {
 
 constexpr std::uint64_t kMagic = 0x01004C4E524A574DU;  // "MWJRNL", version 0 1
 constexpr std::uint64_t kMagicBytes = 8;
-constexpr std::uint64_t kHeadBytes = 8;  ///< of a record: length and checksum
+constexpr std::uint64_t kHeadBytes = 8;  ///< length and checksum of a record
 constexpr std::uint64_t kGrowBytes = 1 << 20;
-constexpr std::size_t kBlockNumbers = 5;  ///< of a block in a record, a byte each or more
+constexpr std::size_t kBlockNumbers = 5;  ///< numbers of a block in a record, a byte each or more
 
 std::uint64_t number_at(const WorkFile& file, std::uint64_t offset, std::size_t bytes) {
   std::uint64_t value = 0;
@@ -29,7 +29,7 @@ std::uint64_t number_at(const WorkFile& file, std::uint64_t offset, std::size_t 
   return value;
 }
 
-/// The first bytes of the magic, none or some, then zeros: someone was stopped while beginning it.
+/// True for some first bytes of the magic, or none, then zeros: a run was stopped in begin().
 bool is_unfinished(std::uint64_t magic) {
   for (unsigned bits = 0; bits < 8 * kMagicBytes; bits += 8) {
     if (magic == (kMagic & ((std::uint64_t{1} << bits) - 1))) return true;
@@ -113,7 +113,7 @@ bool Journal::read_next(JournalRecord& record) {
       record = decode(body, records_);
       whole = true;
     } catch (const BadBytes&) {
-      return;  // as good as cut off
+      return;  // the record counts as cut off
     }
   });
   if (whole) end_ += kHeadBytes + length;

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The mwmesh authors
 // SPDX-License-Identifier: Apache-2.0
-// The journal: which windows are done and where their blocks are, in records that count or do not.
+// The journal: which windows are done, and where their blocks are, in records that count whole.
 #pragma once
 
 #include <functional>
@@ -16,15 +16,15 @@ namespace mw::engine {
 struct JournalBlock {
   std::uint64_t slot = 0;  ///< RunLayout::slot
   Extent extent;
-  std::uint32_t sum = 0;           ///< io::checksum of the bytes
-  std::uint64_t memory_bytes = 0;  ///< of the block, decoded
+  std::uint32_t sum = 0;           ///< the checksum that the bytes hold, sum_of()
+  std::uint64_t memory_bytes = 0;  ///< the size of the decoded block
 
   friend bool operator==(const JournalBlock&, const JournalBlock&) = default;
 };
 
-/// A group of windows whose results become visible together: the blocks as they are after all of
-/// them.  A block listed replaces what earlier records say of it; a block of a later march that is
-/// listed for the first time replaces its parts, too.
+/// A group of windows whose results become visible together; its blocks are as all of these windows
+/// leave them.  A listed block replaces what earlier records say of it, and is gone if its size is
+/// 0; a block of a later march that is listed for the first time replaces its parts, too.
 struct JournalRecord {
   std::vector<std::uint64_t> windows;  ///< RunLayout::window
   std::vector<JournalBlock> blocks;
@@ -32,7 +32,7 @@ struct JournalRecord {
   friend bool operator==(const JournalRecord&, const JournalRecord&) = default;
 };
 
-/// An append-only file.  All numbers little-endian; "var" is a varint
+/// An append-only file.  All numbers are little-endian; "var" is a varint
 /// (engine/store/codec/byte_codes.h).
 ///
 ///     offset  size  what
@@ -44,8 +44,8 @@ struct JournalRecord {
 ///                   windows var; their numbers var
 ///                   blocks var; for each slot, offset, size, checksum, decoded size, all var
 ///
-/// A record that is cut off, or whose checksum or number is wrong, ends the journal: it and what
-/// follows never happened.
+/// A record that is cut off, or whose checksum or number is wrong, ends the journal: neither it nor
+/// what follows counts.
 class Journal {
  public:
   /// Opens a journal, or begins one in an empty file.
@@ -63,13 +63,13 @@ class Journal {
   /// REQUIRES: replay() was called, and not scan(); what the record points to has been synced.
   void append(const JournalRecord& record);
 
-  /// Number of whole records; after replay().
+  /// Returns the number of whole records.  REQUIRES: replay() or scan() was called.
   [[nodiscard]] std::uint64_t records() const { return records_; }
 
  private:
   void begin();
   void make_room(std::uint64_t size);
-  /// The record at end_, and moves end_ behind it; false at the end of the journal.
+  /// Reads the record at end_ and moves end_ behind it; returns false at the end of the journal.
   bool read_next(JournalRecord& record);
 
   std::unique_ptr<WorkFile> file_;

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The mwmesh authors
 // SPDX-License-Identifier: Apache-2.0
-// Mappings of a moment, space reserved first.
+// Mappings that last for one access; space is reserved first.
 #include "engine/store/journal/mapped_file.h"
 
 #include <fcntl.h>
@@ -22,7 +22,7 @@ namespace {
 
 namespace ipc = boost::interprocess;
 
-/// Makes the file if it is not there; its name is on the disk afterwards.
+/// Makes the file if it is not there, and syncs its folder, so that the name survives a power cut.
 void make(const std::filesystem::path& path) {
   const io::FileDescriptor file(::open(path.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0666));
   if (!file.valid()) io::fail_output(path.string(), "create", errno);

@@ -12,14 +12,15 @@
 namespace mw::engine {
 
 /// Mapped pages count as memory of the process, so nothing stays mapped: write() maps at most
-/// kMappedAtOnce at a time, read() its own bytes while they are used.  Space is reserved before it
-/// is written, since a hole in a mapped file on a full disk is a SIGBUS.
+/// kMappedAtOnce at a time, read() maps the bytes it was asked for while they are used.  Space is
+/// reserved before it is written, since writing to a hole in a mapped file on a full disk raises
+/// SIGBUS.
 class MappedFile : public WorkFile {
  public:
   static constexpr std::uint64_t kMappedAtOnce = 1 << 20;
 
   /// Opens the file, or makes it, and syncs its folder.
-  /// ERRORS: as io::fail_output.
+  /// ERRORS: those of io::fail_output.
   explicit MappedFile(const std::filesystem::path& path);
 
   [[nodiscard]] std::uint64_t size() const override { return size_; }

@@ -14,8 +14,8 @@
 
 namespace mw::engine {
 
-/// What was stored is not what comes back: "PLACE: corrupt: REASON", exit code of bad input.  Who
-/// knows the work folder adds the way out (run.cpp).
+/// Thrown when what comes back is not what was stored: "PLACE: corrupt: REASON", with the exit code
+/// of bad input.  A caller that knows the work folder adds the way out (run.cpp).
 class DamagedWork : public Error {
  public:
   DamagedWork(const std::string& where, const std::string& reason)

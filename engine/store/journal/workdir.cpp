@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The mwmesh authors
 // SPDX-License-Identifier: Apache-2.0
-// Making, locking, checking and removing a work folder; settings to lines of text.
+// Making, locking, checking and removing a work folder; settings as lines of text.
 #include "engine/store/journal/workdir.h"
 
 #include <fcntl.h>
@@ -31,16 +31,16 @@ namespace fs = std::filesystem;
 
 constexpr const char* kLockFile = "lock";
 constexpr const char* kSettingsFile = "settings.txt";
-// In the order of removal: a kill on the way leaves nothing that looks like saved work.
+// They are in the order of removal: a kill on the way leaves nothing that looks like saved work.
 constexpr std::array<const char*, 4> kFiles{kJournalFile, kBlocksFile, kSettingsFile, kLockFile};
-constexpr const char* kPartialSettings = ".settings.txt.partial-";  // AtomicFile, after a kill
+constexpr const char* kPartialSettings = ".settings.txt.partial-";  // left by a killed AtomicFile
 
 // Sizes of many labels make long lines; those that differ are shown in part.
 constexpr std::uintmax_t kMaxSettings = 16 << 20;
 constexpr std::size_t kMaxShown = 120;
 constexpr std::size_t kMaxTold = 8;
 
-/// Left by a kill in an unlucky instant.
+/// True for the name of a file that a kill in an unlucky instant leaves.
 bool is_left_over(const std::string& name) {
   return name.starts_with(kPartialSettings) || name.starts_with(io::kScratchPrefix);
 }
@@ -81,14 +81,14 @@ bool is_plain(const std::string& text) {
                      [](char c) { return c == '\n' || (c >= ' ' && c <= '~'); });
 }
 
-/// Nothing is there afterwards.
+/// Removes the file if it is there.
 void clear_away(const fs::path& path) {
   std::error_code error;
   fs::remove(path, error);
   if (error) io::fail_output(path.string(), "remove", error.value());
 }
 
-/// The locked file is still the one with that name: a run that ends removes it.
+/// True if the locked file still has that name: a run that ends removes it.
 bool is_at(const io::FileDescriptor& file, const fs::path& path) {
   struct stat held {};
   struct stat named {};

@@ -25,24 +25,24 @@ inline constexpr const char* kJournalFile = "journal";
 /// and, while the run goes on, files without a name (PreparedLabels); nothing else.
 class Workdir : public WorkFiles {
  public:
-  /// Makes the folder, or takes over one whose run has ended.  Work saved there is gone on with
-  /// when `resume` is set.  What was never saved (a run killed early) is thrown away silently.
+  /// Makes the folder, or takes over one whose run has ended.  `resume` allows to go on with work
+  /// saved there.  What a run that was killed early left without a record is removed silently.
   /// ERRORS: mw::Error(kUsage) when saved work is there but resume is not set, or when it belongs
   /// to other settings (each difference is named), when another process is at work here, when the
-  /// folder holds files of others, or cannot be made; kResource as WorkFile.
+  /// folder holds files of others, or cannot be made; kResource when a file cannot be written.
   Workdir(const std::filesystem::path& path, bool resume, const std::string& settings);
-  /// Removes the folder unless keep() was called or saved work was found in it.
+  /// Removes the folder unless keep() was called, or saved work was found and discard() not called.
   ~Workdir() override;
   Workdir(const Workdir&) = delete;
   Workdir& operator=(const Workdir&) = delete;
 
   [[nodiscard]] std::unique_ptr<WorkFile> open(const std::string& name) override;
 
-  /// Saved work was found: the journal has records.
+  /// True if saved work was found: the journal has records.
   [[nodiscard]] bool resumes() const { return resumes_; }
-  /// The folder stays, for a later run to go on from.
+  /// Makes the folder stay, for a later run to go on from.
   void keep() { keep_ = true; }
-  /// The run is done and the folder with it.
+  /// Makes the folder go, since the run is done.
   void discard() { keep_ = false; }
 
  private:
@@ -60,27 +60,28 @@ class Workdir : public WorkFiles {
   bool keep_ = false;
 };
 
-/// What a small file of a run says; of a damaged one, which may be anything, the first 16 MiB.
+/// Returns the text of a small file of a run.  A damaged file may have any size, so at most 16 MiB
+/// are read.
 [[nodiscard]] std::string settings_in(const std::filesystem::path& file);
 
-/// A value among the settings in a folder, by its name; none: it has no such value.
+/// Returns the value of a setting saved in a folder, or nothing where the folder does not name it.
 [[nodiscard]] std::optional<std::string> saved_value(const std::filesystem::path& path,
                                                      const std::string& name);
 
-/// Whether a folder's settings are these, all of them.
+/// True if the settings saved in a folder are exactly these.
 [[nodiscard]] bool is_identity_of(const std::filesystem::path& path, const std::string& settings);
 
-/// "window was 32 and is 64; ..." for lines "name = value" that differ; empty when none does.
+/// Returns "window was 32 and is 64; ..." for lines "name = value" that differ; empty if none does.
 [[nodiscard]] std::string differences(const std::string& before, const std::string& now);
 
-/// A line "name = value" for shape, type and space of the volume and for each entry of
+/// Returns a line "name = value" for shape, type and space of the volume and for each entry of
 /// setting_table().  The caller adds what it knows of the program and the labels (StoreOptions):
-/// mwmesh its version, and a fingerprint of the labels after --crop, --merge and --drop-specks.
+/// mwmesh adds its version and a fingerprint of the labels after --crop, --merge and --drop-specks.
 ///
-/// Not part of it, since the tets of the work folder are the same: which labels are written, how,
-/// with which names and nodes; threads, memory and how often work is saved.  Nor is the program
-/// that triangulates for Optimizer::kTetgen: it is built with this one and of its version, and
-/// who names another (MW_CODT_WORKER) between two parts of a run gets the tets of both.
+/// It leaves out what does not change the tets of the work folder: which labels are written, how,
+/// with which names and nodes; threads, memory and how often work is saved.  It also leaves out the
+/// program that triangulates for Optimizer::kTetgen, which is built with this one and has its
+/// version; a user who names another one (MW_CODT_WORKER) for a resumed run gets tets of both.
 [[nodiscard]] std::string identity_text(const io::VolumeInfo& volume, const MeshSettings& settings);
 
 }  // namespace mw::engine

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The mwmesh authors
 // SPDX-License-Identifier: Apache-2.0
-// Memory and disk of blocks; eviction by next use (Belady), which the march order tells.
+// Blocks in memory and on disk; eviction by next use (Belady), which follows from the march order.
 #include "engine/store/table/block_table.h"
 
 #include <iterator>
@@ -42,7 +42,7 @@ StoredBlock& BlockTable::held(std::uint64_t slot) {
 StoredBlock& BlockTable::fresh(std::uint64_t slot) {
   auto& page = pages_[slot / kPageBlocks];
   if (page == nullptr) {
-    // The room first: to make it the table may evict.
+    // The room comes first: to make it the table may evict.
     MemoryBudget::Reservation room;
     if (room_) room = room_(sizeof(Page));
     page = std::make_unique<Page>();
@@ -104,8 +104,8 @@ void BlockTable::restore(const JournalBlock& from) {
   forget_parts(layout_.key(from.slot));
 }
 
-/// All the way down: a part that came and went within one group is in no record, and what it was
-/// made of is in an earlier one.
+/// Forgets parts of parts, too: a part that came and went within one group is in no record, and
+/// what it was made of is in an earlier one.
 void BlockTable::forget_parts(const BlockKey& key) {
   if (key.march == 0) return;
   for (const BlockKey& part : layout_.parts(key)) {

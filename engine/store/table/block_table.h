@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The mwmesh authors
 // SPDX-License-Identifier: Apache-2.0
-// Where each block of a run is: in memory, on disk, or both; and which one leaves memory next.
+// Where each block of a run is (in memory, on disk, or both), and which one leaves memory next.
 #pragma once
 
 #include <array>
@@ -21,7 +21,7 @@ namespace mw::engine {
 /// budget is given back with the last pin.
 struct EncodedBlock {
   std::vector<std::byte> bytes;
-  std::uint64_t memory_bytes = 0;  ///< decoded
+  std::uint64_t memory_bytes = 0;  ///< the size of the decoded block
   MemoryBudget::Reservation room;
 };
 using BlockPin = std::shared_ptr<const EncodedBlock>;
@@ -30,7 +30,7 @@ using BlockPin = std::shared_ptr<const EncodedBlock>;
 struct StoredBlock {
   BlockPin cached;
   std::uint64_t offset = 0;
-  std::uint32_t size = 0;  ///< on disk; 0: not there
+  std::uint32_t size = 0;  ///< bytes on disk; 0 if it is not there
   std::uint32_t sum = 0;
   std::uint32_t memory_kib = 0;
   bool recorded = false;  ///< a record of the journal, written or being written, points to it
@@ -47,14 +47,14 @@ struct StoredBlock {
 using TableRoom = std::function<MemoryBudget::Reservation(std::uint64_t bytes)>;
 
 /// The blocks of a run by slot, in pages that are there as long as one of their blocks is: a
-/// process that has a part of a run's blocks has that part of the table.  Copy on write: an extent
-/// that a record points to is not used again before a later record is durable, see take_retired().
-/// Thread safety: none; but pins, and extents of blocks that nobody replaces, may be read at any
-/// time.
+/// process that has a part of a run's blocks has that part of the table.  It copies on write: an
+/// extent that a record points to is used again only when a later record is durable, see
+/// take_retired().  Thread safety: none; but pins, and extents of blocks that nobody replaces, may
+/// be read at any time.
 class BlockTable {
  public:
-  /// Without a disk only blocks that are kept can be evicted.  room: asked for each page; null:
-  /// there is room for all of them.  The references outlive it.
+  /// Without a disk only blocks that are kept can be evicted.  room is asked for each page; if it
+  /// is null, there is room for all of them.  The references outlive it.
   BlockTable(const RunLayout& layout, const DoneWindows& done, SegmentFile* disk,
              TableRoom room = {});
 
@@ -64,24 +64,24 @@ class BlockTable {
   void remove(std::uint64_t slot);
   /// REQUIRES: no block there.  ERRORS: those of the room; then nothing has changed.
   void put(std::uint64_t slot, BlockPin block);
-  /// Puts a block there that is kept; it is in memory, too, unless the pin is null.  One whose
-  /// place is nowhere (KeptPlace) cannot be read, only be replaced.
+  /// Puts a block there that is kept; it is in memory, too, unless the pin is null.  A version
+  /// that KeptPlace says is not kept (size 0) cannot be read, only be replaced.
   void put_kept(std::uint64_t slot, const KeptPlace& place, BlockPin block = nullptr);
-  /// A block that the journal tells of replaces the one that is there; the extents are not yet
-  /// taken.  ERRORS: those of the room.
+  /// Replaces the block that is there by one that the journal names; does not yet take its extent.
+  /// ERRORS: those of the room.
   void restore(const JournalBlock& block);
   /// Takes the extents of all restored blocks.
   /// ERRORS: mw::Error(kInput) when they overlap or lie outside the file.
   void take_extents();
 
   /// Drops from memory the block that is needed last, writing it first if it is not on disk.
-  /// ENSURES: false when there is none, or no place for it.
+  /// Returns false when there is none, or no place for it.
   bool evict_one();
-  /// Writes the block if it is not on disk, and what a record says of it.  REQUIRES: a disk; the
-  /// block is not kept.
+  /// Writes the block if it is not on disk, and returns what a record says of it.  REQUIRES: a
+  /// disk; the block is there and not kept.
   [[nodiscard]] JournalBlock record(std::uint64_t slot);
-  /// Extents that no block has any more but some record points to.  They may be released when the
-  /// next record is durable.
+  /// Returns the extents that no block has any more but some record points to.  They may be
+  /// released when the next record is durable.
   [[nodiscard]] std::vector<Extent> take_retired() { return std::exchange(retired_, {}); }
 
   [[nodiscard]] std::uint64_t evicted() const { return evicted_; }
@@ -120,10 +120,10 @@ class BlockTable {
 
 /// Returns the bytes that the tables of a run take with all their pages, without the blocks.
 [[nodiscard]] std::uint64_t index_bytes(const RunLayout& layout);
-/// What these tables take without any page, for a table that asks for room.
+/// Returns what these tables take without any page, for a table that asks for room.
 [[nodiscard]] std::uint64_t least_index_bytes(const RunLayout& layout);
 
-/// What identifies the bytes of a version: the checksum that its encoding holds.
+/// Returns what identifies the bytes of a version: the checksum that its encoding holds.
 [[nodiscard]] std::uint32_t sum_of(std::span<const std::byte> encoded);
 
 }  // namespace mw::engine

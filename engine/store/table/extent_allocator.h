@@ -10,7 +10,7 @@
 
 namespace mw::engine {
 
-/// A run of bytes in a file.  Size 0: none.
+/// A run of bytes in a file, or none where the size is 0.
 struct Extent {
   std::uint64_t offset = 0;
   std::uint64_t size = 0;
@@ -19,7 +19,7 @@ struct Extent {
 };
 
 /// Deals out a file's bytes in multiples of a sector, so that no write touches the sector of
-/// another extent; best fit, lowest offset first.  Free neighbours are joined.
+/// another extent.  It takes the best fit, at the lowest offset, and joins free neighbours.
 /// Thread safety: none.  Cost of each member: logarithmic in the number of free runs.
 class ExtentAllocator {
  public:
@@ -31,12 +31,12 @@ class ExtentAllocator {
   void trim();
   [[nodiscard]] std::uint64_t end() const { return end_; }
 
-  /// Nothing when no free run is long enough.  REQUIRES: size > 0.
+  /// Returns nothing when no free run is long enough.  REQUIRES: size > 0.
   [[nodiscard]] std::optional<Extent> allocate(std::uint64_t size);
-  /// Takes the lowest place that is before `end` as a whole.  Cost: linear in the number
+  /// Takes the lowest place that lies before `end` as a whole.  Cost: linear in the number
   /// of free runs.
   [[nodiscard]] std::optional<Extent> allocate_before(std::uint64_t end, std::uint64_t size);
-  /// Takes a given extent, as when an index is read back.
+  /// Takes a given extent, for an index that is read back.
   /// ENSURES: false, and nothing taken, when part of it is not free.
   [[nodiscard]] bool take(const Extent& extent);
   /// REQUIRES: allocated or taken, with the same size.

@@ -20,8 +20,7 @@ class SegmentFile {
   explicit SegmentFile(std::unique_ptr<WorkFile> file);
 
   [[nodiscard]] Extent write(std::span<const std::byte> bytes);
-  /// Writes a copy of an extent into a gap before it; nothing where there is none that is long
-  /// enough.
+  /// Writes a copy of an extent into a gap before it; returns nothing where no gap is long enough.
   [[nodiscard]] std::optional<Extent> copy_down(const Extent& extent);
   void release(const Extent& extent) { free_.release(extent); }
   /// ENSURES: false when the extent is outside the file or overlaps another.
@@ -32,7 +31,7 @@ class SegmentFile {
   }
   void prefetch(const Extent& extent) const { file_->prefetch(extent.offset, extent.size); }
   void sync() { file_->sync(); }
-  /// Where the file ends, and how much of it are gaps.
+  /// Returns where the file ends; free_bytes() says how much of it are gaps.
   [[nodiscard]] std::uint64_t end() const { return free_.end(); }
   [[nodiscard]] std::uint64_t free_bytes() const { return free_.free_bytes(); }
   /// Makes the file end where its last extent does.

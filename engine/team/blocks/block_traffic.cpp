@@ -14,7 +14,7 @@ Arrivals::Window window_of(const RunLayout& layout, const WindowKey& key) {
   return {key.march, layout.order(key.march).rank(key.window)};
 }
 
-/// The rank that needs a version next.
+/// Returns the rank that needs a version next.
 int user_of(const BlockRoute& route, const Partition& partition, const FinalUsers& final_users,
             const BlockVersion& version) {
   const auto next = route.next_user(version);
@@ -65,7 +65,7 @@ void BlockTraffic::receive(RunStore& store, const Team::Head& head, std::vector<
   try {
     store.receive(version, std::move(bytes), head[2], rooms_->claim(ticket));
   } catch (const std::exception&) {
-    // No room: the march ends with it, if it still runs, or the output.
+    // There is no room: the march ends with this error if it still runs, else the output does.
     return end(std::current_exception());
   }
   ticket.reset();  // a thread that finds no room now must not wait for this one
@@ -77,7 +77,7 @@ void BlockTraffic::receive(RunStore& store, const Team::Head& head, std::vector<
 void BlockTraffic::end(std::exception_ptr error) {
   team_.fail(error);
   arrivals_.fail(std::move(error));
-  const std::lock_guard lock(mutex_);  // a waiting thread has looked before, or will after
+  const std::lock_guard lock(mutex_);  // so that a thread about to wait does not miss this
   changed_.notify_all();
 }
 

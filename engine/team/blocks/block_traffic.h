@@ -18,14 +18,14 @@ namespace mw::engine {
 /// Where the blocks of the last march go.
 enum class FinalBlocksGo : std::uint8_t {
   kToFirst,   ///< rank 0 writes the mesh
-  kToOwners,  ///< of lines (line_share.h): all write it together
+  kToOwners,  ///< the owners of lines (line_share.h) write it together
 };
 
 /// Which rank gets each block of the last march.
 struct FinalUsers {
   FinalBlocksGo go = FinalBlocksGo::kToFirst;
   std::int64_t lines_y = 1;           ///< number of lines of blocks along y
-  std::vector<std::uint32_t> owners;  ///< by line; only kToOwners
+  std::vector<std::uint32_t> owners;  ///< by line; only with kToOwners
 
   [[nodiscard]] int rank_of(Index3 block) const {
     if (go == FinalBlocksGo::kToFirst) return 0;
@@ -39,8 +39,8 @@ struct TrafficFacts {
   std::uint64_t bytes = 0;
 };
 
-/// Sends versions whose next user is elsewhere, takes in those that come, and counts the inputs of
-/// own windows.  Nobody asks for a block: it comes as soon as it is ready.
+/// Sends versions whose next user is on another rank, takes in those that come, and counts the
+/// inputs of own windows.  No rank asks for a block: it is sent as soon as it is ready.
 /// Thread safety: that of BlockRouter for its members; the others are called from one thread.
 class BlockTraffic : public BlockRouter {
  public:
@@ -64,10 +64,10 @@ class BlockTraffic : public BlockRouter {
     BlockTraffic& traffic_;
   };
 
-  /// To be called before anything is committed.
+  /// Must be called before anything is committed.
   void deal(Partition partition, FinalBlocksGo go);
   [[nodiscard]] FinalBlocksGo final_blocks_go() const { return final_users_.go; }
-  /// Returns the owners by line of the final blocks.  REQUIRES: kToOwners.
+  /// Returns the owner of each line of final blocks.  REQUIRES: kToOwners.
   [[nodiscard]] const std::vector<std::uint32_t>& line_owners() const {
     return final_users_.owners;
   }
@@ -83,7 +83,7 @@ class BlockTraffic : public BlockRouter {
 
   /// Returns the last number that another rank has signalled; these numbers only grow.
   [[nodiscard]] std::uint64_t signalled() const { return signalled_; }
-  /// Return how many parcels were sent to each rank, and how many are in the store here.
+  /// Return how many parcels were sent to each rank, and how many came into the store here.
   [[nodiscard]] std::vector<std::uint64_t> sent_to() const;
   [[nodiscard]] std::uint64_t received() const { return received_; }
   /// Ends the march and the output of all ranks with this error.
@@ -101,7 +101,7 @@ class BlockTraffic : public BlockRouter {
   }
 
  private:
-  /// ticket: of rooms_, or null.
+  /// ticket is one of rooms_, or null.
   void receive(RunStore& store, const Team::Head& head, std::vector<std::byte> bytes,
                std::shared_ptr<void> ticket);
   [[nodiscard]] int next_rank(const BlockVersion& version) const;
@@ -121,11 +121,11 @@ class BlockTraffic : public BlockRouter {
 
   mutable std::mutex mutex_;  ///< guards the next lines
   std::condition_variable changed_;
-  std::int64_t final_blocks_ = 0;  ///< here
+  std::int64_t final_blocks_ = 0;  ///< those that are here
   std::vector<std::uint64_t> sent_to_;
 };
 
-/// Predicts how many blocks each rank sends in a run: a pure function.
+/// Predicts how many blocks each rank sends in a run.  A pure function.
 [[nodiscard]] std::vector<std::uint64_t> blocks_sent(const RunLayout& layout,
                                                      const Partition& partition, int ranks,
                                                      FinalBlocksGo go = FinalBlocksGo::kToFirst);

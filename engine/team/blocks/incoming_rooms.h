@@ -11,7 +11,7 @@
 
 namespace mw::engine {
 
-/// Each message on its way has a ticket, which may outlive the run, as MPI ends what it has begun.
+/// Each message on its way has a ticket, which may outlive the run, since MPI ends what it began.
 /// Thread safety: all members may be called from many threads.
 class IncomingRooms : public std::enable_shared_from_this<IncomingRooms> {
  public:
@@ -19,10 +19,10 @@ class IncomingRooms : public std::enable_shared_from_this<IncomingRooms> {
     return std::shared_ptr<IncomingRooms>(new IncomingRooms(store));
   }
 
-  /// Returns a ticket for a block of this size; null where there is no room, or after close().
+  /// Returns a ticket for a block of this size, or null if there is no room, or after close().
   [[nodiscard]] std::shared_ptr<void> take(std::uint64_t encoded_bytes);
-  /// Returns the reservation that the ticket stands for, which counts until it is destroyed; none
-  /// without a ticket, or after close().
+  /// Returns the reservation that the ticket stands for, or an empty one if the ticket is null, or
+  /// after close().  The ticket counts for is_empty() until it is destroyed.
   [[nodiscard]] MemoryBudget::Reservation claim(const std::shared_ptr<void>& ticket);
   /// True if there are tickets.
   [[nodiscard]] bool is_empty() const;
@@ -36,7 +36,7 @@ class IncomingRooms : public std::enable_shared_from_this<IncomingRooms> {
   void forget(std::uint64_t number);
 
   mutable std::mutex mutex_;  ///< guards the next lines
-  RunStore* store_;           ///< null: closed
+  RunStore* store_;           ///< null after close()
   std::uint64_t next_ = 0;
   std::map<std::uint64_t, MemoryBudget::Reservation> rooms_;  ///< by ticket
 };

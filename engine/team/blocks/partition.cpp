@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The mwmesh authors
 // SPDX-License-Identifier: Apache-2.0
-// Bricks of rows by halving, or tiles of rows by turns.
+// Deals bricks of rows by halving, or tiles of rows by turns.
 #include "engine/team/blocks/partition.h"
 
 #include <algorithm>
@@ -13,9 +13,9 @@
 namespace mw::engine {
 namespace {
 
-constexpr std::int64_t kTile = 8;  ///< rows along an axis of a tile
+constexpr std::int64_t kTile = 8;  ///< rows of a tile along each axis
 
-/// Rows y0 <= y < y1, z0 <= z < z1.
+/// Rows with y0 <= y < y1 and z0 <= z < z1.
 struct Rows {
   std::int64_t y0, z0, y1, z1;
 };
@@ -58,11 +58,11 @@ class Halving {
       for (std::int64_t y = rows.y0; y < rows.y1; ++y) owners_[index(y, z)] = rank;
     }
   }
-  /// Where the lower part's cost is nearest to that share; neither part is empty.  A brick whose
-  /// first layer is odd waits for the last layer of the brick below, in the colour order of this
-  /// march or, at twice an odd number, of the next, and its look-ahead fills with windows that
-  /// wait: simulated, that costs up to half of the speed (bench/scaling).  So cuts are at multiples
-  /// of 4, else of 2, where that leaves the shares within a tenth.
+  /// Returns where the lower part's cost is nearest to that share; neither part is empty.  A brick
+  /// whose first layer is odd waits for the last layer of the brick below, in the colour order of
+  /// this march or, at twice an odd number, of the next.  Its look-ahead then fills with windows
+  /// that wait, which costs up to half of the speed in simulations (bench/scaling).  So cuts are at
+  /// multiples of 4, else of 2, where that leaves the shares within a tenth.
   [[nodiscard]] std::int64_t best_cut(const Rows& rows, bool across_z, double share) const {
     const double all = cost(rows), wanted = share * all;
     for (const std::int64_t step : {4, 2}) {
@@ -74,10 +74,10 @@ class Halving {
 
   struct Cut {
     std::int64_t at = 0;
-    double off = std::numeric_limits<double>::infinity();  ///< of the cost that is wanted below
+    double off = std::numeric_limits<double>::infinity();  ///< distance from the wanted cost
   };
 
-  /// Among multiples of `step`.
+  /// Returns the multiple of `step` below which the cost is nearest to the wanted one.
   [[nodiscard]] Cut nearest_cut(const Rows& rows, bool across_z, double wanted,
                                 std::int64_t step) const {
     const std::int64_t lo = across_z ? rows.z0 : rows.y0, hi = across_z ? rows.z1 : rows.y1;
@@ -136,7 +136,7 @@ Partition::Partition(const RunLayout& layout, std::vector<std::uint32_t> owners)
   MW_ASSERT(owners_.size() == static_cast<std::size_t>(rows_y_ * rows_z_));
 }
 
-/// A later window belongs to the row of the first march in its middle.
+/// A window of a later march belongs to the rank of the first march's row in its middle.
 int Partition::rank_of(const WindowKey& key) const {
   const auto first = [&](std::int64_t w, std::int64_t rows) {
     return std::min(((w + 1) << key.march) - 1, rows - 1);

@@ -13,21 +13,21 @@ namespace mw::engine {
 /// Deals the windows of a run to processes ("ranks").  Rows along x stay whole, and later marches
 /// follow the first one's cuts, so that most blocks stay where they are.
 ///
-/// kColour: bricks of rows, cut in two again and again, across the longer side, where half of the
-/// cost is on each side: an eighth of all windows may run at once anywhere, so volumes with little
-/// surface are best.  kRaster: the wave passes bricks one by one, so tiles of 8 x 8 rows are dealt
-/// out by turns.
+/// With kColour each rank gets a brick of rows.  Bricks are cut in two again and again, across the
+/// longer side, where each side has its share of the cost: an eighth of all windows may run at
+/// once, wherever they are, so volumes with little surface are best.  With kRaster the wave would
+/// pass bricks one by one, so ranks take turns in tiles of 8 x 8 rows.
 ///
 /// Nothing here changes the result.
 class Partition {
  public:
   /// Deals all windows to one process.
   Partition() = default;
-  /// row_costs: the costs of the first march's rows, y fastest; empty if all are equal.
+  /// row_costs are the costs of the first march's rows, y fastest; empty if all are equal.
   /// REQUIRES: ranks >= 1; no cost is negative.
   Partition(const RunLayout& layout, Order order, int ranks,
             std::span<const double> row_costs = {});
-  /// Takes owners() of another process, for those that do not compute it.
+  /// Takes the owners() that another process computed.
   /// REQUIRES: there are as many as the first march has rows.
   Partition(const RunLayout& layout, std::vector<std::uint32_t> owners);
 

@@ -17,7 +17,7 @@ void Claims::add(Index3 block, std::span<const BlockVertex> vertices) {
   }
 }
 
-/// Twice as many as are left when it is full, so that each is sorted a few times only.
+/// A full list becomes twice as long as what is left of it, so each claim is sorted a few times.
 void Claims::make_room(std::size_t more) {
   if (list_.size() + more <= list_.capacity()) return;
   compact();

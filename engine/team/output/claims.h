@@ -12,11 +12,11 @@
 
 namespace mw::engine {
 
-/// That a process references a vertex.  Blocks by raster number.
+/// Says that a process references a vertex.  Blocks are given by raster number.
 struct Claim {
   std::uint64_t home = 0;  ///< the block in whose box the vertex lies
   VertexId id = 0;
-  std::uint64_t first = 0;  ///< of the process's blocks that reference it
+  std::uint64_t first = 0;  ///< the first of the process's blocks that reference it
 
   friend bool operator==(const Claim&, const Claim&) = default;
 };
@@ -26,16 +26,16 @@ struct Claim {
 }
 
 /// Collects the claims of one process while its blocks are read.
-/// Memory: 144 bytes a vertex that is claimed.
+/// Memory: 144 bytes for each vertex that is claimed.
 class Claims {
  public:
   /// The references outlive it.
   Claims(const LineShare& share, const VertexUses& homes, HoldMemory hold)
       : share_(share), homes_(homes), hold_(std::move(hold)) {}
 
-  /// In any order of blocks.
+  /// Adds the vertices of a block; blocks may come in any order.
   void add(Index3 block, std::span<const BlockVertex> vertices);
-  /// By the owner of the home, ascending by home and id, each vertex once.
+  /// Returns the claims by the owner of the home, ascending by home and id, each vertex once.
   [[nodiscard]] std::vector<std::vector<Claim>> take(std::size_t ranks);
 
  private:

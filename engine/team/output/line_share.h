@@ -16,7 +16,7 @@ namespace mw::engine {
 /// processes ("ranks").  Pure.
 class LineShare {
  public:
-  /// owners: by line, of blocks.y * blocks.z; rank: whose own lines these are.
+  /// owners has the rank of each of the blocks.y * blocks.z lines; own lines are those of `rank`.
   LineShare(Index3 blocks, std::vector<std::uint32_t> owners, std::uint32_t rank)
       : blocks_(blocks), owners_(std::move(owners)), rank_(rank) {}
 
@@ -24,11 +24,11 @@ class LineShare {
   [[nodiscard]] std::size_t lines() const { return owners_.size(); }
   [[nodiscard]] std::uint32_t owner(std::size_t line) const { return owners_[line]; }
   [[nodiscard]] bool is_own(std::size_t line) const { return owners_[line] == rank_; }
-  /// The line of a block that is given by its raster number.
+  /// Returns the line of a block that is given by its raster number.
   [[nodiscard]] std::size_t line_of(std::uint64_t block) const {
     return static_cast<std::size_t>(block) / static_cast<std::size_t>(blocks_.x);
   }
-  /// The first block of a line.
+  /// Returns the first block of a line.
   [[nodiscard]] Index3 first_block(std::size_t line) const {
     const auto number = static_cast<std::int64_t>(line);
     return {0, number % blocks_.y, number / blocks_.y};
@@ -40,7 +40,7 @@ class LineShare {
   std::uint32_t rank_;
 };
 
-/// Calls visit(line) of each own line and visit_block(block) of its blocks, ascending.
+/// Calls visit_line(line) for each own line, and then visit_block(block) for its blocks, ascending.
 template <typename VisitLine, typename VisitBlock>
 void for_each_own_block(const LineShare& share, VisitLine visit_line, VisitBlock visit_block) {
   for (std::size_t line = 0; line < share.lines(); ++line) {
@@ -51,9 +51,9 @@ void for_each_own_block(const LineShare& share, VisitLine visit_line, VisitBlock
   }
 }
 
-/// By line of blocks of the last march (those of one y and z; y fastest): the rank that visits its
-/// first block last.  Rows of windows are whole, so that rank has nearly always visited the whole
-/// line last, and the blocks stay where they are.  Pure.
+/// Returns for each line of blocks of the last march (those of one y and z; y fastest) the rank
+/// that visits its first block last.  Rows of windows are whole, so this rank has nearly always
+/// visited the whole line last, and the blocks stay where they are.  Pure.
 [[nodiscard]] std::vector<std::uint32_t> line_owners(const RunLayout& layout,
                                                      const Partition& partition);
 

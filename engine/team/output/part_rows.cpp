@@ -10,7 +10,7 @@
 namespace mw::engine {
 namespace {
 
-/// The place of a vertex in a list that is ascending by home and id; its end when it is not there.
+/// Returns the place of a vertex in a list that ascends by home and id; its size if none is there.
 template <typename List, typename ClaimOf>
 std::size_t find(const List& list, std::uint64_t home, VertexId id, ClaimOf claim_of) {
   const auto at = std::lower_bound(
@@ -84,7 +84,7 @@ void PartRows::note(std::uint64_t block, const BlockVertex& vertex, std::uint64_
   }
   const std::size_t at =
       find(judged_, number, vertex.id, [](const Judged& j) -> const Claim& { return j.claim; });
-  if (at == judged_.size()) return;  // nobody else references it
+  if (at == judged_.size()) return;  // no other process references it
   judged_[at].local = local;
   judged_[at].claim.first = std::min(judged_[at].claim.first, block);
 }
@@ -156,7 +156,7 @@ std::uint64_t PartRows::row_of(std::uint64_t local) const {
 ClaimLists PartRows::given_rows() const {
   ClaimLists out = locals_;
   for (auto& list : out) {
-    for (std::uint64_t& number : list) number = row_of(number);  // kNoRow of foreign ones
+    for (std::uint64_t& number : list) number = row_of(number);  // kNoRow for foreign ones
   }
   return out;
 }

@@ -8,19 +8,20 @@
 namespace mw::engine {
 
 // Rows ascend by the first block that references a vertex, then by id, as VertexRows gives them out
-// for all blocks.  Here a process knows its own blocks only, whole lines of them.  It numbers their
-// vertices by itself (local rows), and has to learn of which ones the first block is another's, and
-// which rows these have.  A vertex that two processes reference is known to the owner of its home
-// line, its judge: each process that references it and is not the judge claims it.
+// for all blocks.  Here a process knows only its own blocks, which are whole lines.  It numbers
+// their vertices by itself (local rows), and has to learn for which of them the first block is
+// another's, and which rows these have.  A vertex that two processes reference is known to its
+// judge, the owner of its home line: each other process that references it claims it.
 //
-//   1  each claims; 2  the judge answers which block is first of all; now each knows how many of
-//   its vertices are new in each of its lines, and with those of all lines where its rows begin; 3
-//   the process with the first block tells the judge the row; 4  the judge tells the others.
+//   1  Each process claims.  2  The judge answers which block is the first of all.  Each process
+//   then knows how many of its vertices are new in each of its lines, and from the numbers of all
+//   lines where its rows begin.  3  The process with the first block tells the judge the row.
+//   4  The judge tells the others.
 
 /// A number for each claim: first by rank, then by the place of the claim in that rank's list.
 using ClaimLists = std::vector<std::vector<std::uint64_t>>;
 
-/// Marks a claim whose answer is told to nobody.
+/// Stands for a row that is not known, or that this process does not give out.
 inline constexpr std::uint64_t kNoRow = ~std::uint64_t{0};
 
 /// The bytes of a claim that is made and of one that is judged, beside VertexRows: the claim, lists
@@ -28,17 +29,18 @@ inline constexpr std::uint64_t kNoRow = ~std::uint64_t{0};
 inline constexpr std::uint64_t kBytesPerClaim = 2 * sizeof(Claim) + 8 + 16 + 4 * 8;
 inline constexpr std::uint64_t kBytesPerJudged = 2 * sizeof(Claim) + 40 + 8 + 16 + 4 * 8;
 
-/// Sends nothing: the caller carries messages.  Members are to be called in the order given here.
-/// Memory: kBytesPerClaim and kBytesPerJudged, 24 bytes a line, and VertexRows, of own blocks.
+/// Sends nothing: the caller carries messages.  Members must be called in the order given here.
+/// Memory: kBytesPerClaim and kBytesPerJudged, 24 bytes for each own line, and VertexRows of own
+/// blocks.
 /// Cost: O(log) a vertex.
 class PartRows {
  public:
-  /// mine: this process's claims, by the judge's rank; theirs: those that it judges, by the
-  /// claimant's.  uses: of own blocks.  share outlives it.
+  /// mine has this process's claims, by the judge's rank; theirs has those that it judges, by the
+  /// claimant's rank; uses are those of own blocks.  share outlives it.
   PartRows(const LineShare& share, VertexUses uses, std::vector<std::vector<Claim>> mine,
            const std::vector<std::vector<Claim>>& theirs);
 
-  /// To be called once for each own block, ascending, with its vertices ascending by id.
+  /// Must be called once for each own block, ascending, with its vertices ascending by id.
   void count(Index3 block, std::span<const BlockVertex> vertices);
   /// Returns for each claim of theirs the first of all blocks that reference the vertex.
   [[nodiscard]] ClaimLists firsts() const;
@@ -58,10 +60,10 @@ class PartRows {
   void take_found_rows(const ClaimLists& rows);
 
   struct Assigned {
-    std::vector<std::uint64_t> rows;  ///< of the whole mesh, by vertex
+    std::vector<std::uint64_t> rows;  ///< rows of the whole mesh, by vertex
     std::vector<std::size_t> added;   ///< vertices whose first block this is
   };
-  /// Returns the rows of a block's vertices.  To be called in the order of the calls of count().
+  /// Returns the rows of a block's vertices.  REQUIRES: it is called in the order of count().
   [[nodiscard]] Assigned assign(Index3 block, std::span<const BlockVertex> vertices);
 
   /// Returns VertexRows::remembered().
@@ -70,11 +72,11 @@ class PartRows {
  private:
   /// A vertex that is judged here.
   struct Judged {
-    Claim claim;                   ///< of the first of all that reference it
-    std::uint64_t local = kNoRow;  ///< unless no own block references it
+    Claim claim;                   ///< the claim with the first of all blocks that reference it
+    std::uint64_t local = kNoRow;  ///< its local row; kNoRow if no own block references it
     std::uint64_t row = kNoRow;
   };
-  /// A vertex that has a local row, but its first block elsewhere.
+  /// A vertex that has a local row, but whose first block belongs to another process.
   struct Foreign {
     std::uint64_t local = 0;
     std::uint64_t row = kNoRow;
@@ -95,10 +97,10 @@ class PartRows {
   VertexUses uses_;
   VertexRows rows_;
   std::vector<std::vector<Claim>> mine_;
-  ClaimLists locals_;                             ///< of mine
+  ClaimLists locals_;                             ///< local rows of mine_
   std::vector<Judged> judged_;                    ///< ascending by home and id
   std::vector<std::vector<std::size_t>> theirs_;  ///< their claims, as places in judged_
-  std::vector<Foreign> foreign_;                  ///< ascending
+  std::vector<Foreign> foreign_;                  ///< ascending by local row
   std::vector<Line> lines_;
 };
 

@@ -14,7 +14,7 @@
 namespace mw::engine {
 namespace {
 
-/// Rows of a line, or of all lines before it.
+/// How many rows a line has, or all lines before it.
 struct LineRows {
   std::uint64_t vertices = 0;
   std::uint64_t tets = 0;
@@ -26,7 +26,7 @@ struct AllRows {
   LineRows all;
 };
 
-/// mine: of own lines, ascending.
+/// mine has the numbers of rows of own lines, ascending.
 AllRows rows_before(Team& team, const LineShare& share, const std::vector<LineRows>& mine) {
   std::vector<std::vector<LineRows>> said;
   for (const auto& bytes : team.gather(bytes_of(mine.data(), mine.size()))) {
@@ -44,7 +44,7 @@ AllRows rows_before(Team& team, const LineShare& share, const std::vector<LineRo
   return out;
 }
 
-/// What rank 0 asks for.
+/// Returns the options with the measures that rank 0 asks for.
 OutputOptions asked_by_first(Team& team, OutputOptions options) {
   struct Wishes {
     bool quality, shape, edges;
@@ -73,7 +73,7 @@ void add_up(Team& team, BlockFigures& mine) {
   fold_lists(team, mine.volumes6, std::plus<>());
 }
 
-/// One rank's part.
+/// The part of the mesh that one rank writes.
 class PartOfMesh {
  public:
   PartOfMesh(const FinalMesh& mesh, const TeamOutput& output, const OutputOptions& options)
@@ -87,7 +87,7 @@ class PartOfMesh {
         uses_(mesh.grid),
         figures_(options, volume_.table().size()) {}
 
-  /// First pass and second pass.  Returns how many rows there are in all.
+  /// Makes the first two passes.  Returns how many rows there are in all.
   LineRows number() {
     std::vector<std::vector<Claim>> mine = claim();
     const std::vector<std::vector<Claim>> theirs = swap_claims(mine);
@@ -106,7 +106,7 @@ class PartOfMesh {
     return places_.all;
   }
 
-  /// Third pass.
+  /// Makes the third pass.
   void write(io::SharedMesh& mesh) {
     mesh.begin(places_.all.tets);
     std::size_t line = 0;
@@ -128,7 +128,7 @@ class PartOfMesh {
   }
 
  private:
-  /// Nobody goes on reading for a mesh that will not be.
+  /// Loads a block; throws if another rank has failed, since the mesh will not be complete then.
   [[nodiscard]] BlockMesh load(Index3 b) {
     if (const auto failure = team_.failure()) throw *failure;
     BlockMesh block = blocks_.load(b);
@@ -192,7 +192,7 @@ class PartOfMesh {
   LabelSelection selection_;
   Remembered remembered_;
   VertexUses uses_;
-  std::vector<LineRows> lines_;  ///< own ones, ascending
+  std::vector<LineRows> lines_;  ///< of own lines, ascending
   AllRows places_;
   std::optional<PartRows> rows_;
   BlockFigures figures_;
@@ -221,7 +221,7 @@ FinishedMesh finish_together(const FinalMesh& mesh, const TeamOutput& output,
   PartOfMesh part(mesh, output, options);
   const LineRows all = part.number();
   if (team.is_first()) output.file.lay_out(part.header(options), all.vertices);
-  (void)team.gather(std::string());  // nobody opens a file that has not got its size
+  (void)team.gather(std::string());  // no rank opens the file until it has its size
   part.write(output.file);
   (void)team.gather(std::string());  // all rows are on the disk
   add_up(team, part.figures());

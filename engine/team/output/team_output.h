@@ -10,8 +10,8 @@
 
 namespace mw::engine {
 
-/// Returns true if all ranks write the mesh: the others join it if rank 0 gives one that it made.
-/// Returns when every rank has come here.  mesh: null on a rank that cannot write together.
+/// Returns true if all ranks write the mesh: if rank 0 has made one, the others join it.
+/// Returns when every rank has called it.  mesh is null on a rank that cannot write with others.
 /// ERRORS: those of SharedMesh::join(); mw::Error(kUsage) of a rank that has to join and cannot.
 [[nodiscard]] bool join_output(Team& team, io::SharedMesh* mesh);
 
@@ -23,13 +23,13 @@ struct TeamOutput {
 };
 
 /// Does what finish() does by all ranks: each writes the rows of its own lines, rank 0 gives the
-/// file its name.  mesh: with the blocks of this rank.  REQUIRES: join_output() returned true.
+/// file its name.  mesh has the blocks of this rank.  REQUIRES: join_output() returned true.
 /// ENSURES: the bytes are those of finish() by one process.  Every rank gets the counts; rank 0
-/// all that it asks to be measured, as finish() does, except the shape of interfaces: that needs
-/// the whole mesh to pass by one process, so FinishedMesh::shape stays empty.
-/// Each reads its blocks three times: for what they reference, for new rows, and to write.
-/// Memory: that of finish() of own blocks; 16 bytes a line of all blocks; PartRows and claims that
-/// it takes, which grow with the faces between this rank's lines and others'; 24 bytes a label
+/// gets all that it asks to be measured, except the shape of interfaces: that needs the whole mesh
+/// to pass by one process, so FinishedMesh::shape stays empty.
+/// Each rank reads its blocks three times: for what they reference, for new rows, and to write.
+/// Memory: that of finish() for own blocks; 16 bytes for each line of all blocks; that of PartRows
+/// and Claims, which grows with the faces between this rank's lines and others'; 24 bytes a label
 /// where something is measured.  ERRORS: those of any rank.
 FinishedMesh finish_together(const FinalMesh& mesh, const TeamOutput& output,
                              const OutputOptions& options);

@@ -10,7 +10,7 @@
 namespace mw::engine {
 namespace {
 
-constexpr std::uint64_t kEnd = ~std::uint64_t{0};  ///< no more epochs
+constexpr std::uint64_t kEnd = ~std::uint64_t{0};  ///< signals that no more epochs follow
 constexpr std::chrono::milliseconds kLook{1};
 
 }  // namespace
@@ -31,7 +31,7 @@ void Epochs::start() {
         follow();
       }
     } catch (...) {
-      // A failure that is known is why this ends, not news.
+      // If a failure is known already, this thread has ended because of it.
       if (!team_.has_failed()) traffic_.end(std::current_exception());
     }
   });
@@ -42,7 +42,7 @@ void Epochs::end() {
   if (thread_.joinable()) thread_.join();
 }
 
-/// Looks again and again: what it waits for is told in many ways, and an epoch is rare.
+/// Polls, because what it waits for may come about in many ways, and epochs are rare.
 void Epochs::sleep_until(const std::function<bool()>& over) const {
   while (!over()) {
     if (team_.has_failed()) {
@@ -76,7 +76,7 @@ void Epochs::follow() {
 void Epochs::run_one() {
   store_.pause();
   sleep_until([&] { return store_.is_quiet(); });
-  // Nothing more is sent; what was sent has to come in.
+  // No rank sends more blocks; this one waits for those that were sent to it.
   std::uint64_t wanted = 0;
   const std::vector<std::uint64_t> sent = traffic_.sent_to();
   const auto me = static_cast<std::size_t>(team_.rank());

@@ -12,11 +12,11 @@
 
 namespace mw::engine {
 
-/// For each checkpoint all ranks start no window until none runs and no block is on its way; then
-/// each makes what it has durable, rank 0 counts the epoch, and the march goes on.  What was
-/// durable before stays so until the epoch counts: after a kill the last one that did is there.
+/// For each epoch all ranks start no window until none runs and no block is on its way; then each
+/// makes what it has durable, rank 0 counts the epoch, and the march goes on.  What the last epoch
+/// made durable stays so until the next one counts, so after a kill one that counts is there.
 ///
-/// Each rank has a thread for it.  Rank 0 begins epochs, the others follow.
+/// Each rank has a thread for epochs.  Rank 0 begins them, the others follow.
 /// Thread safety: one thread makes, ends and destroys it.
 class Epochs {
  public:
@@ -25,7 +25,7 @@ class Epochs {
     /// Called on rank 0 when all ranks have saved the epoch of this number.  ENSURES: on return it
     /// survives a power cut.
     std::function<void(std::uint64_t epochs)> count;
-    /// Optional: is asked often on rank 0; true asks for an epoch and then StoppedAfterSave.
+    /// Optional; called often on rank 0.  True asks for an epoch, and then for StoppedAfterSave.
     std::function<bool()> stop;
   };
 
@@ -36,9 +36,9 @@ class Epochs {
   /// REQUIRES: end() was called, or some rank has failed.
   ~Epochs();
 
-  /// Makes one now, before the march begins.  ERRORS: those of the store; that of another rank.
+  /// Makes an epoch before the march begins.  ERRORS: those of the store; that of another rank.
   void save_now() { run_one(); }
-  /// Makes epochs by itself from now on.  An error of one ends march and output.
+  /// Starts the thread that makes epochs.  An error in an epoch ends march and output.
   void start();
   /// Makes no more epochs.  All ranks call it after the last window of all, rank 0 before it waits
   /// for the others.

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The mwmesh authors
 // SPDX-License-Identifier: Apache-2.0
-// Replays journals into one table.
+// Replays the journals of all processes into one table.
 #include "engine/team/saved/saved_run.h"
 
 #include <utility>

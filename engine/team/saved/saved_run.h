@@ -16,7 +16,7 @@ namespace mw::engine {
 /// A block in the version of the last epoch.
 struct SavedBlock {
   BlockVersion version;
-  std::uint64_t memory_bytes = 0;  ///< decoded
+  std::uint64_t memory_bytes = 0;  ///< the size of the decoded block
   std::size_t folder = 0;
   Extent extent;
   std::uint32_t sum = 0;
@@ -26,13 +26,13 @@ struct SavedBlock {
 /// at once; nothing is changed.
 class SavedRun {
  public:
-  /// folders: one for each process of that run; epochs: how many records of each journal count.
+  /// folders has one for each process of that run; `epochs` records of each journal count.
   /// ERRORS: mw::Error(kInput) when the folders are damaged, or do not fit together.
   SavedRun(const RunLayout& layout, std::vector<std::filesystem::path> folders,
            std::uint64_t epochs);
 
   [[nodiscard]] const DoneWindows& done() const { return done_; }
-  /// Returns all blocks that some window or the output still needs, ascending.
+  /// Calls `use` for all blocks that some window or the output still needs, ascending.
   void for_each_block(const std::function<void(const SavedBlock&)>& use) const;
   /// Returns the bytes of a block.  ERRORS: mw::Error(kInput) when they differ from those written.
   [[nodiscard]] std::vector<std::byte> read(const SavedBlock& block) const;
@@ -45,7 +45,7 @@ class SavedRun {
 
   const RunLayout& layout_;
   std::vector<std::filesystem::path> folders_;
-  std::vector<std::unique_ptr<WorkFile>> files_;  ///< of blocks
+  std::vector<std::unique_ptr<WorkFile>> files_;  ///< files of blocks, by folder
   DoneWindows done_;
   std::map<std::uint64_t, std::pair<std::size_t, JournalBlock>> blocks_;  ///< by slot
 };

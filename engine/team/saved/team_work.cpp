@@ -24,7 +24,7 @@ std::string numbered(const char* name, std::uint64_t number) {
   return out;
 }
 
-/// The file's text, if this rank sees one.
+/// Returns the file's text, or nothing if this rank sees no such file.
 std::string text_of(const fs::path& path) {
   std::ifstream in(path, std::ios::binary);
   return {std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()};
@@ -85,7 +85,7 @@ TeamWork::TeamWork(Team& team, const fs::path& folder, bool resume, const std::s
                         "; give the same input and settings, or delete the folder to start again");
   }
   if (before_) generation_ = before_->generation + 1;
-  // What a run left that was killed before it counted an epoch.
+  // A run that was killed before it counted an epoch may have left this folder.
   if (team.is_first()) fs::remove_all(folder_of(generation_));
   (void)team.gather(std::string());
   own_folder_ = folder_of(generation_, static_cast<std::uint64_t>(team.rank()));
@@ -115,7 +115,7 @@ void TeamWork::count(std::uint64_t epochs) {
   file.commit();
   counted_ = epochs;
   if (!before_) return;
-  std::error_code ignored;  // what stays of it does not count
+  std::error_code ignored;  // what stays of that generation does not count
   fs::remove_all(folder_of(before_->generation), ignored);
 }
 

@@ -15,15 +15,15 @@ namespace mw::engine {
 ///     epochs                what counts: lines "name = value" of generation, ranks and epochs,
 ///                           then the identity of the run
 ///     gen-0002/rank-0007/   a Workdir of each rank
-/// A run that goes on from another one is its next generation, with any number of ranks: it copies
-/// what is needed, counts an epoch, and only then the generation before goes.
+/// A run that goes on from another one is its next generation, and may have any number of ranks.
+/// It copies the blocks that it needs, counts an epoch, and only then removes the one before.
 class TeamWork {
  public:
   /// REQUIRES: all ranks make one with the same arguments.
-  /// ERRORS: mw::Error(kUsage) when Workdir has it; kInput when the file `epochs` is damaged.
+  /// ERRORS: mw::Error(kUsage) in the cases of Workdir; kInput when the file `epochs` is damaged.
   TeamWork(Team& team, const std::filesystem::path& folder, bool resume,
            const std::string& identity);
-  /// Removes the folders of this generation if they are empty.
+  /// Removes this rank's Workdir unless it is kept, and the folders above if they are empty.
   ~TeamWork();
   TeamWork(const TeamWork&) = delete;
   TeamWork& operator=(const TeamWork&) = delete;
@@ -35,12 +35,12 @@ class TeamWork {
   [[nodiscard]] std::vector<std::filesystem::path> folders_before() const;
   [[nodiscard]] std::uint64_t epochs_before() const { return before_ ? before_->epochs : 0; }
 
-  /// Makes the first `epochs` epochs of this generation count.  To be called by rank 0 only.
+  /// Makes the first `epochs` epochs of this generation count.  Only rank 0 may call it.
   void count(std::uint64_t epochs);
   /// True if there is anything to go on from.
   [[nodiscard]] bool has_saved_work() const { return before_.has_value() || counted_ > 0; }
-  /// To be called by all ranks, before the last of them ends, when the mesh is complete, so that no
-  /// run will go on from this one.
+  /// Gives the saved work up when the mesh is complete.  All ranks must call it before the last of
+  /// them ends.
   void discard();
 
  private:

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The mwmesh authors
 // SPDX-License-Identifier: Apache-2.0
-// Sorts more records than memory holds: sorted runs in a temporary file, then one merge.
+// Sorts more records than memory holds: it writes sorted runs to a temporary file and merges them.
 #pragma once
 
 #include <algorithm>
@@ -52,7 +52,7 @@ class ExternalSort {
 
   /// A sorted run, read through a buffer of its own.
   struct Run {
-    std::uint64_t next = 0;  ///< record of the file behind the buffer
+    std::uint64_t next = 0;  ///< the record of the file that follows the buffer
     std::uint64_t end = 0;
     std::vector<Record> buffer;
     std::size_t at = 0;
@@ -67,7 +67,7 @@ class ExternalSort {
     records_.clear();
   }
 
-  /// Whether the run has another record.
+  /// Reads the run's next records into its buffer; false when the run has none left.
   bool refill(Run& run) {
     run.at = 0;
     const std::uint64_t share = std::max<std::uint64_t>(max_ / runs_.size(), 1);
@@ -96,7 +96,7 @@ class ExternalSort {
   }
 
   std::filesystem::path folder_;
-  std::size_t max_;  ///< records in memory
+  std::size_t max_;  ///< the most records in memory
   std::vector<Record> records_;
   std::vector<Run> runs_;
   std::optional<ScratchFile> file_;

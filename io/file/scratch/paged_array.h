@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The mwmesh authors
 // SPDX-License-Identifier: Apache-2.0
-// An array that waits in a temporary file, read and changed by place.
+// An array in a temporary file, whose records are read and changed by their place.
 #pragma once
 
 #include <algorithm>
@@ -10,7 +10,8 @@
 
 namespace mw::io {
 
-/// Records that are all bytes zero to begin with.  Fast where neighbours are asked for together.
+/// Records whose bytes are all zero at first.  Access is fast where neighbours are asked for
+/// together.
 /// Memory: 8 MiB.  ERRORS: see ScratchFile.  Thread safety: none.
 template <typename Record>
 class PagedArray {
@@ -27,9 +28,9 @@ class PagedArray {
   }
 
   [[nodiscard]] std::uint64_t size() const { return size_; }
-  /// REQUIRES (of both): at < size().
+  /// REQUIRES: at < size(), also for change().
   [[nodiscard]] Record get(std::uint64_t at) { return page_of(at).records[at % kPageRecords]; }
-  /// Calls change(Record&).  REQUIRES: it uses no member.
+  /// Calls change(Record&).  REQUIRES: change uses no member of this array.
   template <class Change>
   void change(std::uint64_t at, Change change) {
     Page& page = page_of(at);

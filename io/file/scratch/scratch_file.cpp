@@ -15,7 +15,7 @@
 namespace mw::io {
 namespace {
 
-/// Where the file system can do that: without ever having a name, so that no kill leaves one.
+/// Opens a file that never has a name, so that no kill leaves it; not every file system can do so.
 int open_nameless(const std::string& folder) {
   return ::open(folder.c_str(), O_TMPFILE | O_RDWR | O_CLOEXEC, 0600);
 }

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: The mwmesh authors
 // SPDX-License-Identifier: Apache-2.0
-// What must wait but must not wait in memory: temporary files without a name, written at their end
-// or anywhere, and read by place, also as a long list.
+// Temporary files without a name, for data that must not stay in memory.  They are written at their
+// end or anywhere, and read by place, also as a long list.
 #pragma once
 
 #include <algorithm>
@@ -18,11 +18,11 @@
 
 namespace mw::io {
 
-/// Where a file cannot be made without a name, its name begins so in the instant before it has
-/// none; a kill then leaves one behind.
+/// How the name of a file begins where the file system can make none without a name.  The file
+/// loses that name at once; only a kill in that instant leaves it behind.
 inline constexpr const char* kScratchPrefix = ".mwmesh-scratch-";
 
-/// Bytes by place.
+/// A file without a name, written and read by place.
 /// ERRORS (all members): mw::Error(kResource) naming the folder when the disk is full; kUsage when
 /// the folder cannot be written.  Thread safety: different places may be used at once.
 class UnlinkedFile {
@@ -31,9 +31,9 @@ class UnlinkedFile {
   explicit UnlinkedFile(const std::filesystem::path& folder);
 
   void write_at(std::uint64_t offset, std::span<const std::byte> bytes) const;
-  /// REQUIRES: the bytes were written.
+  /// REQUIRES: these bytes were written.
   void read_at(std::uint64_t offset, std::span<std::byte> out) const;
-  /// The file itself.  REQUIRES: the object is not used afterwards.
+  /// Returns the file itself.  REQUIRES: the object is not used afterwards.
   [[nodiscard]] FileDescriptor release() { return std::move(file_); }
 
  private:
@@ -41,11 +41,11 @@ class UnlinkedFile {
   FileDescriptor file_;
 };
 
-/// $TMPDIR, or /tmp when it is not set.
+/// Returns $TMPDIR, or /tmp when it is not set.
 [[nodiscard]] std::filesystem::path scratch_folder();
 
-/// Bytes are appended, then read by place.  The space is free again when the object goes, or the
-/// process, however it ends.
+/// A file to which bytes are appended, and which is read by place.  Its space is free again when
+/// the object is destroyed or the process ends, however it does.
 /// ERRORS (all members): mw::Error(kResource) naming the folder when the disk is full; kUsage when
 /// the folder cannot be written.  Thread safety: none.
 class ScratchFile {
@@ -59,7 +59,7 @@ class ScratchFile {
   /// REQUIRES: offset + out.size() <= size().
   void read_at(std::uint64_t offset, std::span<std::byte> out);
   /// Calls visit(std::span<const Record>) on all records in their order, some thousands at once.
-  /// REQUIRES: nothing else was appended.
+  /// REQUIRES: only records of this type were appended.
   template <typename Record, class Visit>
   void each_batch(Visit visit) {
     constexpr std::uint64_t kBatch = 4096;
@@ -70,7 +70,7 @@ class ScratchFile {
       visit(std::span<const Record>(batch));
     }
   }
-  /// The file itself, all bytes in it.  REQUIRES: the object is not used afterwards.
+  /// Returns the file itself with all bytes in it.  REQUIRES: the object is not used afterwards.
   [[nodiscard]] FileDescriptor release();
 
  private:
@@ -82,8 +82,8 @@ class ScratchFile {
   std::uint64_t flushed_ = 0;
 };
 
-/// Records are appended, and looked up through a cache of pages: fast where neighbours are asked
-/// for together.  Memory: 8 MiB.  ERRORS: see ScratchFile.
+/// Records are appended, and looked up through a cache of pages, which is fast where neighbours are
+/// asked for together.  Memory: 8 MiB.  ERRORS: see ScratchFile.
 template <typename Record>
 class PagedFile {
   static_assert(std::is_trivially_copyable_v<Record>);
@@ -94,7 +94,7 @@ class PagedFile {
       : file_(folder), pages_(kPages), held_(kPages, kNone) {}
 
   void append(const Record& record) {
-    // The page that it goes to is no longer what the cache may hold of it.
+    // The page that the record goes to changes, so that the cache must read it again.
     const std::uint64_t page = size() / kPageRecords;
     if (held_[page % kPages] == page) held_[page % kPages] = kNone;
     file_.append(std::as_bytes(std::span(&record, 1)));
@@ -122,7 +122,7 @@ class PagedFile {
 
   ScratchFile file_;
   std::vector<std::vector<Record>> pages_;
-  std::vector<std::uint64_t> held_;  ///< by slot: its page
+  std::vector<std::uint64_t> held_;  ///< the page in each slot
 };
 
 }  // namespace mw::io

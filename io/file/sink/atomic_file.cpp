@@ -22,8 +22,8 @@ namespace {
 
 constexpr std::size_t kBufferBytes = 1 << 20;
 
-/// A link is followed, so that the file it names is replaced and not the link; anything that
-/// exists and is no plain file (a folder, a device) is refused.
+/// Follows a link, so that the file it names is replaced and not the link; refuses anything that
+/// exists and is no plain file (a folder, a device).
 std::filesystem::path resolve(const std::filesystem::path& target) {
   std::error_code ignored;
   const auto status = std::filesystem::status(target, ignored);
@@ -43,7 +43,7 @@ AtomicFile::AtomicFile(const std::filesystem::path& target) : target_(resolve(ta
   if (!target_.has_filename()) {
     throw Error(ErrorKind::kUsage, target.string() + ": cannot create: no file name in the path");
   }
-  buffer_.reserve(kBufferBytes);  // first: what fails behind the partial file leaves it there
+  buffer_.reserve(kBufferBytes);  // first: a failure after make_partial() leaves its file
   PartialOutput partial = make_partial(target_, PartialKind::kFile);
   partial_ = std::move(partial.path);
   file_ = std::move(partial.file);
@@ -129,12 +129,12 @@ namespace {
 
 using Files = std::span<const std::reference_wrapper<AtomicFile>>;
 
-/// Down to the first, which is replaced in one step when it stands alone.
+/// Removes the old files down to the second; the new first one replaces the old in one step.
 void remove_old(Files files) {
   for (std::size_t i = files.size(); i-- > 1;) files[i].get().remove_named();
 }
 
-/// After an error: what cannot be removed either stays, the error is told already.
+/// Removes new files after an error, which the caller reports; what cannot be removed stays.
 void take_back(Files files) {
   try {
     for (std::size_t i = files.size(); i-- > 0;) files[i].get().remove_named();
@@ -160,7 +160,7 @@ void commit_together(std::initializer_list<std::reference_wrapper<AtomicFile>> l
 
 namespace {
 
-/// Without a '/' at its end; nothing may be there but an empty folder.
+/// Returns the target without a '/' at its end.  Only an empty folder may be there.
 std::filesystem::path free_target(const std::filesystem::path& target) {
   std::filesystem::path name = target.has_filename() ? target : target.parent_path();
   std::error_code failed;

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: The mwmesh authors
 // SPDX-License-Identifier: Apache-2.0
-// Output files that appear under their names only when they are whole, those that belong together
-// at once.
+// Output files that appear under their names only when they are whole; files that belong together
+// appear together.
 #pragma once
 
 #include <cstddef>
@@ -18,9 +18,9 @@
 
 namespace mw::io {
 
-/// Writes to ".<name>.partial-..." beside the target (partial_file.h); commit() gives it its name
-/// in one step. The destructor of a file that was not committed removes the partial one. ERRORS
-/// (all members): mw::Error(kResource) when the disk is full; kUsage when the path cannot be
+/// Writes to ".<name>.partial-..." beside the target (partial_file.h); commit() gives that file its
+/// name in one step.  The destructor removes a partial file that was not committed.
+/// ERRORS (all members): mw::Error(kResource) when the disk is full; kUsage when the path cannot be
 /// written.  Thread safety: none.
 class AtomicFile : public PlacedOutput {
  public:
@@ -35,24 +35,24 @@ class AtomicFile : public PlacedOutput {
   /// Writes bytes at offset, unbuffered, over what was appended there; does not move the place
   /// where append() writes.
   void write_at(std::uint64_t offset, std::span<const std::byte> bytes) override;
-  /// What is in the file there; zeros behind its end.  Sees what write_at() wrote, not what
-  /// append() still buffers.
+  /// Fills out with the bytes of the file from offset on, and with zeros behind its end.  It sees
+  /// what write_at() wrote, but not what append() still buffers.
   void read_at(std::uint64_t offset, std::span<std::byte> out) const;
   /// Cuts or extends the file.
   void resize(std::uint64_t bytes);
-  /// Where it is until it has its name, for others to write into (JoinedPartial).
+  /// Returns where the file is until it has its name, for others to write into (JoinedPartial).
   [[nodiscard]] const std::filesystem::path& partial() const { return partial_; }
   /// Number of bytes appended so far.
   [[nodiscard]] std::uint64_t appended() const { return flushed_ + buffer_.size(); }
   /// Flushes, syncs and renames.  REQUIRES: called once; nothing is written afterwards.
   void commit();
 
-  // The steps of commit(), for files that belong together (commit_together.h).
+  // The steps of commit(), for files that belong together (commit_together()).
 
-  /// All bytes are on the disk.  REQUIRES: nothing is written afterwards.
+  /// Puts all bytes on the disk.  REQUIRES: nothing is written afterwards.
   void sync();
-  /// Removes what has the name, be it this file or the one before it; none is no error.
-  /// ENSURES: also after a power cut.
+  /// Removes the file that has the name, be it this one or an older one; its absence is no error.
+  /// ENSURES: it stays removed after a power cut.
   void remove_named();
   /// REQUIRES: sync() was called; called once.
   void give_name();
@@ -69,7 +69,7 @@ class AtomicFile : public PlacedOutput {
   bool committed_ = false;
 };
 
-/// Commits all, in an order in which each may need those before it: what is opened by its name
+/// Commits all files.  Each may need those before it in the list, so that the one that users open
 /// comes last.  All are whole on the disk before the first name changes; then the old files go,
 /// from the last to the second, and the new ones get their names from the first to the last.
 /// ENSURES: at any instant, also after a kill or a power cut, the names hold the first few files of
@@ -78,10 +78,10 @@ class AtomicFile : public PlacedOutput {
 /// of the new ones is left.
 void commit_together(std::initializer_list<std::reference_wrapper<AtomicFile>> files);
 
-/// Files are written into ".<name>.partial-..." beside the target (partial_file.h); commit() gives
-/// it its name in one step.  The destructor of a folder that was not committed removes it and all
-/// that is in it. ERRORS (all members): mw::Error(kResource) when the disk is full; kUsage when the
-/// folder cannot be made, or exists and is not empty.  Thread safety: none.
+/// Files are written into a folder ".<name>.partial-..." beside the target (partial_file.h);
+/// commit() gives it its name in one step.  The destructor removes a folder that was not committed.
+/// ERRORS (all members): mw::Error(kResource) when the disk is full; kUsage when the folder cannot
+/// be made, or exists and is not empty.  Thread safety: none.
 class AtomicFolder {
  public:
   explicit AtomicFolder(const std::filesystem::path& target);
@@ -89,11 +89,11 @@ class AtomicFolder {
   AtomicFolder(const AtomicFolder&) = delete;
   AtomicFolder& operator=(const AtomicFolder&) = delete;
 
-  /// Where the files go until commit().
+  /// Returns the folder in which the files are until commit().
   [[nodiscard]] const std::filesystem::path& path() const { return partial_; }
   /// REQUIRES: called once; nothing is written afterwards.
   void commit();
-  /// Removes the folder with its name, for what should have come with it and did not.
+  /// Removes the committed folder, for a caller whose other outputs failed.
   /// REQUIRES: commit() was called; nothing else is in it.
   void withdraw();
 

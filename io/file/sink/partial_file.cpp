@@ -38,7 +38,8 @@ namespace fs = std::filesystem;
 
 constexpr std::string_view kPartial = ".partial-";
 
-/// Locks belong to a kernel from its start on, and so does this: eight digits, seldom the same.
+/// Returns eight digits that belong, as locks do, to a kernel from its start on; two kernels seldom
+/// have the same ones.
 std::string kernel_mark() {
   std::string id;
   std::ifstream("/proc/sys/kernel/random/boot_id") >> id;
@@ -85,7 +86,7 @@ bool is_at(const FileDescriptor& file, const fs::path& path) {
          held.st_ino == named.st_ino && held.st_dev == named.st_dev;
 }
 
-/// Whether everybody who can see the file system sees its locks: one of this machine alone.
+/// Whether only this machine can see the file system, so that all who see it see its locks.
 bool is_local(const FileDescriptor& file) {
   constexpr std::array<unsigned long, 9> kLocal{
       EXT4_SUPER_MAGIC, XFS_SUPER_MAGIC,       BTRFS_SUPER_MAGIC,    F2FS_SUPER_MAGIC, TMPFS_MAGIC,
@@ -96,7 +97,7 @@ bool is_local(const FileDescriptor& file) {
   return std::find(kLocal.begin(), kLocal.end(), type) != kLocal.end();
 }
 
-/// The kernel's mark, when the name is that of a partial output of `target`; else nothing.
+/// Returns the kernel's mark in the name of a partial output of `target`; nothing in another name.
 std::string_view mark_of(std::string_view name, std::string_view target) {
   constexpr std::size_t kMark = 8;
   if (name.substr(0, 1) != "." || name.substr(1, target.size()) != target) return {};
@@ -123,7 +124,7 @@ void remove_if_left(const fs::path& path, std::string_view mark) {
   fs::remove_all(path, ignored);
 }
 
-/// Names of all partial outputs that were in the folder when it was asked for first.
+/// Returns the names of all partial outputs that were in the folder at the first call for it.
 std::vector<std::string> found_in(const fs::path& folder) {
   static std::mutex mutex;
   static std::map<fs::path, std::vector<std::string>> found;

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: The mwmesh authors
 // SPDX-License-Identifier: Apache-2.0
-// An output while it is written: its name, what killed runs have left under such names, and the
-// bytes that other processes put into it.
+// An output while it is written: its name, the removal of what killed runs have left under such
+// names, and the bytes that other processes put into it.
 #pragma once
 
 #include <cstddef>
@@ -13,26 +13,25 @@
 
 namespace mw::io {
 
-/// ENSURES: names made, given and removed in this folder before are so on the disk.  File systems
-/// that cannot sync a folder say so, and that is not the user's problem: nothing else would help.
+/// ENSURES: names that were made, given and removed in this folder are so on the disk.  A file
+/// system that cannot sync a folder is no error, since the user could do nothing about it.
 void sync_folder(const std::filesystem::path& folder);
 
-/// Where rows of columns go, in a file that this process or another has made.
+/// A file that this process or another has made, in which rows of columns go to their places.
 class PlacedOutput {
  public:
   virtual ~PlacedOutput() = default;
-  /// Over what is there, and beyond the end.  ERRORS: as AtomicFile.
+  /// Writes bytes from offset on, over what is there and beyond the end.  ERRORS: as AtomicFile.
   virtual void write_at(std::uint64_t offset, std::span<const std::byte> bytes) = 0;
 };
 
-/// An output that is being written: ".NAME.partial-KERNEL-PID-N" beside the target NAME.  KERNEL
-/// tells apart machines, and the times between their starts; it is the same in all containers of
-/// one.
+/// An output that is being written, ".NAME.partial-KERNEL-PID-N" beside the target NAME.  KERNEL
+/// tells apart machines, and the starts of one machine; all containers of a machine share it.
 ///
-/// Its file (flock) is locked until it has its own name or its writer is gone, so that one whose
-/// lock is free is left over from a run that was killed; numbers of processes, which are used
-/// again, do not matter. Some shared file systems keep locks from other machines: there only what
-/// this one has left is taken for left over.
+/// The output is locked (flock) until it has its own name or its writer is gone, so that one whose
+/// lock is free is left over from a run that was killed, even if another process has its PID.  Some
+/// shared file systems do not show locks to other machines; there only leftovers of this machine
+/// are removed.
 struct PartialOutput {
   std::filesystem::path path;
   FileDescriptor file;
@@ -40,29 +39,29 @@ struct PartialOutput {
 
 enum class PartialKind { kFile, kFolder };
 
-/// Makes a new one, and removes what killed runs have left of the same target.  (A folder is
+/// Makes a partial output, and removes what killed runs have left of the same target.  (A folder is
 /// searched for such leftovers once in the life of the process.)
 /// REQUIRES: target has a file name.
-/// ENSURES: file is locked where the file system has locks; of a file, open to read and write.
+/// ENSURES: It is locked where the file system has locks; a file is open to read and write.
 /// ERRORS: mw::Error(kUsage or kResource) naming the target.  Thread safety: any.
 [[nodiscard]] PartialOutput make_partial(const std::filesystem::path& target, PartialKind kind);
 
-/// The folder that a path is in, "." of a name alone.
+/// Returns the folder that a path is in, which is "." for a name alone.
 [[nodiscard]] std::filesystem::path folder_of(const std::filesystem::path& path);
 
-/// The partial file of an AtomicFile of this or another process, maybe on another machine: opened
+/// The partial file of an AtomicFile of this or another process, maybe on another machine, opened
 /// to write some of its bytes.  Its maker gives it its name, or removes it.
 ///
-/// Opened for writing alone, and by the maker too: a client of NFS that may read fetches the whole
-/// page around a few bytes and writes it back whole, over what others have written there meanwhile.
-/// For the same reason the file has its size before anybody writes (AtomicFile::resize()).
+/// Each writer, the maker too, writes by one of these, which is open for writing alone: a client of
+/// NFS that may also read fetches the page around a few bytes and writes it back whole, over what
+/// others have written.  So the file also has its size before that (AtomicFile::resize()).
 /// ERRORS (all members): as AtomicFile.  Thread safety: none.
 class JoinedPartial : public PlacedOutput {
  public:
   explicit JoinedPartial(const std::filesystem::path& partial);
 
   void write_at(std::uint64_t offset, std::span<const std::byte> bytes) override;
-  /// What was written is on the disk.
+  /// Puts what was written on the disk.
   void sync();
 
  private:

@@ -18,22 +18,22 @@ class ByteCursor {
   explicit ByteCursor(const ByteSource& source) : source_(source) {}
 
   [[nodiscard]] const ByteSource& source() const { return source_; }
-  /// The next character without taking it, or -1 at the end.
+  /// Returns the next character without taking it, or -1 at the end.
   [[nodiscard]] int peek() { return at_ < buffer_.size() || refill() ? buffer_[at_] : -1; }
   /// REQUIRES: peek() >= 0.
   void take() {
     if (buffer_[at_++] == '\n') ++line_;
   }
-  /// Fills out; false, and nothing is taken, when fewer are left.
+  /// Fills out; returns false and takes nothing when fewer bytes are left.
   [[nodiscard]] bool read(std::span<std::byte> out);
-  /// Up to the end of the line, which is taken but not in `out` (nor is a '\r' in front of it); at
-  /// most `max` characters, the rest is for the next call.  False at the end of all.
+  /// Reads a line into `out`, without its end and a '\r' in front of that.  It reads at most `max`
+  /// characters and leaves the rest to the next call.  False at the end of the source.
   [[nodiscard]] bool read_line(std::string& out, std::size_t max);
 
   [[nodiscard]] std::uint64_t offset() const { return loaded_ - buffer_.size() + at_; }
-  /// The bytes that follow, counted up to `max`.
+  /// Returns how many bytes follow, counted up to `max`.
   [[nodiscard]] std::uint64_t left(std::uint64_t max) const;
-  /// Counted from 1 by line ends that take() and read_line() saw.
+  /// The number of the line, counted from 1 by the line ends that take() and read_line() saw.
   [[nodiscard]] std::uint64_t line() const { return line_; }
 
  private:
@@ -42,7 +42,7 @@ class ByteCursor {
   const ByteSource& source_;
   std::vector<unsigned char> buffer_;
   std::size_t at_ = 0;
-  std::uint64_t loaded_ = 0;  ///< what is behind the buffer
+  std::uint64_t loaded_ = 0;  ///< where the buffer ends in the source
   std::uint64_t line_ = 1;
 };
 

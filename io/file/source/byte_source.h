@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The mwmesh authors
 // SPDX-License-Identifier: Apache-2.0
-// Random access to bytes: the seam between the formats and the file system.
+// Random access to bytes: the interface between the formats and the file system.
 #pragma once
 
 #include <algorithm>
@@ -16,12 +16,12 @@
 
 namespace mw::io {
 
-/// The sum of two numbers of a file, or the largest number when it is larger.
+/// Returns the sum of two numbers of a file, or the largest number when it is larger.
 [[nodiscard]] inline std::uint64_t saturating_sum(std::uint64_t a, std::uint64_t b) {
   return a + std::min(b, ~a);
 }
 
-/// The product of two numbers of a file, or the largest number when it is larger.
+/// Returns the product of two numbers of a file, or the largest number when it is larger.
 [[nodiscard]] inline std::uint64_t saturating_product(std::uint64_t a, std::uint64_t b) {
   constexpr std::uint64_t kMax = std::numeric_limits<std::uint64_t>::max();
   return b != 0 && a > kMax / b ? kMax : a * b;
@@ -36,14 +36,14 @@ class ByteSource {
   [[nodiscard]] virtual std::uint64_t size_within(std::uint64_t max) const {
     return std::min(size(), max);
   }
-  /// What error messages call it; the path for a file.
+  /// Returns the name for error messages, which is the path for a file.
   [[nodiscard]] virtual const std::string& name() const = 0;
   /// Fills out with the bytes from offset on.
   /// ERRORS: mw::Error(kInput) with name, offset and length when there are fewer, or on I/O errors.
   virtual void read_at(std::uint64_t offset, std::span<std::byte> out) const = 0;
 };
 
-/// A run of bytes of a source that others own too, under a name of its own.
+/// A part of the bytes of a source that others may own too, under a name of its own.
 class BytesPart : public ByteSource {
  public:
   /// REQUIRES: offset + size within the source.

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: The mwmesh authors
 // SPDX-License-Identifier: Apache-2.0
-// A file, an unlinked temporary one, pieces of many files and files that a header names, as a
-// ByteSource.
+// A file, an unlinked temporary one or pieces of many files as a ByteSource, and the paths of files
+// that a header names.
 #pragma once
 
 #include <filesystem>
@@ -32,8 +32,8 @@ class FileSource : public ByteSource {
   std::string name_;
 };
 
-/// The bytes [skip, skip + piece_bytes) of each file, one after the other; skip -1: the last bytes.
-/// Files are opened for each read, so that there may be any number of them.
+/// The bytes [skip, skip + piece_bytes) of each file, one after the other; for a skip of -1, the
+/// last ones.  Files are opened for each read, so that there may be any number of them.
 class JoinedFiles : public ByteSource {
  public:
   /// REQUIRES: skip >= -1; the product of piece_bytes and the number of files fits into 64 bits.
@@ -54,15 +54,15 @@ class JoinedFiles : public ByteSource {
   std::string name_;
 };
 
-/// What a header, or the metadata of a store, names: in its folder, or below.  is_trusted: it may
-/// lead anywhere.  Links are followed.
+/// Returns the path that a header, or the metadata of a store, names: in its folder or below, or
+/// anywhere if the header is trusted.  Links are followed.
 /// ERRORS: mw::Error(kInput) naming the header and its field for names that lead elsewhere
-/// (absolute, or with ".."): a header from a stranger opens nothing else.
+/// (absolute, or with ".."), so that a header from a stranger opens nothing else.
 [[nodiscard]] std::filesystem::path named_path(const std::filesystem::path& header,
                                                std::string_view field, std::string_view name,
                                                bool is_trusted);
 
-/// Applies that rule to a file.  ERRORS: also for what is no file.
+/// Returns what named_path() does.  ERRORS: also mw::Error(kInput) for a path that is no file.
 [[nodiscard]] std::filesystem::path named_beside(const std::filesystem::path& header,
                                                  std::string_view field, std::string_view name,
                                                  bool is_trusted = false);

@@ -16,7 +16,7 @@ namespace {
 
 constexpr std::size_t kChunkBytes = 1 << 18;
 
-/// zlib's "window bits": the largest window, and the wrapper.
+/// Returns zlib's "window bits", which give the largest window and the framing.
 int window_bits(DeflateFraming framing) {
   constexpr int kWindow = 15;
   return kWindow + (framing == DeflateFraming::kGzipChain ? 16 : 32);
@@ -57,7 +57,7 @@ void Inflater::step() {
   if (verdict == Z_STREAM_END) {
     start_next_member();
   } else if (verdict == Z_BUF_ERROR && stream_.avail_in == 0) {
-    return;  // wants more input; refill tells whether there is any
+    return;  // it needs more input; refill() tells whether there is any
   } else if (verdict != Z_OK) {
     const char* reason = stream_.msg != nullptr ? stream_.msg : "damaged";
     fail_input(packed_.name(), deflated_.field,
@@ -80,7 +80,8 @@ void Inflater::refill() {
   stream_.avail_in = static_cast<uInt>(count);
 }
 
-/// Members may be chained; what follows the last and is no member is padding, as for gunzip.
+/// Goes on with a member that follows the one that ended.  Other bytes behind a member are padding,
+/// as for gunzip.
 void Inflater::start_next_member() {
   const std::uint64_t position = next_ - stream_.avail_in;
   done_ = deflated_.framing != DeflateFraming::kGzipChain || !is_gzip(packed_, position);
@@ -157,7 +158,7 @@ void InflatedSource::read_at(std::uint64_t offset, std::span<std::byte> out) con
   file_.read_at(offset, out);
 }
 
-/// Or to the end.
+/// Unpacks up to `size` bytes, or to the end.
 void InflatedSource::unpack_to(std::uint64_t size) const {
   if (size <= unpacked_) return;
   const std::lock_guard lock(mutex_);

@@ -25,15 +25,16 @@ enum class DeflateFraming {
 /// Where deflated bytes are.
 struct DeflatedBytes {
   std::uint64_t offset = 0;
-  std::uint64_t end = 0;  ///< behind the last byte that may be theirs
+  std::uint64_t end = 0;  ///< behind the last byte that may belong to them
   DeflateFraming framing = DeflateFraming::kGzipChain;
   std::string field = "gzip data";  ///< what errors call them
 };
 
-/// True if `packed` bytes of deflate can unpack to `bytes`: it cannot pack tighter than 1 to 1032.
+/// True if `packed` bytes of deflate can unpack to `bytes`; one byte unpacks to at most 1032.
 [[nodiscard]] bool can_inflate_to(std::uint64_t packed, std::uint64_t bytes);
 
-/// ERRORS of all: mw::Error(kInput) naming file and place when truncated or corrupt.
+/// Unpacks deflated bytes from front to back.
+/// ERRORS (all members): mw::Error(kInput) naming file and place when truncated or corrupt.
 /// Memory: 256 KiB and zlib's window.  Thread safety: none.
 class Inflater {
  public:
@@ -43,7 +44,7 @@ class Inflater {
   Inflater(const Inflater&) = delete;
   Inflater& operator=(const Inflater&) = delete;
 
-  /// Inflates into out; the number of bytes, less than out.size() only at the end.
+  /// Inflates into out; returns the number of bytes, less than out.size() only at the end.
   [[nodiscard]] std::size_t read(std::span<std::byte> out);
 
  private:
@@ -60,7 +61,7 @@ class Inflater {
 };
 
 /// Inflates the first `bytes` bytes into an unlinked temporary file in $TMPDIR or /tmp, so that
-/// memory stays bounded and the result can be read by region.  What follows them is not unpacked.
+/// memory stays bounded and the result can be read by region.  Later bytes are not unpacked.
 /// ERRORS: mw::Error(kInput) when there are fewer; kResource when the disk is full.
 [[nodiscard]] std::unique_ptr<ByteSource> inflate_to_scratch(const ByteSource& packed,
                                                              const DeflatedBytes& deflated,
@@ -70,14 +71,14 @@ class Inflater {
 /// the disk, too; the largest number where the system does not know.
 [[nodiscard]] std::uint64_t room_to_inflate();
 
-/// The bytes wait in an unlinked temporary file in $TMPDIR or /tmp, so that memory stays bounded
-/// and they can be read by region.  What a few bytes unpack to may be much, so ask size_within()
-/// rather than size(); formats that are read from their end cannot.
-/// ERRORS (all members): mw::Error(kInput) when corrupt or truncated so far; kResource when more
-/// would be unpacked than may be, or the disk is full.  Thread safety: that of a ByteSource.
+/// Unpacks to an unlinked temporary file in $TMPDIR or /tmp, as far as is asked for, so that memory
+/// stays bounded and the bytes can be read by region.  size() unpacks everything, which may be
+/// much, so that size_within() is better, except for formats that are read from their end.
+/// ERRORS (all members): mw::Error(kInput) when the data are corrupt or truncated so far; kResource
+/// when they unpack to more than allowed or the disk is full.  Thread safety: that of a ByteSource.
 class InflatedSource : public ByteSource {
  public:
-  /// Takes the gzip data that begin at offset.  max: how many bytes may be unpacked of them.
+  /// Takes the gzip data that begin at offset, of which at most max bytes may be unpacked.
   /// ERRORS: kInput when no gzip data begin there.
   InflatedSource(std::unique_ptr<ByteSource> packed, std::uint64_t offset,
                  std::uint64_t max = room_to_inflate());
@@ -93,7 +94,7 @@ class InflatedSource : public ByteSource {
   std::unique_ptr<ByteSource> packed_;
   std::uint64_t max_;
   UnlinkedFile file_;
-  mutable std::mutex mutex_;                    ///< of those that unpack
+  mutable std::mutex mutex_;                    ///< held while unpacking
   mutable std::unique_ptr<Inflater> inflater_;  ///< null at the end of the data
   mutable std::atomic<std::uint64_t> unpacked_ = 0;
   mutable bool is_too_large_ = false;

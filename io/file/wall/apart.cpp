@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The mwmesh authors
 // SPDX-License-Identifier: Apache-2.0
-// Work in a process of its own: fork, a pipe for the answer, limits.
+// Runs work in a process of its own, by fork, with limits and a pipe for the answer.
 #include "io/file/wall/apart.h"
 
 #include <fcntl.h>
@@ -22,10 +22,10 @@
 namespace mw::io {
 namespace {
 
-/// How the child ends.  Before kThrew comes the kind of the error, one byte, and its message.
+/// How the child ends.  Before kThrew it sends the kind of the error, one byte, and its message.
 enum ChildExit : int { kAnswered = 0, kThrew = 10, kNoMemory = 11, kOther = 12 };
 
-/// What a pipe holds while nobody reads: a message of this size never waits for that.
+/// The longest message of an error.  A pipe holds as much while nobody reads it.
 constexpr std::size_t kMaxMessage = 1 << 15;
 
 struct Pipe {
@@ -44,7 +44,7 @@ Pipe make_pipe() {
   return {FileDescriptor(ends[0]), FileDescriptor(ends[1])};
 }
 
-/// The address space of this process; 0 when the system does not tell.
+/// Returns the bytes of address space of this process; 0 when the system does not tell.
 std::uint64_t mapped_bytes() {
   std::uint64_t pages = 0;
   std::ifstream("/proc/self/statm") >> pages;
@@ -58,7 +58,8 @@ void set_limit(decltype(RLIMIT_AS) what, std::uint64_t soft) {
   ::setrlimit(what, &limit);
 }
 
-/// A crash is expected here: it kills quietly, whatever this program or a tool does about signals.
+/// Resets the signals, so that a crash, which is expected here, kills the child quietly, whatever
+/// this program or a tool does about signals.
 void forget_signals() {
   for (const int signal :
        {SIGABRT, SIGBUS, SIGFPE, SIGILL, SIGINT, SIGPIPE, SIGSEGV, SIGTERM, SIGXCPU}) {
@@ -99,7 +100,7 @@ ChildExit throw_over(int fd, const Error& error) {
   return kThrew;
 }
 
-/// In the child.
+/// Runs in the child.
 ChildExit do_work(const Pipe& data, const Pipe& errors,
                   const std::function<void(const SendBytes&)>& work) {
   try {
@@ -116,7 +117,7 @@ ChildExit do_work(const Pipe& data, const Pipe& errors,
   }
 }
 
-/// The child, as the parent sees it: it does not outlive this.
+/// The child as the parent sees it; it is killed when this object is destroyed.
 class Child {
  public:
   explicit Child(pid_t id) : id_(id) {}
@@ -128,7 +129,7 @@ class Child {
     wait();
   }
 
-  /// How it ended, as waitpid tells it.
+  /// Waits for its end and returns how it ended, as waitpid tells it.
   int wait() {
     int status = 0;
     while (::waitpid(id_, &status, 0) < 0 && errno == EINTR) {
@@ -196,13 +197,13 @@ std::string stream_apart(const ApartLimits& limits,
   const pid_t id = ::fork();
   if (id < 0) fail_child("start");
   if (id == 0) {
-    // A pipe is broken only when nobody could read it.
+    // The child closes its reading ends, since a pipe breaks only when nobody can read it.
     data.out = FileDescriptor();
     errors.out = FileDescriptor();
     forget_signals();
     be_quiet();
     limit_child(limits);
-    // No destructors and exit handlers: what they would finish belongs to the parent.
+    // _exit() runs no destructors and exit handlers: what they would finish belongs to the parent.
     ::_exit(do_work(data, errors, work));
   }
   Child child(id);
@@ -210,7 +211,7 @@ std::string stream_apart(const ApartLimits& limits,
   errors.in = FileDescriptor();
   ApartStream stream(data.out.get());
   consume(stream);
-  data.out = FileDescriptor();  // a child that has more to say ends by that
+  data.out = FileDescriptor();  // a child that has more to send ends by that
   const std::string message = read_message(errors);
   const int status = child.wait();
   if (!WIFEXITED(status)) return death_of(status);

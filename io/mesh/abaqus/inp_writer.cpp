@@ -11,22 +11,22 @@
 namespace mw::io {
 namespace {
 
-/// Two lines, "**" in front: the format has no end, so a file that has the first and not the second
+/// The format marks no end, so a file with the first of these two comments and without the second
 /// was cut.
 constexpr std::string_view kInpBegins = "** This mesh ends with a comment END OF MESH.";
 constexpr std::string_view kInpEnds = "** END OF MESH";
 
 constexpr std::uint64_t kMaxNumber = 999'999'999;
 
-/// The face of a C3D4 or C3D10 that lies opposite to a corner: S1 has its nodes 1 2 3, S2 1 4 2,
-/// S3 2 4 3, S4 3 4 1.
+/// Returns the face of a C3D4 or C3D10 that lies opposite to a corner: S1 has the nodes 1 2 3, S2
+/// has 1 4 2, S3 has 2 4 3, S4 has 3 4 1.
 const char* face_name(std::uint64_t opposite) {
   constexpr std::array<const char*, 4> kFaces{", S3", ", S4", ", S2", ", S1"};
   return kFaces[opposite];
 }
 
-/// `** Grey_matter: label 7 "Grey matter" 255 0 0 255`; the label alone where that is longer than
-/// the 256 characters that Abaqus allows.
+/// Returns `** Grey_matter: label 7 "Grey matter" 255 0 0 255`; the name is empty where that would
+/// be longer than the 256 characters that Abaqus allows.
 std::string inp_comment(const std::string& set, const LabelName& row, bool is_signed) {
   constexpr std::size_t kMaxBytes = 256;
   const auto comment = [&](const LabelName& told) {
@@ -45,7 +45,7 @@ class InpWriter::NumberRows {
   explicit NumberRows(InpWriter& writer) : writer_(writer) {}
 
   void add(std::uint64_t number) {
-    constexpr std::size_t kMaxItems = 16;  // of a data line
+    constexpr std::size_t kMaxItems = 16;  // in a data line
     if (count_ == kMaxItems) end();
     row_ += text(count_++ == 0 ? "" : ", ", number);
   }
@@ -222,7 +222,7 @@ void InpWriter::write_section(const std::string& set) {
   line(text("*SOLID SECTION, ELSET=", set, ", MATERIAL=", set));
 }
 
-/// One for each set, and one for the tets that are in none.
+/// Writes a section for each set of a material, and one for the tets that are in none.
 void InpWriter::write_material_sections(GroupedMesh& mesh, PlainNames& names) {
   std::uint64_t in_sets = 0;
   for (std::uint32_t m = 1; m <= materials_->count(); ++m) {

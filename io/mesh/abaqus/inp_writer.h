@@ -14,20 +14,21 @@
 
 namespace mw::io {
 
-/// Nodes are 1 + row, elements C3D4 or C3D10 from 1 on, in a set a label, which has its name, or
-/// LABEL_7 (LABEL_M7 of -7): see PlainNames.  An interface is two surfaces of the same faces,
-/// FACE_1_2 of the lower label's elements and FACE_2_1 of the other's, as contact and ties want
-/// them; a side of the box is one surface X_MIN .. Z_MAX (or OUTER) of all labels.  The nodes of
-/// each, of an interface once, are a node set of the same name.  Comments say which set a named
-/// label is, with its name and colour as in MEDIT files.
+/// Writes nodes numbered 1 + row and elements C3D4 or C3D10 from 1 on, in a set for each label,
+/// which has the label's name or is LABEL_7 (LABEL_M7 for -7): see PlainNames.  An interface is two
+/// surfaces of the same faces, FACE_1_2 of the lower label's elements and FACE_2_1 of the other's,
+/// as contact and ties want them; a side of the box is one surface X_MIN .. Z_MAX (or OUTER) of all
+/// labels.  The nodes of each, those of an interface once unless vertices were doubled, are a node
+/// set of the same name.  Comments tell the set of each named label, with its name and colour as in
+/// MEDIT files.
 /// Wedges between the sides of an interface are elements COH3D6 behind the tets, in a set
 /// COHESIVE_1_2: their nodes 1 2 3 are on the side of label 1, and 4 5 6 on that of label 2.
-/// Between tets of ten nodes they are not written: Abaqus has no such element.  Materials are
-/// element sets beside those of the labels; empty ones are left out.  A deck is a job for CalculiX:
-/// a material with placeholders and a section for each label, or for each material and the elements
-/// in none, and one static step (MeshExtras::deck).  Memory: 9 MiB.  ERRORS: see
-/// AtomicFile; mw::Error(kUsage) above 999,999,999 nodes or elements, which is all that Abaqus has
-/// numbers for.
+/// Between tets of ten nodes they are not written, because Abaqus has no such element.  Materials
+/// are element sets beside those of the labels; empty ones are left out.  A deck is a job for
+/// CalculiX: a material with placeholders and a section for each label, or for each material and
+/// the elements in none, and one static step (MeshExtras::deck).
+/// Memory: 9 MiB.  ERRORS: see AtomicFile; mw::Error(kUsage) above 999,999,999 nodes or elements,
+/// which is all that Abaqus has numbers for.
 class InpWriter : public GroupedWriter {
  public:
   explicit InpWriter(const std::filesystem::path& path, const MeshExtras& extras = {})
@@ -54,7 +55,7 @@ class InpWriter : public GroupedWriter {
   void write_material_sections(GroupedMesh& mesh, PlainNames& names);
   template <class Where>
   void write_nodes_where(GroupedMesh& mesh, const std::string& name, Where where);
-  /// One of many rows of numbers, 16 to a line.
+  /// Writes numbers in rows of 16 to a line.
   class NumberRows;
   void write_node_set(GroupedMesh& mesh, const std::string& name, RowRange facets, bool of_second);
   void line(std::string_view line, std::string_view more = {});
@@ -64,7 +65,7 @@ class InpWriter : public GroupedWriter {
   AtomicFile file_;
   std::optional<MaterialRule> rule_;
   std::optional<MaterialSets> materials_;
-  std::optional<AtomicFile> table_;  ///< of the materials
+  std::optional<AtomicFile> table_;  ///< table of the materials
   bool has_deck_ = false;
 };
 

@@ -119,8 +119,8 @@ void CdbWriter::write_element(std::uint64_t material, std::uint64_t type, std::u
                               const NodeRows& nodes) {
   constexpr std::size_t kOnFirstLine = 8;
   std::string out;
-  // Behind the type: real constants, section, coordinates, birth, solid model, shape; then how many
-  // nodes there are, and a field that is not used.
+  // Behind the type are real constants, section, coordinates, death, solid model, shape, number of
+  // nodes, and a field that is not used.
   for (const std::uint64_t item :
        {material, type, std::uint64_t{1}, std::uint64_t{1}, std::uint64_t{0}, std::uint64_t{0},
         std::uint64_t{0}, std::uint64_t{0}, std::uint64_t{nodes.size()}, std::uint64_t{0},

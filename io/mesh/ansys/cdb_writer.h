@@ -9,13 +9,14 @@
 
 namespace mw::io {
 
-/// NBLOCK, and EBLOCK with tets SOLID285, or SOLID187 of ten nodes, of type 1.  The material of a
-/// tet is the number of its label in the table beside the file (label_numbers.h), from 1 to the
-/// number of labels, with EX and PRXY as placeholders; a component of elements has the label's name
-/// (PlainNames, with at most 32 characters, and '_' for '-').  The nodes of each interface and side
-/// of the box are a component of nodes, X_MIN, and the triangles are elements MESH200 of type 2,
-/// which no solution sees, in a component F_X_MIN; of an interface two, F_FACE_1_2 with normals out
-/// of label 1, F_FACE_2_1 the other way.  Nodes count from 1, elements too, tets first.
+/// Writes NBLOCK, and EBLOCK with tets of type 1: SOLID285, or SOLID187 with ten nodes.  The
+/// material of a tet is the number of its label in the table beside the file (label_numbers.h),
+/// from 1 to the number of labels, with EX and PRXY as placeholders; a component of elements has
+/// the label's name (PlainNames, with at most 32 characters, and '_' for '-').  The nodes of each
+/// interface and side of the box are a component of nodes, such as X_MIN (two for an interface if
+/// the mesh has doubled vertices).  The triangles are elements MESH200 of type 2, which no solution
+/// sees, in a component F_X_MIN; an interface has two, F_FACE_1_2 with normals out of label 1, and
+/// F_FACE_2_1 the other way.  Nodes and elements count from 1, tets first.
 /// Memory: 9 MiB.  ERRORS: see AtomicFile; mw::Error(kUsage) above 99,999,999 nodes or elements,
 /// since fields have nine columns and one stays blank.
 class CdbWriter : public GroupedWriter {
@@ -29,7 +30,7 @@ class CdbWriter : public GroupedWriter {
   void write(GroupedMesh& mesh) override;
 
  private:
-  /// Triangles of one component.
+  /// The triangles of one component.
   struct Faces {
     std::string name;
     RowRange facets;
@@ -43,7 +44,7 @@ class CdbWriter : public GroupedWriter {
   void write_faces(GroupedMesh& mesh, const Faces& faces, std::uint64_t first);
   void write_element(std::uint64_t material, std::uint64_t type, std::uint64_t number,
                      const NodeRows& nodes);
-  /// Elements first .. last, of which there is one or more.
+  /// Writes a component of elements.  REQUIRES: there is at least one.
   void write_element_set(const std::string& name, RowRange elements);
   void write_node_set(GroupedMesh& mesh, const std::string& name, RowRange facets, bool of_second);
   void line(std::string_view line);

@@ -16,7 +16,7 @@ namespace {
 constexpr std::size_t kNameBytes = 80;
 constexpr std::size_t kRowsAtOnce = 4096;
 
-/// The side of an element that lies opposite to a corner.
+/// Returns the side of an element that lies opposite to a corner.
 int side_opposite(std::uint64_t corner) {
   constexpr std::array<int, 4> kSides{2, 3, 1, 4};
   return kSides[corner];
@@ -132,7 +132,7 @@ void ExodusWriter::define(GroupedMesh& mesh, Plan& plan) {
                      text("mwmesh: tetrahedra of ", mesh.table().size(), " labels"));
   name_length_ = out_.add_dimension("len_name", kNameBytes + 1);
   out_.add_dimension("num_dim", 3);
-  // Steps could be added to the file of a mesh without values.
+  // Without values there are no steps; length 0 means that some may be added.
   time_step_ = out_.add_dimension("time_step", mesh.header().values.empty() ? 0 : 1);
   if (mesh.node_count() > 0) {
     const int nodes = out_.add_dimension("num_nodes", mesh.node_count());
@@ -210,7 +210,7 @@ void ExodusWriter::write_element_sets(const Plan& plan) {
   materials_->append_table(*table_);
 }
 
-/// Variables of elements, in one step at time 0.
+/// Defines the variables of elements, which have one step at time 0.
 void ExodusWriter::define_values(const GroupedMesh& mesh, Plan& plan,
                                  const std::vector<int>& elements) {
   const std::size_t count = mesh.header().values.size();

@@ -11,17 +11,18 @@
 
 namespace mw::io {
 
-/// A block of TETRA or TETRA10 for each label, whose id is the label's number in the table beside
-/// the file (label_numbers.h) and whose name is PlainNames'.  Two side sets for each interface,
-/// FACE_1_2 of the tets of label 1 and FACE_2_1 of those of label 2; one for each side of the box
-/// (X_MIN to Z_MAX), and OUTER for what else bounds the mesh.  The nodes of each of these, of an
-/// interface once, are a node set of the same name.  Side and node sets have ids from 1 on.  The
-/// elements of a block have their faces numbered as Exodus II does: side 1 has the nodes 1 2 4,
-/// side 2 has 2 3 4, side 3 has 1 4 3, side 4 has 1 3 2.
+/// Writes a block of TETRA or TETRA10 for each label, whose id is the label's number in the table
+/// beside the file (label_numbers.h) and whose name is PlainNames'.  There are two side sets for
+/// each interface, FACE_1_2 of the tets of label 1 and FACE_2_1 of those of label 2; one for each
+/// side of the box (X_MIN to Z_MAX), and OUTER for what else bounds the mesh.  The nodes of each of
+/// these, those of an interface once unless vertices were doubled, are a node set of the same name.
+/// Side and node sets have ids from 1 on.  Faces of elements are numbered as Exodus II does: side 1
+/// has the nodes 1 2 4, side 2 has 2 3 4, side 3 has 1 4 3, side 4 has 1 3 2.
 /// Wedges between the sides of an interface are blocks of WEDGE behind those of labels, with ids
 /// above theirs and names such as COHESIVE_1_2; between tets of ten nodes they are not written,
 /// because VTK's reader and libMesh know no wedge of 12 nodes.
-/// Memory: 9 MiB.  ERRORS: see NetcdfOutput; mw::Error(kUsage) above 2,147,483,647 nodes or tets.
+/// Materials are element sets, and empty ones are left out.  Memory: 9 MiB.
+/// ERRORS: see NetcdfOutput; mw::Error(kUsage) above 2,147,483,647 nodes or elements.
 class ExodusWriter : public GroupedWriter {
  public:
   explicit ExodusWriter(const std::filesystem::path& path, const MeshExtras& extras = {})
@@ -36,15 +37,15 @@ class ExodusWriter : public GroupedWriter {
   void write(GroupedMesh& mesh) override;
 
  private:
-  /// One side set: facets, seen from one of their labels.
+  /// A side set, which is facets as one of their labels has them.
   struct SideSet {
     std::string name;
     RowRange facets;
     bool of_second = false;
-    int elements = 0;  ///< variables of the file
+    int elements = 0;  ///< like sides, a variable of the file
     int sides = 0;
   };
-  /// One node set.
+  /// A set of the nodes of facets.
   struct NodeSet {
     std::string name;
     RowRange facets;
@@ -52,13 +53,13 @@ class ExodusWriter : public GroupedWriter {
     bool of_second = false;
     int variable = 0;
   };
-  /// One set of elements: a material.
+  /// A set of the elements of a material.
   struct ElementSet {
     std::string name;
     std::uint32_t material = 0;
     int variable = 0;
   };
-  /// What is written, with the variables that hold it.
+  /// The contents of the file, with the variables that hold them.
   struct Plan {
     std::vector<std::string> blocks;  ///< names, by rank of label; then those of wedges
     std::vector<int> ids;
@@ -85,7 +86,7 @@ class ExodusWriter : public GroupedWriter {
                             std::size_t members);
   void write_list(const ListVariables& list, const std::vector<std::string>& names,
                   std::span<const int> ids);
-  /// elements: dimensions, by block.
+  /// elements holds the dimension of each block.
   void define_values(const GroupedMesh& mesh, Plan& plan, const std::vector<int>& elements);
   [[nodiscard]] std::vector<int> define_blocks(const GroupedMesh& mesh, Plan& plan);
   void write_nodes(GroupedMesh& mesh, const Plan& plan);
@@ -97,14 +98,14 @@ class ExodusWriter : public GroupedWriter {
   void define_element_sets(Plan& plan);
   void write_element_sets(const Plan& plan);
 
-  std::filesystem::path folder_;  ///< of temporary files
+  std::filesystem::path folder_;  ///< for temporary files
   std::string name_;
   NetcdfOutput out_;
   AtomicFile labels_;
   std::optional<MaterialRule> rule_;
-  std::optional<AtomicFile> table_;  ///< of the materials
+  std::optional<AtomicFile> table_;  ///< table of the materials
   std::optional<MaterialSets> materials_;
-  int name_length_ = 0;  ///< dimensions that several lists have
+  int name_length_ = 0;  ///< a dimension that several lists have
   int time_step_ = 0;
   ListVariables block_list_;
   ListVariables side_set_list_;

@@ -14,7 +14,7 @@ namespace {
 
 constexpr std::uint64_t kMaxVariableBytes = (std::uint64_t{1} << 32U) - 4;
 constexpr std::uint64_t kPadding = 4;
-// Tags of lists.
+// The tags of lists.
 constexpr std::uint32_t kDimensions = 10, kVariables = 11, kAttributes = 12;
 
 template <class Word>
@@ -42,7 +42,7 @@ void append_name(std::string& out, const std::string& name) {
   append_padded(out, name);
 }
 
-/// A list of nothing is two zeros.
+/// Appends the head of a list; an empty list is two zeros.
 void append_list_head(std::string& out, std::uint32_t tag, std::size_t members) {
   append_word32(out, members == 0 ? 0 : tag);
   append_word32(out, members);

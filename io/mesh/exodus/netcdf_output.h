@@ -15,7 +15,7 @@
 
 namespace mw::io {
 
-/// A file of netCDF's 64-bit offset form ("CDF-2" of its format specification), which every version
+/// A file in netCDF's 64-bit offset form ("CDF-2" of its format specification), which every version
 /// of the library reads.  First dimensions, variables and attributes are added, then begin_data()
 /// is called, then values are written in any order.  Values that are not written are zeros.
 /// Thread safety: none.
@@ -25,9 +25,9 @@ class NetcdfOutput {
  public:
   explicit NetcdfOutput(const std::filesystem::path& path) : name_(path.string()), file_(path) {}
 
-  /// Returns the id of a dimension.  length: 0 for the one that may grow.
+  /// Adds a dimension and returns its id; length is 0 for the one that may grow.
   int add_dimension(const std::string& name, std::uint64_t length);
-  /// Return the id of a variable over dimensions that do not grow.
+  /// Add a variable over dimensions that do not grow, and return its id.
   int add_integers(const std::string& name, const std::vector<int>& dimensions);
   int add_doubles(const std::string& name, const std::vector<int>& dimensions);
   int add_texts(const std::string& name, const std::vector<int>& dimensions);
@@ -40,12 +40,12 @@ class NetcdfOutput {
 
   /// Places the variables and writes what tells of them.
   void begin_data();
-  /// Write rows from `first` on.  columns: values of a row.
+  /// Write rows from `first` on; columns is the number of values of a row.
   void put(int variable, std::uint64_t first, std::span<const int> values, std::size_t columns = 1);
   void put(int variable, std::uint64_t first, std::span<const double> values);
-  /// Writes one text into a row of max_bytes + 1 characters; what is longer than max_bytes is cut.
+  /// Writes a text into a row of max_bytes + 1 characters, cut where it is longer than max_bytes.
   void put_text(int variable, std::uint64_t row, const std::string& value, std::size_t max_bytes);
-  /// Gives the file its name together with `beside`, a file that belongs to it.
+  /// Give the file its name together with files that belong to it.
   void commit(AtomicFile& beside) { commit_together({beside, file_}); }
   void commit(AtomicFile& beside, AtomicFile& other) { commit_together({beside, other, file_}); }
 
@@ -79,7 +79,7 @@ class NetcdfOutput {
   AtomicFile file_;
   std::vector<Dimension> dimensions_;
   std::vector<Variable> variables_;
-  std::vector<Attribute> attributes_;  ///< of the whole file
+  std::vector<Attribute> attributes_;  ///< those of the whole file
 };
 
 }  // namespace mw::io

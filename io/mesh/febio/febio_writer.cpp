@@ -25,7 +25,7 @@ constexpr std::string_view kHead =
 constexpr const char* kLowSet = "deck_low";
 constexpr const char* kHighSet = "deck_high";
 
-/// Gives each name once.
+/// Gives each name once, escaped for XML.
 class UniqueNames {
  public:
   [[nodiscard]] std::string next(const std::string& wanted) {
@@ -38,7 +38,7 @@ class UniqueNames {
   std::set<std::string> taken_;
 };
 
-/// By rank of label, escaped.
+/// Returns the names of parts by rank of label, escaped.
 std::vector<std::string> part_names(const GroupedMesh& mesh) {
   const GroupNames names(mesh);
   UniqueNames unique;
@@ -49,14 +49,14 @@ std::vector<std::string> part_names(const GroupedMesh& mesh) {
   return out;
 }
 
-/// Rows count from 1 in the file.
+/// Appends a cell, whose rows count from 1 in the file.
 void append_cell(AtomicFile& file, std::string_view tag, std::uint64_t id, const NodeRows& rows) {
   NumberLine line(',');
   for (const std::uint64_t row : rows) line.add(row + 1);
   file.append(text("      <", tag, " id=\"", id, "\">", line.numbers(), "</", tag, ">\n"));
 }
 
-/// Nodes of a facet as they are seen from its other side.
+/// Returns the nodes of a facet as they are seen from its other side.
 NodeRows turned(const NodeRows& nodes) {
   constexpr std::array<std::size_t, 6> kOrder{0, 2, 1, 5, 4, 3};
   NodeRows out;
@@ -89,7 +89,7 @@ void FebioWriter::write(GroupedMesh& mesh) {
   commit_together({labels_, file_});
 }
 
-/// By number, since FEBio takes ids in their order alone.
+/// Writes materials by number, since FEBio takes ids only in their order.
 void FebioWriter::write_materials(const std::vector<std::string>& parts,
                                   const LabelNumbers& numbers) {
   std::vector<std::size_t> ranks(parts.size());

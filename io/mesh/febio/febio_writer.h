@@ -11,17 +11,17 @@
 
 namespace mw::io {
 
-/// febio_spec 4.0 with what FEBio Studio needs to import a mesh, and nothing that loads it unless a
-/// deck is asked for:
-///   Material     one a label, of its name, a neo-Hookean placeholder; ids are 1 to the number of
-///                labels, as FEBio wants them: the numbers of M.feb.labels.csv (label_numbers.h)
+/// Writes febio_spec 4.0 with what FEBio Studio needs to import a mesh, and nothing that loads it
+/// unless a deck is asked for:
+///   Material     a neo-Hookean placeholder for each label, with its name; ids are 1 to the number
+///                of labels, as FEBio wants them, from M.feb.labels.csv (label_numbers.h)
 ///   Mesh         Nodes; Elements tet4 or tet10 for each label; a Surface (tri3 or tri6) for each
 ///                side of the box, and two for each interface: liver|cyst with normals out of the
 ///                liver, cyst|liver the other way; all ids count from 1
-///   MeshDomains  part to material
-///   Boundary, Step, LoadData, Output   of a deck alone (MeshExtras::deck): a static step of ten
+///   MeshDomains  the material of each part
+///   Boundary, Step, LoadData, Output   only with a deck (MeshExtras::deck): a static step of ten
 ///                increments; where the mesh does not reach both sides there are node sets, too
-/// Parts and surfaces have the names of group_names.h, with _2 and so on behind one that was there.
+/// Parts and surfaces have the names of group_names.h, with _2 and so on behind taken ones.
 class FebioWriter : public GroupedWriter {
  public:
   explicit FebioWriter(const std::filesystem::path& path, const MeshExtras& extras = {})
@@ -33,7 +33,7 @@ class FebioWriter : public GroupedWriter {
   void write_nodes(GroupedMesh& mesh);
   void write_part(GroupedMesh& mesh, RowRange tets, const std::string& name);
   void write_surfaces(GroupedMesh& mesh);
-  /// name: escaped.
+  /// REQUIRES: name is escaped.
   void write_surface(GroupedMesh& mesh, RowRange facets, const std::string& name, bool is_turned);
   void write_domains(const std::vector<std::string>& parts);
   void write_node_sets(GroupedMesh& mesh, const DeckEnds& ends);

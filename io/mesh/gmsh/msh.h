@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The mwmesh authors
 // SPDX-License-Identifier: Apache-2.0
-// Gmsh's .msh files: 4.1 and 2.2 in, and out as .msh and .msh2.
+// Reads Gmsh's .msh files of versions 4.1 and 2.2, and writes them as .msh and .msh2.
 #pragma once
 
 #include <filesystem>
@@ -16,29 +16,30 @@
 
 namespace mw::io {
 
-/// Versions 4.1 and 2.2, text and binary of either byte order; may be gzipped.  Takes tets of every
-/// order, of which corners alone, and skips other elements.  Rows are nodes by their tags.  The
-/// label is the first physical group of the tet's volume, or the volume's tag where it is in none:
-/// of that number, or what the table beside the file says (append_label_table).  Without a table,
-/// names are those of physical volumes.  The record is that of a comment, where MshWriter has left
-/// one; the wedges follow from it.  Values are those of sections ElementData with one component,
-/// under the names of their views (value_names()).  ERRORS: mw::Error(kInput) with file and place;
-/// also for other versions, partitioned meshes, and elements of which none is a tet.
+/// Reads versions 4.1 and 2.2, as text or binary of either byte order, also gzipped.  Takes the
+/// corners of tets of every order, and skips other elements.  Rows are nodes by their tags.  The
+/// first physical group of a tet's volume, or the volume's tag where it is in none, gives the
+/// label: the number itself, or what the table beside the file has for it (append_label_table).
+/// Without a table, names are those of physical volumes.  The record is that of a comment, where
+/// MshWriter has left one; the wedges follow from it.  Values are those of sections ElementData
+/// with one component, under the names of their views (value_names()).  ERRORS: mw::Error(kInput)
+/// with file and place; also for other versions, partitioned meshes, and elements of which none is
+/// a tet.
 [[nodiscard]] MeshData read_msh(const std::filesystem::path& path);
 
-/// A volume a label, whose tag and physical group are the label's number (LabelNumbers: from 1 to
-/// what leaves room for the surfaces), and a surface a facet group, with normals out of the lower
-/// label.  Where L is the largest number of a label in the file, surfaces are tagged from L + 1 on,
-/// and physical surfaces are L + 1 x_min, L + 2 x_max, .. L + 6 z_max, L + 7 outer, of all labels
-/// together; from L + 8 on the
-/// interfaces, in the order of their labels.  Names are GroupNames'; those that are longer than
-/// Gmsh reads are "LABEL_7", "FACE_1_2".  Nodes are tagged 1 + row, triangles and tets from 1 on.
-/// Wedges between the sides of an interface are prisms in a volume of their own, above the
-/// surfaces, COHESIVE_1_2 as in .inp; a comment holds the record then.  Those of tets of ten nodes
-/// would need nodes between the two sides, and are not written.  Materials are one more
-/// ElementData, "hu_material" of values "hu", 0 where there is no value.  The table of labels is
-/// written beside it, and that of materials.  Entities may be in several pieces, which Gmsh's
-/// createTopology() parts, forgetting their groups; createTopology(False) keeps them.
+/// Writes a volume for each label, whose tag and physical group are the label's number
+/// (LabelNumbers, from 1 to what leaves room for the surfaces), and a surface for each facet group,
+/// with normals out of the lower label.  Where L is the largest number of a label in the file,
+/// surfaces are tagged from L + 1 on.  Physical surfaces are L + 1 x_min, L + 2 x_max, .. L + 6
+/// z_max, L + 7 outer, each for all labels together, and from L + 8 on the interfaces, in the order
+/// of their labels.  Names are GroupNames'; those that are longer than Gmsh reads are "LABEL_7",
+/// "FACE_1_2".  Nodes are tagged 1 + row, triangles and tets from 1 on.
+/// Wedges between the sides of an interface are prisms in a volume of their own, with a tag above
+/// those of surfaces and a name such as COHESIVE_1_2; a comment holds the record then.  Between
+/// tets of ten nodes they would need nodes between the two sides, and are not written.  Materials
+/// are one more ElementData, "hu_material" for values "hu", 0 where there is no value.  The tables
+/// of labels and of materials are written beside the mesh.  Entities may be in several pieces,
+/// which Gmsh's createTopology() parts, forgetting their groups; createTopology(False) keeps them.
 class MshWriter : public GroupedWriter {
  public:
   explicit MshWriter(const std::filesystem::path& path, const MeshExtras& extras = {})
@@ -49,13 +50,13 @@ class MshWriter : public GroupedWriter {
   void write(GroupedMesh& mesh) override;
 
  private:
-  /// What all sections need.
+  /// The contents of the mesh that all sections need.
   struct Contents {
     GroupedMesh& mesh;
     LabelNumbers numbers;
     NodeClasses classes;
   };
-  /// How Gmsh calls an entity.
+  /// The numbers by which Gmsh knows an entity.
   struct Tag {
     std::int32_t dimension = 0;
     std::int32_t tag = 0;
@@ -74,12 +75,12 @@ class MshWriter : public GroupedWriter {
 
   MshEncoder out_;
   MshTables tables_;
-  std::filesystem::path folder_;  ///< of temporary files
+  std::filesystem::path folder_;  ///< for temporary files
 };
 
-/// Writes the groups, names, numbers and table of MshWriter in version 2.2, as text, for programs
+/// Writes the groups, names, numbers and tables of MshWriter in version 2.2, as text, for programs
 /// that read no later one (GetFEM); Gmsh's own ending for it is .msh2.  Elements are triangles,
-/// then tets.
+/// then tets, then wedges.
 class Msh2Writer : public GroupedWriter {
  public:
   explicit Msh2Writer(const std::filesystem::path& path, const MeshExtras& extras = {})
@@ -90,7 +91,7 @@ class Msh2Writer : public GroupedWriter {
  private:
   void write_nodes(GroupedMesh& mesh);
   void write_elements(GroupedMesh& mesh, const LabelNumbers& numbers);
-  /// physical, entity: numbers of the element's groups.  nodes: rows in Gmsh's order.
+  /// physical and entity are the numbers of the element's groups; nodes are in Gmsh's order.
   void write_element(std::uint64_t number, std::int32_t type, std::int64_t physical,
                      std::int64_t entity, const NodeRows& nodes);
 

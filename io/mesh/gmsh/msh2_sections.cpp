@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The mwmesh authors
 // SPDX-License-Identifier: Apache-2.0
-// The sections of .msh 2.2, in which many tools still write.
+// Reads the sections of .msh 2.2, which many tools still write.
 #include "io/mesh/gmsh/msh_sections.h"
 
 #include <cstdlib>
@@ -12,7 +12,7 @@
 namespace mw::io {
 namespace {
 
-/// The count of a section, which is text in binary files too.
+/// Reads the count of a section, which is text in binary files too.
 std::uint64_t read_rows(MshInput& in) {
   const auto rows = parse_integer(in.next_line("a number of rows"));
   if (!rows || *rows < 0) in.fail("no number of rows");
@@ -24,7 +24,7 @@ std::uint64_t positive(const MshInput& in, std::int64_t number) {
   return static_cast<std::uint64_t>(number);
 }
 
-/// The first word about an element: what sort it is.
+/// What the head of an element says: how many nodes and tags it has, and whether it is a tet.
 struct Kind {
   std::uint64_t nodes = 0;
   std::uint64_t tags = 0;
@@ -39,7 +39,7 @@ Kind kind_of(const MshInput& in, std::int64_t type, std::int64_t tags) {
   return {nodes, static_cast<std::uint64_t>(tags), is_msh_tet(type)};
 }
 
-/// Tags and nodes of one element.
+/// Reads the tags and nodes of one element.
 void read_element(MshInput& in, std::int64_t element, const Kind& kind, MshContent& out) {
   std::int64_t physical = 0;
   std::int64_t entity = 0;
@@ -63,7 +63,7 @@ void read_text_element(MshInput& in, MshContent& out) {
   read_element(in, element, kind_of(in, type, in.integer("a number of tags")), out);
 }
 
-/// Elements of one type behind a common head.
+/// Reads elements of one type behind a common head.
 void read_element_block(MshInput& in, std::uint64_t max, MshContent& out) {
   const std::int64_t type = in.integer("a type of elements");
   const std::int64_t rows = in.integer("a number of elements");

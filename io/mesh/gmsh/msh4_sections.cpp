@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The mwmesh authors
 // SPDX-License-Identifier: Apache-2.0
-// The sections of .msh 4.1.
+// Reads the sections of .msh 4.1.
 #include "io/mesh/gmsh/msh_sections.h"
 
 #include <cstdlib>
@@ -13,7 +13,7 @@ namespace {
 
 constexpr std::int64_t kVolume = 3;
 
-/// A list of 32-bit numbers behind their count; the first, or 0 of none.
+/// Reads a list of 32-bit numbers behind their count; returns the first, or 0 where there is none.
 std::int64_t read_tags(MshInput& in, std::string_view expected) {
   const std::uint64_t count = in.count(expected);
   in.check_rows(count, sizeof(std::int32_t), 1);
@@ -29,12 +29,12 @@ void read_entity(MshInput& in, std::int64_t dimension, MshContent& out) {
   const std::int64_t tag = in.integer("the tag of an entity");
   in.skip_reals(dimension == 0 ? 3 : 6);  // its place or box
   const std::int64_t physical = read_tags(in, "a physical group");
-  // The sign tells the orientation.
+  // The sign of a group tells the orientation.
   if (dimension == kVolume && physical != 0) out.physical_of[tag] = std::abs(physical);
   if (dimension > 0) static_cast<void>(read_tags(in, "what bounds an entity"));
 }
 
-/// The numbers of a block of nodes, then their places.
+/// Reads a block of nodes: their numbers, then their positions.
 void read_node_block(MshInput& in, MshContent& out) {
   const std::int64_t dimension = in.integer("the dimension of a block of nodes");
   static_cast<void>(in.integer("the entity of a block of nodes"));
@@ -71,7 +71,7 @@ std::uint64_t read_element_block(MshInput& in, MshContent& out) {
   return rows;
 }
 
-/// The head of a section of blocks, whose number it returns.
+/// Reads the head of a section of blocks, and returns the number of blocks.
 std::uint64_t read_head(MshInput& in, std::uint64_t& rows) {
   const std::uint64_t blocks = in.count("a number of blocks");
   rows = in.count("a number of rows");

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The mwmesh authors
 // SPDX-License-Identifier: Apache-2.0
-// Sections and numbers of a .msh 4.1 file, as text or as bytes.
+// Writes the sections and numbers of a .msh file, as text or as bytes.
 #include "io/mesh/gmsh/msh_encoder.h"
 
 #include <array>

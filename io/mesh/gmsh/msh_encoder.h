@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The mwmesh authors
 // SPDX-License-Identifier: Apache-2.0
-// Sections and numbers of a .msh 4.1 file, as text or as bytes.
+// Writes the sections and numbers of a .msh file, as text or as bytes.
 #pragma once
 
 #include <filesystem>
@@ -11,28 +11,28 @@
 
 namespace mw::io {
 
-/// Numbers are put in rows; text has a line for each, binary (little-endian) nothing between them.
+/// Puts numbers in rows, each a line in text; binary (little-endian) has nothing between rows.
 /// ERRORS: see AtomicFile.
 class MshEncoder {
  public:
   MshEncoder(const std::filesystem::path& path, bool ascii) : file_(path), ascii_(ascii) {}
 
   [[nodiscard]] bool ascii() const { return ascii_; }
-  /// "$Nodes".
+  /// Adds a line such as "$Nodes".
   void begin_section(std::string_view name) { add_line("$", name); }
-  /// "$EndNodes".
+  /// Adds a line such as "$EndNodes".
   void end_section(std::string_view name);
-  /// Text in either kind of file.
+  /// Adds a line, which is text in either kind of file.
   void add_line(std::string_view line, std::string_view more = {});
 
-  /// 4 bytes.
+  /// Puts a number, which has 4 bytes in binary.
   void put(std::int32_t number);
-  /// 8 bytes.
+  /// Put a number, which has 8 bytes in binary.
   void put(std::uint64_t number);
   void put(double number);
   void end_row();
 
-  /// To be committed with others.
+  /// Returns the file, which is to be committed with others.
   [[nodiscard]] AtomicFile& file() { return file_; }
 
  private:

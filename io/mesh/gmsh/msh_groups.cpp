@@ -15,7 +15,7 @@ std::int32_t above(const LabelNumbers& labels, std::size_t number) {
   return static_cast<std::int32_t>(labels.largest() + static_cast<std::int64_t>(number));
 }
 
-/// Gmsh documents 127 bytes and knows no way to write a quote.
+/// Returns a name that Gmsh reads: it documents 127 bytes and knows no way to write a quote.
 std::string gmsh_name(std::string name, const std::string& plain) {
   constexpr std::size_t kMaxBytes = 127;
   if (name.size() > kMaxBytes) return plain;
@@ -27,13 +27,13 @@ std::string name_line(std::int32_t dimension, std::int64_t tag, const std::strin
   return text(dimension, " ", tag, " \"", name, "\"");
 }
 
-/// A section of numbers of elements, alike in both versions; number_of(tet).
+/// Writes a section ElementData, alike in both versions; number_of(tet) is the number of a tet.
 template <class NumberOf>
 void write_column(MshEncoder& out, GroupedMesh& mesh, const std::string& name, NumberOf number_of) {
   out.begin_section("ElementData");
   out.add_line("1");
   out.add_line(text("\"", name, "\""));
-  // A time, and three integers: its number, the components of a value, the values.
+  // These are one time and three integers: its number, the components of a value, the values.
   for (const char* const line : {"1", "0", "3", "0", "1"}) out.add_line(line);
   out.add_line(text(mesh.facet_count() + mesh.tet_count() + mesh.wedge_count()));
   std::int32_t element = 0;

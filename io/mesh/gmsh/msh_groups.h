@@ -14,7 +14,7 @@
 
 namespace mw::io {
 
-/// Dimensions of groups.
+/// The dimensions of groups.
 inline constexpr std::int32_t kMshSurface = 2;
 inline constexpr std::int32_t kMshVolume = 3;
 /// Where the nodes of a tet stand in the file: Gmsh has the middle of edge 2 3 before that of 1 3.
@@ -23,18 +23,18 @@ inline constexpr std::array<std::size_t, 10> kMshTetOrder{0, 1, 2, 3, 4, 5, 6, 7
 /// The beginning of a comment that holds a MeshRecord.
 inline constexpr std::string_view kMshRecord = "mwmesh ";
 
-/// The numbers of volumes.  Surfaces have numbers above them, because many programs have one space
-/// of numbers for all dimensions.  ERRORS: see LabelNumbers.
+/// Returns the numbers of volumes.  Surfaces have numbers above them, because many programs have
+/// one space of numbers for all dimensions.  ERRORS: see LabelNumbers.
 [[nodiscard]] LabelNumbers msh_numbers(const GroupedMesh& mesh);
 
-/// The tag of the surface that is facet group number `group`.
+/// Returns the tag of the surface that is facet group number `group`.
 [[nodiscard]] std::int32_t surface_tag(const LabelNumbers& labels, std::size_t group);
 
-/// The physical surface that facet group number `index` belongs to.
+/// Returns the physical surface that facet group number `index` belongs to.
 [[nodiscard]] std::int32_t physical_surface(const LabelNumbers& labels, const FacetGroup& group,
                                             std::size_t index);
 
-/// The tag and physical group of the volume that is wedge group number `group`, above all others.
+/// Returns the tag and physical group, above all others, of the volume that is this wedge group.
 [[nodiscard]] std::int32_t wedge_volume(const LabelNumbers& labels, const GroupedMesh& mesh,
                                         std::size_t group);
 
@@ -60,8 +60,8 @@ class MshTables {
 };
 
 /// Writes a section ElementData for each of the values of tets, alike in both versions.  A triangle
-/// or a wedge has the value of the tet behind it: meshio reads no data that only some elements
-/// have.
+/// or a wedge has the value of the tet behind it, because meshio reads no data that only some
+/// elements have.
 void write_element_data(MshEncoder& out, GroupedMesh& mesh);
 
 }  // namespace mw::io

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The mwmesh authors
 // SPDX-License-Identifier: Apache-2.0
-// Sections and numbers of a .msh file, from text or from bytes.
+// Reads the sections and numbers of a .msh file, from text or from bytes.
 #include "io/mesh/gmsh/msh_input.h"
 
 #include <array>
@@ -12,7 +12,7 @@
 namespace mw::io {
 namespace {
 
-/// No number is that long, and no line that is read as one; keeps memory bounded on other files.
+/// No number and no line is that long; the bounds keep memory small on other files.
 constexpr std::size_t kMaxWordBytes = 256;
 constexpr std::size_t kMaxLineBytes = 1 << 13;
 
@@ -56,7 +56,7 @@ void MshInput::skip_section(std::string_view section) {
 }
 
 bool MshInput::find_end(std::string_view section) {
-  // By bytes, since a binary section has lines of any length.
+  // This goes by bytes, since a binary section has lines of any length.
   const std::string end = text("\n$End", section);
   std::size_t matched = 1;  // a line begins here
   for (int c = cursor_.peek(); c >= 0; c = cursor_.peek()) {

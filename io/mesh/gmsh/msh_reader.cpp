@@ -15,7 +15,7 @@
 namespace mw::io {
 namespace {
 
-/// The number 1 in the file's byte order.
+/// Reads the number 1, which tells the file's byte order.
 ByteOrder read_order(MshInput& in) {
   in.set_binary(ByteOrder::kLittle);
   const std::int64_t one = in.integer("the number 1");
@@ -24,7 +24,7 @@ ByteOrder read_order(MshInput& in) {
   in.fail("the byte order is neither");
 }
 
-/// Whether the version is 4.1; otherwise it is 2.2.
+/// Reads the format, and returns whether the version is 4.1; otherwise it is 2.2.
 bool read_format(MshInput& in) {
   if (in.next_section() != "MeshFormat") in.fail("not a .msh file");
   const std::string line(in.next_line("the version"));
@@ -41,7 +41,7 @@ bool read_format(MshInput& in) {
   return is_4;
 }
 
-/// One line: dimension, number, name in quotes.
+/// Reads one line: dimension, number, name in quotes.
 void read_name(MshInput& in, MshContent& out) {
   const std::string_view line = in.next_line("a physical name");
   const std::size_t open = line.find('"');
@@ -58,7 +58,7 @@ void read_names(MshInput& in, MshContent& out) {
   in.end_section("PhysicalNames");
 }
 
-/// Comments begin with the record, where they are of this program.
+/// Reads comments, which begin with the record where this program wrote them.
 void read_comments(MshInput& in, MshContent& out) {
   const std::string line(in.next_line("a comment"));
   if (line == "$EndComments") return;
@@ -72,7 +72,7 @@ void read_comments(MshInput& in, MshContent& out) {
   in.skip_section("Comments");
 }
 
-/// One section; whatever is not needed is skipped.
+/// Reads one section, or skips it where it is not needed.
 void read_section(const std::string& section, bool is_4, MshInput& in, MshContent& out) {
   if (section == "PhysicalNames") {
     read_names(in, out);
@@ -91,7 +91,7 @@ void read_section(const std::string& section, bool is_4, MshInput& in, MshConten
   }
 }
 
-/// Elements come behind all that they need, and values of elements behind these.
+/// Reads all sections.  Elements come behind all that they need, and their values behind them.
 MshContent read_content(const ByteSource& source) {
   MshInput in(source);
   const bool is_4 = read_format(in);
@@ -111,7 +111,7 @@ MshContent read_content(const ByteSource& source) {
   return out;
 }
 
-/// Marks become labels.
+/// Turns marks into labels.
 void name_labels(MshContent& content, NumberedLabels& labels) {
   std::map<std::int64_t, RawLabel> known;
   for (RawLabel& mark : content.mesh.marks()) {
@@ -126,7 +126,7 @@ void name_labels(MshContent& content, NumberedLabels& labels) {
   }
 }
 
-/// Without those that the writer made up (GroupNames).
+/// Returns the names of labels without those that the writer made up (GroupNames).
 LabelNames names_of(const MshContent& content) {
   std::vector<LabelName> rows;
   for (const auto& [number, name] : content.names) {

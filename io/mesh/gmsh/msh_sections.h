@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The mwmesh authors
 // SPDX-License-Identifier: Apache-2.0
-// The sections of .msh files in both versions, and what they have in common once they are read.
+// Reads the sections of .msh files in both versions into one content.
 #pragma once
 
 #include <map>
@@ -10,34 +10,34 @@
 
 namespace mw::io {
 
-/// Marks of tets are numbers, in version 4 of entities.
+/// What the sections hold.  The mark of a tet is a number, in version 4 that of its entity.
 struct MshContent {
   explicit MshContent(const std::string& file) : mesh(file) {}
 
   TaggedMesh mesh;
-  std::map<std::int64_t, std::int64_t> physical_of;  ///< volumes in a physical group
-  std::map<std::int64_t, std::string> names;         ///< of physical volumes
-  std::uint64_t elements = 0;                        ///< of all types
+  std::map<std::int64_t, std::int64_t> physical_of;  ///< by volume, if in one
+  std::map<std::int64_t, std::string> names;         ///< those of physical volumes
+  std::uint64_t elements = 0;                        ///< number of elements of all types
   MeshRecord record;                                 ///< what a comment tells, or nothing
-  std::vector<std::uint64_t> numbers{};              ///< of tets as elements
+  std::vector<std::uint64_t> numbers{};              ///< those of tets as elements
   std::vector<TetValues> values{};                   ///< under the names in the file
 };
 
-// ERRORS of all: see MshInput.
+// ERRORS (all functions): see MshInput.
 
-/// Version 4.1: all from behind the line "$Entities" to that of "$EndEntities"; the others alike.
+/// Read a section of version 4.1, from behind its first line, such as "$Entities", to its last.
 void read_msh4_entities(MshInput& in, MshContent& out);
 void read_msh4_nodes(MshInput& in, MshContent& out);
 void read_msh4_elements(MshInput& in, MshContent& out);
 
-/// Version 2.2, in which many tools still write; marks are physical groups, or entities where there
-/// is none.
+/// Read a section of version 2.2, which many tools still write; marks are physical groups, or
+/// entities where there is none.
 void read_msh2_nodes(MshInput& in, MshContent& out);
 void read_msh2_elements(MshInput& in, MshContent& out);
 
-/// The sections behind the elements, of both versions: of each ElementData with one component the
-/// values of tets; a tet without one has NaN.  Those that have none of a tet are left out, like
-/// what is more than kMostValues.
+/// Reads the sections behind the elements in both versions: from each ElementData with one
+/// component the values of tets, NaN for a tet without one.  Sections without a value for any tet
+/// are left out, and so are those beyond kMostValues.
 void read_msh_values(MshInput& in, MshContent& out);
 
 }  // namespace mw::io

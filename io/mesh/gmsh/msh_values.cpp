@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The mwmesh authors
 // SPDX-License-Identifier: Apache-2.0
-// Values of elements in .msh files: sections ElementData.
+// Reads values of elements in .msh files from the sections ElementData.
 #include <algorithm>
 #include <cmath>
 #include <numeric>
@@ -13,7 +13,7 @@
 namespace mw::io {
 namespace {
 
-/// Rows of tets by the numbers of their elements.
+/// Finds the rows of tets by the numbers of their elements.
 class TetsByNumber {
  public:
   explicit TetsByNumber(const std::vector<std::uint64_t>& numbers)
@@ -42,15 +42,15 @@ std::int64_t read_line_number(MshInput& in, std::string_view expected) {
   return *number;
 }
 
-/// What stands ahead of the values.
+/// The head that stands ahead of the values.
 struct DataHead {
   std::string name;
   std::int64_t components = 0;
   std::uint64_t rows = 0;
 };
 
-/// Lines of text in binary files, too: a count and strings, a count and reals, a count and
-/// integers.
+/// Reads the head, which is lines of text in binary files too: a count and strings, a count and
+/// reals, a count and integers.
 DataHead read_head(MshInput& in) {
   DataHead out;
   const std::int64_t strings = read_line_number(in, "number of names");
@@ -93,7 +93,7 @@ void read_msh_values(MshInput& in, MshContent& out) {
   std::optional<TetsByNumber> tets;
   for (std::string section = in.next_section(); !section.empty(); section = in.next_section()) {
     if (section != "ElementData") {
-      // Nothing of the mesh is lost where a section is cut that is not read.
+      // A section that is not read may be cut, since nothing of the mesh is lost with it.
       if (!in.find_end(section)) return;
       continue;
     }

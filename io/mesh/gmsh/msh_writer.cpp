@@ -12,7 +12,7 @@
 namespace mw::io {
 namespace {
 
-/// By label, the surfaces around it; negative where their normals point into it.
+/// Returns by label the surfaces around it, negative where their normals point into it.
 std::vector<std::vector<std::int32_t>> surfaces_of(const GroupedMesh& mesh,
                                                    const LabelNumbers& labels) {
   std::vector<std::vector<std::int32_t>> tags(mesh.table().size());
@@ -94,7 +94,7 @@ void MshWriter::write_entities(const Contents& contents) {
   out_.end_section("Entities");
 }
 
-/// Tag, box and physical group; what bounds it comes behind.
+/// Puts the tag, box and physical group of an entity; what bounds it comes behind.
 void MshWriter::put_entity(const Contents& contents, std::size_t entity, std::int32_t physical) {
   out_.put(tag_of(contents, entity).tag);
   const EntityBox& box = contents.classes.box(entity);

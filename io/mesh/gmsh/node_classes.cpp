@@ -10,7 +10,7 @@ namespace {
 
 constexpr std::size_t kSortBytes = 8 << 20;
 
-/// A row of a node and an entity that has it.
+/// Sorts pairs of a node's row and an entity that has it, or of an entity and a row on it.
 using Pairs = ExternalSort<2>;
 
 void add_uses(std::span<const std::uint64_t> rows, std::uint64_t entity, Pairs& uses) {
@@ -35,7 +35,7 @@ void add_tet_uses(GroupedMesh& mesh, Pairs& uses) {
   }
 }
 
-/// They have no nodes of their own, and a box.
+/// Adds the nodes of wedges, which give their entities a box; no node is placed on these.
 void add_wedge_uses(GroupedMesh& mesh, Pairs& uses) {
   std::uint64_t entity = mesh.facet_groups().size() + mesh.table().size();
   for (const WedgeGroup& group : mesh.wedge_groups()) {
@@ -46,7 +46,7 @@ void add_wedge_uses(GroupedMesh& mesh, Pairs& uses) {
   }
 }
 
-/// A box that has no point yet when `first`.
+/// Extends a box by a point, which is its first one when `first`.
 void extend(EntityBox& box, const Position& p, bool first) {
   if (first) box = {p, p};
   for (std::size_t k = 0; k < 3; ++k) {
@@ -77,7 +77,7 @@ NodeClasses::NodeClasses(GroupedMesh& mesh, const std::filesystem::path& folder)
   });
 }
 
-/// Uses come by row, those of a row by entity: the first is where it is placed.
+/// Places each row on the entity of its first use: uses come by row, and those of a row by entity.
 void NodeClasses::place_rows(GroupedMesh& mesh, Pairs& uses, Pairs& indices) {
   const std::uint64_t unused = mesh.facet_groups().size();
   std::vector<bool> has_box(boxes_.size());

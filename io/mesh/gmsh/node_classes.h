@@ -14,10 +14,9 @@ struct EntityBox {
   Position hi{};
 };
 
-/// Entities are the groups of facets, by their number, behind them the labels, by rank, and the
-/// groups of wedges.  Each
-/// node is on the first entity that has it; one in no tet is on the first label's, and where there
-/// is no label, on an entity of its own behind the groups (there are none then).
+/// Entities are the groups of facets by their number, behind them the labels by rank, and then the
+/// groups of wedges.  Each node is on the first entity that has it.  A node in no tet is on the
+/// first label's entity; where there is no label, and so no group, it is on an entity of its own.
 /// Memory: 24 MiB and 64 bytes an entity; the rest waits in temporary files in `folder`, some
 /// 16 bytes a node of a tet.  ERRORS: see ScratchFile.
 class NodeClasses {
@@ -25,11 +24,11 @@ class NodeClasses {
   NodeClasses(GroupedMesh& mesh, const std::filesystem::path& folder);
 
   [[nodiscard]] std::size_t entities() const { return boxes_.size(); }
-  /// The box of all nodes of the entity, on it or on its edge; zeros when there are none.
+  /// Returns the box of all nodes of the entity, on it or on its edge; zeros when there are none.
   [[nodiscard]] const EntityBox& box(std::size_t entity) const { return boxes_[entity]; }
-  /// The places in row() of the nodes on it.
+  /// Returns the indices for row() of the nodes on the entity.
   [[nodiscard]] const RowRange& nodes(std::size_t entity) const { return nodes_[entity]; }
-  /// Rows of nodes by entity, ascending in each.
+  /// Returns a row from those of all nodes by entity, ascending in each.
   [[nodiscard]] std::uint64_t row(std::uint64_t index) { return rows_[index]; }
 
  private:

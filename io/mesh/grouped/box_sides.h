@@ -19,7 +19,7 @@ enum class Side : std::uint8_t {
   kYMax,
   kZMin,
   kZMax,
-  kOuter,  ///< one tet, and not on the box: what is on the other side was left out
+  kOuter,  ///< not on the box, with one tet: what lies on its other side was left out
 };
 
 inline constexpr std::size_t kSides = 8;
@@ -29,7 +29,7 @@ class BoxSides {
  public:
   explicit BoxSides(const MeshBox& box) : box_(box) {}
 
-  /// The side that all three corners are on, within 1e-9 of the box's length across it (a
+  /// Returns the side that all three corners are on, within 1e-9 of the box's length across it (a
   /// lattice point that is on no plane is farther away); kOuter when there is none.
   [[nodiscard]] Side side_of(const std::array<Position, 3>& corners) const;
 

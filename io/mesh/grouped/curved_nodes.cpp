@@ -15,41 +15,41 @@ namespace {
 
 /// The cosine of the sharpest bend that is no line.
 constexpr double kLineCosine = 0.5;
-/// The largest bulge of an edge, as a share of its length: that of an arc of 106 degrees.
+/// The largest bulge of an edge, as a share of its length: that of an arc of 56 degrees.
 constexpr double kMaxBulge = 0.125;
 /// The largest move of a corner, as a share of its shortest edge.
 constexpr double kMaxMove = 0.25;
-/// How much of normals may cancel at a corner that has one.
+/// The least length of a sum of normals that is taken for one, as a share of their lengths' sum.
 constexpr double kLeastAgreement = 0.5;
-/// How often volumes are balanced; what is left then is some tenth of a per mille.
+/// How often volumes are balanced; an error of some tenth of a per mille is left then.
 constexpr int kRounds = 3;
 
 enum class CornerKind : std::uint8_t { kStays, kOnSurface, kOnLine };
 
 struct Corner {
-  Position direction{};  ///< unit normal on a surface, unit tangent on a line; sums before
+  Position direction{};  ///< unit normal or unit tangent of a line; before, a sum of normals
   Position move{};
-  double lengths = 0;                   ///< of the summands of `direction`
-  double area = 0;                      ///< a third of that of its triangles
-  double volume = 0;                    ///< that it is to move over
-  double shortest = 0;                  ///< of its edges on interfaces
+  double lengths = 0;                   ///< sum of those of the summands of `direction`
+  double area = 0;                      ///< a third of the area of its triangles
+  double volume = 0;                    ///< what its surroundings took, for it to give back
+  double shortest = 0;                  ///< length of its shortest edge on an interface
   std::array<std::uint64_t, 2> line{};  ///< the first two corners that its lines go to
   std::uint32_t group = 0;
   std::uint32_t facets = 0;
   std::uint32_t edges = 0;
   std::uint32_t lines = 0;
   std::uint32_t lines_in_box = 0;
-  std::uint8_t sides = 0;  ///< of the box, a bit each
+  std::uint8_t sides = 0;  ///< a bit for each side of the box
   bool has_more_groups = false;
   CornerKind kind = CornerKind::kStays;
 };
 
 struct Edge {
   std::array<std::uint64_t, 2> corners{};
-  Position normal{};  ///< of its first triangle, length one
+  Position normal{};  ///< unit normal of its first triangle
   Position bulge{};   ///< from its middle
   std::uint32_t group = 0;
-  std::uint32_t facets = 0;  ///< of interfaces
+  std::uint32_t facets = 0;  ///< triangles of interfaces
   std::uint8_t sides = 0;
   bool is_bent = false;  ///< more groups than one, or a sharp bend
 
@@ -106,7 +106,7 @@ class Curving {
     }
   }
 
-  /// Those on interfaces.
+  /// Calls visit(number, edge) for each edge on an interface.
   template <class Visit>
   void each_edge(Visit visit) {
     for (std::uint64_t number = 0; number < edges_.size(); ++number) {
@@ -196,7 +196,7 @@ class Curving {
                  after = place(corner.line[1]) - place(v);
       const double one = before.norm(), other = after.norm();
       if (before.dot(after) >= kLineCosine * one * other) {
-        // The tangent of the circle through the three corners.
+        // This is the tangent of the circle through the three corners.
         kind = CornerKind::kOnLine;
         direction = (before * (other / one) + after * (one / other)).normalized();
       }
@@ -207,7 +207,7 @@ class Curving {
     });
   }
 
-  /// True inside of one interface, whose triangles are all around the corner.
+  /// True inside of one interface, where its triangles lie all around the corner.
   [[nodiscard]] static bool is_on_surface(const Corner& corner) {
     return corner.lines == 0 && corner.sides == 0 && !corner.has_more_groups &&
            corner.edges == corner.facets &&
@@ -235,8 +235,8 @@ class Curving {
     }
   }
 
-  /// A parabola with that normal at one end is at the other end four times as far from the tangent
-  /// plane as its middle is from that of the chord.
+  /// Returns the mean of the bulges that the normals at both ends tell.  The end of a parabola lies
+  /// four times as far from the tangent plane at its beginning as its middle from the chord's.
   [[nodiscard]] Vec3 bulge_of_surface(const Edge& edge) {
     const Vec3 chord = place(edge.corners[1]) - place(edge.corners[0]);
     Vec3 normals = Vec3::Zero();
@@ -341,7 +341,7 @@ class Curving {
     return 0.5 * (one + other) + vector_of(edge.bulge);
   }
 
-  /// By node; those of other edges follow from their corners.
+  /// Returns the moves by node; middles of edges on no interface follow from their corners.
   [[nodiscard]] PagedArray<NodeMove> moves() {
     PagedArray<NodeMove> out(folder_, mesh_.node_count());
     for (std::uint64_t v = 0; v < corners_.size(); ++v) {

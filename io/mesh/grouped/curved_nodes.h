@@ -21,10 +21,10 @@ namespace mw::io {
 /// degrees its edges form lines.  These are curved likewise, by tangents; in a side of the box they
 /// stay in it.  Corners at the ends of lines stay, and so does a side of a periodic box.
 ///
-/// Guarantees: the Jacobian of each tet is at least kLeastJacobian of what it was, everywhere in
-/// it, proven by its Bernstein coefficients, and so are the parts of kTetParts; the straight tets
+/// ENSURES: the Jacobian of each tet is at least kLeastJacobian of what it was, everywhere in it,
+/// proven by its Bernstein coefficients, and so are the parts of kTetParts; the straight tets
 /// between the corners keep the quality floor of the mesh's record, which is kCurvedFloor of the
-/// straight mesh's.  Nodes go half the way, or a quarter, or nowhere, where that takes them.  Edges
+/// straight mesh's.  Where this would break, nodes go half the way, a quarter, or nowhere.  Edges
 /// inside of labels are straight, with their nodes in the middle.
 /// Memory: 24 MiB.  Disk: some 400 bytes a vertex and 120 an edge.
 /// ERRORS: see ScratchFile.

@@ -15,7 +15,7 @@ class DeckEnds {
   explicit DeckEnds(GroupedMesh& mesh);
 
   [[nodiscard]] bool are_sides() const { return are_sides_; }
-  /// REQUIRES of both: !are_sides().
+  /// REQUIRES (both): !are_sides().
   [[nodiscard]] bool is_low(const Position& node) const { return along(node) <= low_; }
   [[nodiscard]] bool is_high(const Position& node) const { return along(node) >= high_; }
   /// How far the upper end is pulled: 1 % of the mesh's height along the box's z, in that
@@ -25,7 +25,7 @@ class DeckEnds {
  private:
   [[nodiscard]] double along(const Position& node) const;
 
-  Position direction_{};  ///< of length 1
+  Position direction_{};  ///< a unit vector
   bool are_sides_ = false;
   double low_ = 0;
   double high_ = 0;

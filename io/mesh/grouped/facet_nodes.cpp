@@ -8,7 +8,7 @@ std::vector<NamedFacets> named_facets(const GroupedMesh& mesh, const PlainNames&
   std::vector<NamedFacets> out;
   for (const FacetGroup& group : mesh.facet_groups()) {
     const bool is_interface = group.side == Side::kInterface;
-    // Groups of a side are neighbours.
+    // The groups of a side follow each other.
     if (!is_interface && !out.empty() && out.back().group.side == group.side) {
       out.back().group.facets.end = group.facets.end;
       continue;

@@ -9,9 +9,9 @@
 
 namespace mw::io {
 
-/// Calls visit(row) once for each node of the facets, ascending; of_second: of those of an
-/// interface as GroupedMesh::of_second() has them.  Memory: 8 MiB; what is more goes to a temporary
-/// file in `folder`.  ERRORS: see ScratchFile.
+/// Calls visit(row) once for each node of the facets, ascending; with of_second, the facets are
+/// those of an interface as GroupedMesh::of_second() has them.  Memory: 8 MiB; what is more goes to
+/// a temporary file in `folder`.  ERRORS: see ScratchFile.
 template <class Visit>
 void for_each_facet_node(GroupedMesh& mesh, RowRange facets, const std::filesystem::path& folder,
                          Visit visit, bool of_second = false) {
@@ -32,11 +32,11 @@ void for_each_facet_node(GroupedMesh& mesh, RowRange facets, const std::filesyst
 /// A set of facets as programs with plain names know it: an interface, or a whole side of the box.
 struct NamedFacets {
   FacetGroup group;   ///< with all facets of the side, whatever their label
-  std::string name;   ///< see PlainNames; of an interface on the side of its lower label
-  std::string other;  ///< of an interface on the side of its higher label; else empty
+  std::string name;   ///< see PlainNames; for an interface, that on the side of its lower label
+  std::string other;  ///< for an interface, that on the side of its higher label; else empty
 };
 
-/// ENSURES: in the order of the facets, which all are in one set.
+/// Returns the sets in the order of their facets; each facet of the mesh is in one set.
 [[nodiscard]] std::vector<NamedFacets> named_facets(const GroupedMesh& mesh,
                                                     const PlainNames& names);
 

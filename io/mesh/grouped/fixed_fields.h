@@ -12,16 +12,16 @@
 
 namespace mw::io {
 
-/// REQUIRES: the number has no more digits than there are columns.
+/// Returns the number at the right of a field.  REQUIRES: it has no more digits than columns.
 [[nodiscard]] inline std::string fixed_integer(std::uint64_t number, std::size_t columns) {
   const std::string digits = std::to_string(number);
   MW_ASSERT(digits.size() <= columns);
   return std::string(columns - digits.size(), ' ') + digits;
 }
 
-/// In the form 1.5E+000, with as many digits behind the point, and an exponent of two digits or of
-/// three.  REQUIRES: columns of 7 and the digits, or of 8; with two |value| < 1e100, or it is
-/// longer.
+/// Returns the value at the right of a field, in the form 1.5E+000, with `digits` digits behind the
+/// point and at least `exponent` of the exponent, 2 or 3.  The text may be longer than the field
+/// where columns < digits + 5 + the digits of the exponent.
 [[nodiscard]] inline std::string fixed_real(double value, std::size_t columns, int digits,
                                             std::size_t exponent = 2) {
   std::array<char, 64> text{};

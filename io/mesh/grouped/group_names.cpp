@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: The mwmesh authors
 // SPDX-License-Identifier: Apache-2.0
-// What groups of tets and facets are called in files that know names, and their numbers in the
-// others.
+// What groups of tets and facets are called in files that know names, and their numbers in other
+// files.
 #include "io/mesh/grouped/group_names.h"
 
 #include <cctype>
@@ -33,7 +33,7 @@ std::string in_capitals(std::string name) {
   return name;
 }
 
-/// A '_' for all that is not allowed between two characters that are; empty where none is.
+/// Returns the name with '_' for each gap of characters that are not allowed; empty if none is.
 std::string plain_text(std::string_view name, const NameRule& rule) {
   std::string out;
   bool gap = false;

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The mwmesh authors
 // SPDX-License-Identifier: Apache-2.0
-// Looking things up in a grouped mesh.
+// Looks things up in a grouped mesh, and streams it into a sink.
 #include "io/mesh/grouped/grouped_mesh.h"
 
 #include <algorithm>
@@ -53,7 +53,7 @@ std::array<std::uint64_t, 3> GroupedMesh::facet_middles(const Facet& facet) {
 
 namespace {
 
-/// Share of the length of a box within which a point lies on its side.
+/// A point lies on a side of a box when it is within this share of the box's length.
 constexpr double kTolerance = 1e-9;
 
 /// Returns where a point is along an edge of the box: 0 at its beginning, 1 at its end.

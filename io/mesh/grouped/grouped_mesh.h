@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The mwmesh authors
 // SPDX-License-Identifier: Apache-2.0
-// A mesh as solvers take it: tets by label, facets by what they bound, nodes in the middle of
+// A mesh as solvers take it: tets by label, facets by what they bound, and nodes in the middles of
 // edges.
 #pragma once
 
@@ -29,8 +29,8 @@ struct RowRange {
   [[nodiscard]] std::uint64_t size() const { return end - begin; }
 };
 
-/// Facets that bound the same: an interface of two labels, first < second by rank; one side of the
-/// box, or the outer surface, at one label (second is kExterior).
+/// Facets that bound the same: an interface of two labels, first < second by rank, or one side of
+/// the box or the outer surface at one label (second is kExterior).
 struct FacetGroup {
   Side side = Side::kInterface;
   Label first = 0;
@@ -38,17 +38,17 @@ struct FacetGroup {
   RowRange facets;
 };
 
-/// A triangle.
+/// A triangle of a facet group.
 struct Facet {
   std::array<std::uint64_t, 3> rows{};  ///< its normal (by the right hand) points out of `first`
-  std::uint64_t tet = 0;                ///< that of label `first`
-  std::uint64_t opposite = 0;           ///< which corner of that tet is not in it, 0 to 3
-  // For an interface: the tet and the corner of label `second`.
+  std::uint64_t tet = 0;                ///< the tet of label `first`
+  std::uint64_t opposite = 0;           ///< the corner of that tet that is not in it, 0 to 3
+  // The tet and the corner of label `second`, for an interface.
   std::uint64_t second_tet = 0;
   std::uint64_t second_opposite = 0;
 };
 
-/// Wedges of one interface.
+/// The wedges of one interface.
 struct WedgeGroup {
   Label bottom = 0;  ///< the label under them, by rank
   Label top = 0;     ///< the label on top of them
@@ -56,8 +56,8 @@ struct WedgeGroup {
 };
 
 /// A wedge of no thickness between the two sides of a facet of a split interface.  Corner i of the
-/// bottom lies where corner i of the top lies; it is the same row where the vertex was not doubled,
-/// which at most two of them are.
+/// bottom lies where corner i of the top lies; both are one row where the vertex was not doubled,
+/// which is so for at most two corners.
 struct Wedge {
   std::array<std::uint64_t, 3> bottom{};  ///< its normal points to the top
   std::array<std::uint64_t, 3> top{};
@@ -65,10 +65,10 @@ struct Wedge {
   std::uint64_t top_tet = 0;
 };
 
-/// Nodes of a tet, a facet or a wedge: its corners, and with ten nodes a tet behind them the
-/// middles of its edges, those of a tet in the order of kTetEdges, those of a facet as edges 0 1, 1
-/// 2 and 2 0.  A wedge has the corners of bottom and top, then the middles of the bottom's and the
-/// top's edges.
+/// The nodes of a tet, a facet or a wedge: its corners and, where tets have ten nodes, behind them
+/// the middles of its edges.  A tet has its edges in the order of kTetEdges, and a facet has them
+/// as 0 1, 1 2, 2 0.  A wedge has the corners of bottom and top, then the middles of the bottom's
+/// edges and those of the top's.
 class NodeRows {
  public:
   [[nodiscard]] const std::uint64_t* begin() const { return rows_.data(); }
@@ -84,38 +84,39 @@ class NodeRows {
   std::size_t size_ = 0;
 };
 
-/// Everything waits in temporary files, so memory (8 MiB a list that is looked into) does not grow
-/// with the mesh.  Rows of nodes: vertices as they came, then middles of edges, edges ascending by
-/// their rows.  Made by GroupedSink, asked in any order, fastest in row order.
-/// ERRORS (of all that look something up): see ScratchFile.  Thread safety: none.
+/// Everything waits in temporary files, so memory (8 MiB for each list that is looked into) does
+/// not grow with the mesh.  The first rows of nodes are the vertices as they came, the next ones
+/// the middles of edges, which ascend by their ends.  GroupedSink makes the mesh, which can be
+/// asked in any order and is fastest in row order.
+/// ERRORS (all members that look something up): see ScratchFile.  Thread safety: none.
 class GroupedMesh {
  public:
   /// Returns the header that the mesh came with.
   [[nodiscard]] const MeshHeader& header() const { return header_; }
-  /// The labels that occur, ascending; label groups and facet groups hold their ranks.
+  /// Returns the labels that occur, ascending; groups hold their ranks.
   [[nodiscard]] const LabelTable& table() const { return table_; }
   [[nodiscard]] const LabelNames& names() const { return header_.names; }
-  /// Returns the box in the mesh's file; if it has none, that of the vertices along world axes.
+  /// Returns the box of the record; if it has none, that of the vertices along the world's axes.
   [[nodiscard]] const MeshBox& box() const { return box_; }
   [[nodiscard]] Element element() const { return element_; }
 
   /// Return the number of vertices, and of nodes: where tets have middles each edge adds one.
   [[nodiscard]] std::uint64_t vertex_count() const { return vertices_.size(); }
   [[nodiscard]] std::uint64_t node_count() const { return vertices_.size() + edges_.size(); }
-  /// Position of a node.  REQUIRES: row < node_count().
+  /// Returns the position of a node.  REQUIRES: row < node_count().
   [[nodiscard]] Position node(std::uint64_t row);
 
-  /// Tets are numbered by label, those of a label as they came.  Corners are VTK-positive: the
-  /// normal of the first three points at the fourth.  (Of a flat one they are as they came.)
+  /// Tets are numbered by label, and in a label as they came.  Corners are VTK-positive: the normal
+  /// of the first three points at the fourth.  (Those of a flat tet are as they came.)
   [[nodiscard]] std::uint64_t tet_count() const { return tets_.size(); }
   [[nodiscard]] TetRows tet(std::uint64_t number) { return tets_[number]; }
   /// Returns the numbers of each label's tets, by rank of label.
   [[nodiscard]] const std::vector<RowRange>& label_tets() const { return label_tets_; }
   [[nodiscard]] Label label_of(std::uint64_t tet) const;
-  /// Rows of the middles of kTetEdges.  REQUIRES: has_middles(element()).
+  /// Returns the rows of the middles of kTetEdges.  REQUIRES: has_middles(element()).
   [[nodiscard]] std::array<std::uint64_t, 6> middles(std::uint64_t tet) { return middles_[tet]; }
   [[nodiscard]] NodeRows tet_nodes(std::uint64_t number);
-  /// The tet's number under the name header().values[column].
+  /// Returns the tet's number under the name header().values[column].
   [[nodiscard]] double value(std::uint64_t tet, std::size_t column) {
     return values_[tet * header_.values.size() + column];
   }
@@ -123,22 +124,22 @@ class GroupedMesh {
   /// Returns the groups, ascending by side, first, second.
   [[nodiscard]] const std::vector<FacetGroup>& facet_groups() const { return facet_groups_; }
   [[nodiscard]] std::uint64_t facet_count() const { return facets_.size(); }
-  /// Facets are numbered by group, in a group by tet.
+  /// Facets are numbered by group, and in a group by tet.
   [[nodiscard]] Facet facet(std::uint64_t number) { return facets_[number]; }
-  /// The facet of an interface as label `second` has it: other rows where vertices were doubled.
+  /// Returns an interface's facet as label `second` has it, with its rows of doubled vertices.
   [[nodiscard]] Facet of_second(const Facet& facet);
-  /// Rows of the middles of the facet's edges 0 1, 1 2 and 2 0.  REQUIRES: has_middles(element()).
+  /// Returns the middles of the facet's edges 0 1, 1 2, 2 0.  REQUIRES: has_middles(element()).
   [[nodiscard]] std::array<std::uint64_t, 3> facet_middles(const Facet& facet);
   [[nodiscard]] NodeRows facet_nodes(const Facet& facet);
 
   /// Returns the groups that have wedges, in the order of their facets: those of the interfaces
   /// that header().record.cohesive names.
   [[nodiscard]] const std::vector<WedgeGroup>& wedge_groups() const { return wedge_groups_; }
-  /// Wedges are numbered by group, in a group by facet.  Facets of which no vertex was doubled have
+  /// Wedges are numbered by group, and in a group by facet.  A facet without a doubled vertex has
   /// none.
   [[nodiscard]] std::uint64_t wedge_count() const { return wedges_.size(); }
   [[nodiscard]] Wedge wedge(std::uint64_t number) { return wedges_[number]; }
-  /// 6 nodes; with middles 12.
+  /// Returns 6 nodes, or 12 where tets have middles.
   [[nodiscard]] NodeRows wedge_nodes(const Wedge& wedge);
 
  private:
@@ -152,26 +153,26 @@ class GroupedMesh {
   Element element_ = Element::kTet4;
   PagedFile<Position> vertices_;
   PagedFile<TetRows> tets_;
-  PagedFile<double> values_;  ///< by tet, a column for each name
+  PagedFile<double> values_;  ///< by tet, one for each name
   std::vector<RowRange> label_tets_;
   PagedFile<Facet> facets_;
   std::vector<FacetGroup> facet_groups_;
   PagedFile<Wedge> wedges_;
   std::vector<WedgeGroup> wedge_groups_;
   PagedFile<std::array<std::uint64_t, 2>> edges_;    ///< corners of each edge, with middles only
-  PagedFile<std::array<std::uint64_t, 6>> middles_;  ///< by tet, likewise
+  PagedFile<std::array<std::uint64_t, 6>> middles_;  ///< by tet, with middles only
   std::optional<PagedArray<Position>> curved_;       ///< all nodes, with kCurvedTet10 only
 };
 
-/// Writes a grouped mesh into one file, which its constructor has opened.
+/// Writes a grouped mesh into the file that its constructor has opened.
 class GroupedWriter {
  public:
   virtual ~GroupedWriter() = default;
-  /// Writes and commits.  Called once.  ERRORS: as MeshSink.
+  /// Writes the mesh and commits the file.  Called once.  ERRORS: see MeshSink.
   virtual void write(GroupedMesh& mesh) = 0;
 };
 
-/// Six times the signed volume: positive when d is where the normal of a b c points.
+/// Returns six times the signed volume, positive when d is where the normal of a b c points.
 [[nodiscard]] inline double volume6(const Position& a, const Position& b, const Position& c,
                                     const Position& d) {
   std::array<Position, 3> e{};
@@ -185,7 +186,7 @@ class GroupedWriter {
          e[0][2] * (e[1][0] * e[2][1] - e[1][1] * e[2][0]);
 }
 
-/// A sink that writes tets of one kind or the other, and wedges.
+/// A sink that writes tets of four or ten nodes, and wedges.
 class CellSink : public MeshSink {
  public:
   /// Takes the nodes of a tet, in the place of write_tets().
@@ -196,8 +197,8 @@ class CellSink : public MeshSink {
                            std::uint64_t interface) = 0;
 };
 
-/// Streams a grouped mesh into such a sink, wedges behind the tets.  A wedge has the values of the
-/// tet under it.
+/// Streams a grouped mesh into a CellSink, with wedges behind the tets.  A wedge has the values of
+/// the tet under it.
 class CellWriter : public GroupedWriter {
  public:
   explicit CellWriter(std::unique_ptr<CellSink> sink) : sink_(std::move(sink)) {}

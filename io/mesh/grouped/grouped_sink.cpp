@@ -18,7 +18,7 @@
 namespace mw::io {
 namespace {
 
-/// Rows of a facet that lie together: by which the two tets of a triangle find each other.
+/// Returns the rows of a face, by which the two tets of a triangle find each other.
 std::array<std::uint64_t, 3> key_of(const std::array<std::uint64_t, 4>& face) {
   return {face[0], face[1], face[2]};
 }
@@ -61,13 +61,13 @@ class MeshGrouping {
 
  private:
   static constexpr std::size_t kSortBytes = 8 << 20;
-  /// Three ascending rows, of doubled vertices the first, and 4 * tet + opposite corner.
+  /// Three ascending rows, the first one for doubled vertices, and 4 * tet + opposite corner.
   using FaceRecord = std::array<std::uint64_t, 4>;
   using Faces = ExternalSort<4>;
   /// Side << 32 | first, second, 4 * tet + opposite corner of the first, and of the second.
   using Facets = ExternalSort<4>;
 
-  /// The row of the vertex that `row` doubles, or `row`.
+  /// Returns the row of the vertex that `row` doubles, or `row`.
   [[nodiscard]] std::uint64_t first_of(std::uint64_t row) const {
     return doubles_ ? doubles_->first(row) : row;
   }
@@ -85,7 +85,7 @@ class MeshGrouping {
   std::filesystem::path folder_;
   GroupedMesh mesh_;
   ScratchFile tets_;          ///< four rows and the label of each, as they came
-  PagedFile<double> values_;  ///< of tets as they came
+  PagedFile<double> values_;  ///< those of tets as they came
   LabelSet labels_;
   std::optional<DoubledVertices> doubles_;
   Position lo_{};
@@ -145,7 +145,7 @@ void MeshGrouping::find_box() {
   for (std::size_t k = 0; k < 3; ++k) mesh_.box_.edges[k][k] = hi_[k] - lo_[k];
 }
 
-/// Tets by label, as they came within one, and their faces.
+/// Sorts tets by label, and in a label as they came, and adds their faces.
 void MeshGrouping::sort_tets(Faces& faces) {
   using Record = std::array<std::uint64_t, 6>;
   ExternalSort<6> tets(folder_, kSortBytes);
@@ -284,7 +284,7 @@ void MeshGrouping::add_wedges(const FacetGroup& group, bool is_first_bottom) {
   if (wedges.wedges.size() > 0) mesh_.wedge_groups_.push_back(wedges);
 }
 
-/// Edges get numbers in the order of their rows, then each tet those of its six.
+/// Numbers the edges in the order of their rows, then gives each tet the numbers of its six.
 void MeshGrouping::find_middles() {
   ExternalSort<3> edges(folder_, kSortBytes);  // two ascending rows, 8 * tet + edge
   for (std::uint64_t number = 0; number < mesh_.tets_.size(); ++number) {

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The mwmesh authors
 // SPDX-License-Identifier: Apache-2.0
-// A stream of tets becomes a grouped mesh.
+// A sink that makes a grouped mesh of a stream of tets.
 #pragma once
 
 #include "io/mesh/grouped/grouped_mesh.h"
@@ -9,16 +9,16 @@ namespace mw::io {
 
 class MeshGrouping;
 
-/// Collects a mesh; finish() groups it and has it written.
+/// Collects a mesh; finish() groups it and calls the writer.
 /// Memory: 64 MiB, 96 with kTet10, 128 with kCurvedTet10, whatever the mesh; the rest waits in
 /// temporary files in `folder`, at most some 400 bytes a tet (1,000 with kTet10, 1,300 with curved
 /// ones).
 /// ERRORS: see MeshSink; kInput when a tet names a vertex that never came, or three tets share a
-/// triangle: no facet would bound anything then; begin() throws kUsage where kCurvedTet10 is asked
-/// of a mesh with doubled vertices.
+/// triangle, which then bounds nothing; begin() throws kUsage where kCurvedTet10 is asked of a mesh
+/// with doubled vertices.
 class GroupedSink : public MeshSink {
  public:
-  /// writer: may be empty, for who takes the mesh.  REQUIRES: an existing folder.
+  /// writer may be empty where the caller takes the mesh.  REQUIRES: folder exists.
   GroupedSink(const std::filesystem::path& folder, std::unique_ptr<GroupedWriter> writer,
               Element element = Element::kTet4);
   ~GroupedSink() override;

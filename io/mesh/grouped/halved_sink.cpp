@@ -11,9 +11,9 @@
 namespace mw::io {
 namespace {
 
-constexpr std::size_t kHalvedBatch = 512;  ///< tets before they are cut, and vertices
+constexpr std::size_t kHalvedBatch = 512;  ///< vertices, or uncut tets, passed on at once
 
-/// Writes the parts of a mesh with ten nodes a tet.
+/// Passes on the eight parts of each tet of a mesh with ten nodes a tet.
 class HalvedWriter : public GroupedWriter {
  public:
   HalvedWriter(MeshSink& below, SeeTet see) : below_(below), see_(std::move(see)) {}

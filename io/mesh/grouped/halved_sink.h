@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The mwmesh authors
 // SPDX-License-Identifier: Apache-2.0
-// Each tet of a mesh becomes eight on its way into a sink.
+// A sink that cuts each tet of a mesh into eight and passes them on.
 #pragma once
 
 #include <functional>
@@ -9,7 +9,7 @@
 
 namespace mw::io {
 
-/// Told of each tet that is written, in the order of the mesh.
+/// Called for each tet that is written, in the order of the mesh.
 using SeeTet = std::function<void(const std::array<Position, 4>& corners, RawLabel label)>;
 
 /// Cuts every tet by the middles of its edges (kernels/quality/halved_tet.h), so that edges are

@@ -35,7 +35,7 @@ std::optional<std::int64_t> number_in(const std::string& field) {
   return static_cast<std::int64_t>(*number);
 }
 
-/// One record of a table that append_label_table() made.
+/// Takes one record of a table that append_label_table() made.
 void take_record(const CsvRecord& record, std::string_view file, LabelMap& map) {
   const auto label = record.fields.size() < 2 ? std::nullopt : label_of(record.fields[0]);
   const auto number = label ? number_in(record.fields[1]) : std::nullopt;

@@ -16,22 +16,22 @@
 
 namespace mw::io {
 
-/// What a format can hold, both ends included; least is 0 or 1.
+/// The numbers that a format can hold, both ends included; min is 0 or 1.
 struct NumberRange {
   std::int64_t min = 1;
   std::int64_t max = 2147483647;
 };
 
-/// Labels that a format can hold keep their number; the others get, in their order, the smallest
-/// numbers above those, and those that are free below where none is left above.
+/// Labels that a format can hold keep their number.  The others get, in their order, the smallest
+/// numbers above those, and where none is left above, the free ones below.
 class LabelNumbers {
  public:
   /// ERRORS: mw::Error(kUsage) when there are more labels than numbers.
   LabelNumbers(const LabelTable& table, NumberRange range = {});
 
-  /// By rank.
+  /// Returns the number of a label, by its rank.
   [[nodiscard]] std::int64_t operator[](Label rank) const { return numbers_[rank]; }
-  /// 0 of no labels.
+  /// Returns the largest number, or 0 where there are no labels.
   [[nodiscard]] std::int64_t largest() const {
     return numbers_.empty() ? 0 : *std::max_element(numbers_.begin(), numbers_.end());
   }
@@ -40,12 +40,12 @@ class LabelNumbers {
   std::vector<std::int64_t> numbers_;
 };
 
-/// The table that lies beside a mesh: MESH.labels.csv.
+/// Returns the path of the table that lies beside a mesh: MESH.labels.csv.
 [[nodiscard]] std::filesystem::path label_table_path(const std::filesystem::path& mesh);
 
-/// Its content: columns id (the label), number (in the mesh), name, r, g, b, a.  It is a table of
-/// names too (parse_csv_names).  The file is to be committed with the mesh (commit_together.h).
-/// ERRORS: see AtomicFile.
+/// Appends the content of that table, with the columns id (the label), number (in the mesh), name,
+/// r, g, b, a.  It is a table of names too (parse_csv_names).  The file is to be committed with the
+/// mesh (commit_together()).  ERRORS: see AtomicFile.
 void append_label_table(AtomicFile& file, const LabelTable& table, const LabelNames& names,
                         const LabelNumbers& numbers);
 
@@ -56,19 +56,19 @@ struct LabelMap {
   LabelNames names;
 };
 
-/// Empty when there is no file of that name.
+/// Reads the table beside a mesh; returns nothing where there is none.
 /// ERRORS: mw::Error(kInput) naming file and line.
 [[nodiscard]] std::optional<LabelMap> read_label_table(const std::filesystem::path& mesh);
 
-/// The labels of numbers as a mesh of that name has them: through the table beside it, or as they
-/// are where there is none.
+/// Turns the numbers in a mesh file into labels by the table beside it; where there is none, the
+/// numbers are the labels.
 class NumberedLabels {
  public:
   explicit NumberedLabels(const std::filesystem::path& mesh);
 
   /// ERRORS: mw::Error(kInput) when the table does not know the number.
   [[nodiscard]] RawLabel label(std::int64_t number);
-  /// Whether labels are to be read as signed; without a table, whether a number was negative.
+  /// Returns whether labels are signed; without a table, whether a number was negative.
   [[nodiscard]] bool labels_signed() const { return map_ ? map_->labels_signed : negative_; }
   [[nodiscard]] bool has_table() const { return map_.has_value(); }
   [[nodiscard]] LabelNames names() const { return map_ ? map_->names : LabelNames{}; }

@@ -54,7 +54,7 @@ MaterialSets::MaterialSets(GroupedMesh& mesh, const MaterialRule& rule)
   }
 }
 
-/// Where the material begins; of count + 1 the end of the last.
+/// Returns where the material begins; for count + 1, where the last one ends.
 double MaterialSets::bound(std::uint32_t material) const {
   if (material > rule_.count) return most_;
   return least_ + (most_ - least_) * (static_cast<double>(material - 1) / rule_.count);
@@ -63,7 +63,7 @@ double MaterialSets::bound(std::uint32_t material) const {
 std::uint32_t MaterialSets::material_of(std::uint64_t tet) {
   const double value = mesh_.value(tet, column_);
   if (std::isnan(value)) return 0;
-  // The last material whose bound is not above the value.
+  // This finds the last material whose bound is not above the value.
   std::uint32_t lo = 1, hi = rule_.count;
   while (lo < hi) {
     const std::uint32_t middle = lo + (hi - lo + 1) / 2;

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The mwmesh authors
 // SPDX-License-Identifier: Apache-2.0
-// Tets by equal ranges of a value: the materials of a solver.
+// Sets of tets by equal ranges of a value, which are the materials of a solver.
 #pragma once
 
 #include <array>
@@ -16,34 +16,34 @@
 
 namespace mw::io {
 
-/// What materials are asked for.
+/// Tells which materials are asked for.
 struct MaterialRule {
   std::string values;       ///< one of MeshHeader::values
-  std::uint32_t count = 0;  ///< of ranges, from 1 to kMostMaterials
-  /// From the least value of the first to the largest of the last; empty: of all tets.
+  std::uint32_t count = 0;  ///< number of ranges, from 1 to kMostMaterials
+  /// The least value of the first range and the largest of the last; empty: those of all tets.
   std::optional<std::array<double, 2>> range{};
 };
 
 inline constexpr std::uint32_t kMostMaterials = 10000;
 
-/// Material m, from 1 on, has the values from least + (m - 1) * width to before that of the next,
-/// the last one with its end; values outside of a range that was given are in the first or the
-/// last. Tets without a value are in none.
+/// Materials are numbered from 1.  Material m has the values from least + (m - 1) * width to before
+/// the least one of the next; the last material includes its end.  Values outside of a given range
+/// are in the first or the last material, and tets without a value are in none.
 class MaterialSets {
  public:
   struct Material {
     std::uint64_t tets = 0;
     double volume = 0;
-    double mean = 0;  ///< of the values, by volume; 0 without tets
+    double mean = 0;  ///< mean of the values, by volume; 0 without tets
   };
 
   /// Cost: two passes over the tets.  ERRORS: mw::Error(kUsage) when the mesh has no such values.
   MaterialSets(GroupedMesh& mesh, const MaterialRule& rule);
 
   [[nodiscard]] std::uint32_t count() const { return rule_.count; }
-  /// 0: it has no value.
+  /// Returns the material of a tet, or 0 where the tet has no value.
   [[nodiscard]] std::uint32_t material_of(std::uint64_t tet);
-  /// "NAME_7", for programs that allow letters, digits and '_' alone.
+  /// Returns "NAME_7", for programs that allow letters, digits and '_' alone.
   [[nodiscard]] std::string name(std::uint32_t material) const;
   [[nodiscard]] const Material& facts(std::uint32_t material) const {
     return materials_[material - 1];
@@ -60,7 +60,7 @@ class MaterialSets {
       visit(static_cast<std::uint32_t>(row[0]), row[1]);
     });
   }
-  /// Columns material, set, from, to, mean, tets, volume; to be committed with the mesh.
+  /// Appends columns material, set, from, to, mean, tets, volume, to be committed with the mesh.
   void append_table(AtomicFile& file) const;
 
  private:
@@ -74,7 +74,7 @@ class MaterialSets {
   std::vector<Material> materials_;
 };
 
-/// The table beside a mesh: M.inp.materials.csv.
+/// Returns the path of the table beside a mesh: M.inp.materials.csv.
 [[nodiscard]] std::filesystem::path material_table_path(const std::filesystem::path& mesh);
 
 }  // namespace mw::io

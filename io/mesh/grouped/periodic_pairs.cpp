@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The mwmesh authors
 // SPDX-License-Identifier: Apache-2.0
-// Places along the box's edges are compared as numbers of a list, so that rounding does not count.
+// Compares places along the box's edges by their numbers in a list, so that rounding has no effect.
 #include "io/mesh/grouped/periodic_pairs.h"
 
 #include <algorithm>
@@ -17,7 +17,7 @@
 namespace mw::io {
 namespace {
 
-/// Shares of the box's edge that are the same place; lattice points are farther apart.
+/// Shares of the box's edge that differ by no more are one place; lattice points are farther apart.
 constexpr double kSame = 1e-10;
 
 using Shares = std::array<double, 3>;
@@ -28,7 +28,7 @@ struct FaceNode {
   Places at{};
 };
 
-/// How far along each edge of the box a position is: 0 to 1.
+/// Returns how far along each edge of the box a position is, from 0 to 1.
 Shares shares_of(const MeshBox& box, const Position& p) {
   Shares out{};
   for (std::size_t k = 0; k < 3; ++k) {
@@ -61,7 +61,7 @@ std::vector<std::uint64_t> face_rows(GroupedMesh& mesh, unsigned axes) {
   return rows;
 }
 
-/// Places along an axis in ascending order, each once.
+/// The places of nodes along an axis in ascending order, each once.
 class PlaceList {
  public:
   explicit PlaceList(std::vector<double> shares) {
@@ -88,7 +88,7 @@ bool by_place(const FaceNode& a, const FaceNode& b) {
   return a.at < b.at;
 }
 
-/// The axes on whose high face a node is.
+/// Returns the axes on whose high face a node is.
 unsigned high_axes(const FaceNode& node, const std::vector<PlaceList>& lists, unsigned axes) {
   unsigned out = 0;
   for (unsigned k = 0; k < 3; ++k) {
@@ -100,12 +100,12 @@ unsigned high_axes(const FaceNode& node, const std::vector<PlaceList>& lists, un
 /// Finds nodes by their rows, and by their places.
 class FaceNodes {
  public:
-  /// nodes: ascending by row.
+  /// REQUIRES: nodes ascend by row.
   explicit FaceNodes(std::vector<FaceNode> nodes) : by_row_(std::move(nodes)), placed_(by_row_) {
     std::sort(placed_.begin(), placed_.end(), by_place);
   }
   [[nodiscard]] const std::vector<FaceNode>& all() const { return by_row_; }
-  /// The node at the same place on the low faces of these axes.
+  /// Returns the node at the same place on the low faces of these axes, if there is one.
   [[nodiscard]] std::optional<std::uint64_t> partner(FaceNode node, unsigned axes) const {
     for (unsigned k = 0; k < 3; ++k) {
       if ((axes >> k & 1U) != 0) node.at[k] = 0;
@@ -113,7 +113,7 @@ class FaceNodes {
     const auto at = std::lower_bound(placed_.begin(), placed_.end(), node, by_place);
     return at == placed_.end() || at->at != node.at ? std::nullopt : std::optional(at->row);
   }
-  /// REQUIRES: the row is that of such a node.
+  /// Returns a node by its row.  REQUIRES: the row is that of one of the nodes.
   [[nodiscard]] const FaceNode& at_row(std::uint64_t row) const {
     return *std::lower_bound(by_row_.begin(), by_row_.end(), row,
                              [](const FaceNode& a, std::uint64_t b) { return a.row < b; });
@@ -126,8 +126,8 @@ class FaceNodes {
 
 using Triangle = std::array<std::uint64_t, 3>;
 
-/// The triangles of a side, ascending; those of a high one with the partners of their corners,
-/// which are other rows where there is none.
+/// Returns the triangles of a side, ascending.  Those of a high side have the partners of their
+/// corners; a corner without a partner keeps its own row.
 std::vector<Triangle> triangles_of(GroupedMesh& mesh, const FaceNodes& nodes, unsigned axis,
                                    bool is_high) {
   std::vector<Triangle> out;
@@ -155,7 +155,7 @@ std::uint64_t count_unlike(GroupedMesh& mesh, const FaceNodes& nodes, unsigned a
   return unlike.size();
 }
 
-/// Only this many terms of an equation stand on a line.
+/// The most terms of an equation that stand on a line.
 constexpr std::size_t kTermsOnLine = 4;
 
 class PairsWriter : public GroupedWriter {

@@ -15,26 +15,26 @@ namespace mw::io {
 /// A node on the high face of some axes, and the one at the same place on their low faces.
 struct PeriodicPair {
   std::uint64_t node = 0;      ///< row
-  std::uint64_t image_of = 0;  ///< row; it lies on no high face itself
+  std::uint64_t image_of = 0;  ///< row of a node that lies on no high face itself
   unsigned axes = 0;           ///< along which they are apart: bit 0 = x
 };
 
 struct PeriodicPairs {
   std::vector<PeriodicPair> pairs;  ///< ascending by node
-  std::uint64_t alone = 0;          ///< nodes on a high face without such a partner
+  std::uint64_t alone = 0;          ///< nodes on a high face that have no partner
   std::uint64_t unlike = 0;         ///< triangles on one face of an axis that the other lacks
 };
 
-/// Finds the pairs of all nodes on the faces, middles of edges too.
-/// axes: those that are periodic.  Memory: some 100 bytes for each node on their faces.
+/// Finds the pairs of all nodes, also middles of edges, on the faces of the periodic axes.
+/// Memory: some 100 bytes for each of these nodes.
 [[nodiscard]] PeriodicPairs periodic_pairs(GroupedMesh& mesh, unsigned axes);
 
-/// Writes the pairs of a mesh into a file.  ".csv": columns node, image_of, x, y, z, where the last
-/// say by how many periods the node is apart.  ".inp": for each axis a reference node and the
-/// set that it is in, and equations by which the displacement of a node is that of its
-/// partner and of the reference nodes of the axes along which they are apart; each node is the
-/// first of at most three equations, and these name no other node that is.  Nodes have the numbers
-/// that a file for a solver has, from 1 on.
+/// Opens a writer of the pairs of a mesh.  A .csv has the columns node, image_of, x, y, z; the last
+/// three say by how many periods the node is apart.  A .inp has for each axis a reference node in a
+/// set of its own, and equations: the displacement of a node is the sum of those of its partner and
+/// of the reference nodes of the axes along which they are apart.  A node is the first of at most
+/// three equations, which name no other first node.  Nodes have the numbers of files for solvers,
+/// from 1 on.
 /// ERRORS: mw::Error(kUsage) for another ending; write() throws it for a mesh whose record has no
 /// periodic axes or doubled vertices, and kInternal when faces are unlike though no label was left
 /// out.

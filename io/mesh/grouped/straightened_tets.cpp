@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The mwmesh authors
 // SPDX-License-Identifier: Apache-2.0
-// Rounds over all tets, until none is spoilt.
+// Shortens moves in rounds over all tets, until none is spoilt.
 #include "io/mesh/grouped/straightened_tets.h"
 
 #include "io/mesh/grouped/curved_nodes.h"
@@ -52,7 +52,7 @@ class Straightening {
     for (std::size_t e = 0; e < kTetEdges.size(); ++e) {
       const std::uint64_t row = rows.begin()[4 + e];
       const auto [a, b] = kTetEdges[e];
-      // The order of the ends is that of other tets, too.
+      // All tets at an edge take its ends in one order, so that rounding is the same.
       const bool ascends = rows.begin()[a] < rows.begin()[b];
       const Vec3 &low = out[ascends ? a : b], &high = out[ascends ? b : a];
       out[4 + e] = moves_.get(row).has_own ? place(row) : Vec3(low + (high - low) / 2);
@@ -60,7 +60,7 @@ class Straightening {
     return out;
   }
 
-  /// True if a tet has been spoilt, whose nodes are to go less far.
+  /// Marks the node that goes farthest in each spoilt tet; returns true if there was one.
   bool hold_back(bool is_first) {
     bool found = false;
     for (std::uint64_t number = 0; number < mesh_.tet_count(); ++number) {
@@ -72,7 +72,7 @@ class Straightening {
     return found;
   }
 
-  /// True if a node goes somewhere, and is not where it was in the round before.
+  /// True if a node of the tet moves, and one was changed in the last round or this is the first.
   [[nodiscard]] bool is_asked(const NodeRows& rows, bool is_first) {
     bool moves = false, changed = is_first;
     for (const std::uint64_t row : rows) {
@@ -83,7 +83,7 @@ class Straightening {
     return moves && changed;
   }
 
-  /// The node that goes farthest; of equal ones the first row.
+  /// Returns the node that goes farthest, among equal ones that of the first row.
   [[nodiscard]] std::uint64_t farthest_of(const NodeRows& rows) {
     std::uint64_t out = *rows.begin();
     double most = -1;

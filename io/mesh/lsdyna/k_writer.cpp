@@ -12,10 +12,10 @@ namespace mw::io {
 namespace {
 
 constexpr std::uint64_t kMaxNumber = 99'999'999;
-constexpr std::size_t kShort = 8;   // columns of a field of nodes and elements
-constexpr std::size_t kField = 10;  // of other fields
+constexpr std::size_t kShort = 8;   // columns of a field in nodes and elements
+constexpr std::size_t kField = 10;  // columns of other fields
 
-/// The corners and the middles of edges 0 1, 1 2 and 2 0 of a triangle: four triangles.
+/// The four parts of a triangle, by its corners and the middles of its edges 0 1, 1 2 and 2 0.
 constexpr std::array<std::array<std::size_t, 3>, 4> kQuarters{
     {{0, 3, 5}, {3, 1, 4}, {5, 4, 2}, {3, 4, 5}}};
 

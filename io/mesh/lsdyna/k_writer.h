@@ -9,17 +9,18 @@
 
 namespace mw::io {
 
-/// A PART for each label, whose number is the label's in the table beside the file
+/// Writes a PART for each label, whose number is the label's in the table beside the file
 /// (label_numbers.h) and whose title is its name (PlainNames), with a MAT_ELASTIC of the same
 /// number as a placeholder; all have one SECTION_SOLID of ELFORM 10, or 16 for ten nodes.
-/// ELEMENT_SOLID has a tet of four nodes in one line, its last node five times, one of ten nodes in
-/// two lines.  Nodes and tets count from 1.  The nodes of each interface and of each side of the
-/// box are a SET_NODE_LIST, the triangles a SET_SEGMENT, their normals out of the mesh or,
-/// FACE_1_2, out of label 1; an interface has two, of which the titles tell.  Of ten nodes each
-/// triangle is four, so that the middles of edges are loaded, too.  Both kinds of sets have numbers
-/// from 1 on. Coordinates have ten digits.  Memory: 9 MiB.  ERRORS: see AtomicFile;
+/// ELEMENT_SOLID has a tet of four nodes in one line, with its last node five times, and one of ten
+/// nodes in two lines.  Nodes and tets count from 1.  The nodes of each interface and of each side
+/// of the box are a SET_NODE_LIST (two for an interface if the mesh has doubled vertices).  The
+/// triangles are a SET_SEGMENT with normals out of the mesh, or two for an interface, where
+/// FACE_1_2 has normals out of label 1; titles tell the names.  With ten nodes each triangle is
+/// written as four, so that the middles of edges are loaded, too.  Both kinds of sets have numbers
+/// from 1 on.  Coordinates have ten digits.  Memory: 9 MiB.  ERRORS: see AtomicFile;
 /// mw::Error(kUsage) above 99,999,999 nodes or tets, which is what eight columns hold, and for a
-/// coordinate of 1e100.
+/// negative coordinate with three digits of exponent.
 class LsdynaWriter : public GroupedWriter {
  public:
   explicit LsdynaWriter(const std::filesystem::path& path)

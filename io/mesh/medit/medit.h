@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The mwmesh authors
 // SPDX-License-Identifier: Apache-2.0
-// ASCII MEDIT .mesh files, in and out.
+// Reads and writes ASCII MEDIT .mesh files.
 #pragma once
 
 #include <filesystem>
@@ -17,14 +17,14 @@
 
 namespace mw::io {
 
-/// Takes Vertices and Tetrahedra and skips every other section; labels are signed when one of them
+/// Reads Vertices and Tetrahedra and skips every other section; labels are signed when one of them
 /// is negative.
 /// ERRORS: mw::Error(kInput) with file and line when truncated, not of dimension 3, without
 /// vertices or tetrahedra, or when a row does not exist.
 [[nodiscard]] MeshData read_medit(const ByteSource& source);
 
-/// Coordinates are printed with the fewest digits that give back the same double; the reference of
-/// a tet is its label, of a vertex 0; rows count from 1.  Names of labels are comments
+/// Coordinates are printed with the fewest digits that give back the same double.  The reference of
+/// a tet is its label, and that of a vertex 0; rows count from 1.  Names of labels are comments
 /// (medit_comment()).  The lines of the tets, which come last in the file, wait in a temporary file
 /// in the same folder.
 class MeditSink : public MeshSink {
@@ -50,12 +50,12 @@ class MeditSink : public MeshSink {
   std::uint64_t tets_ = 0;
 };
 
-/// The line `# label 7 "name" 255 0 0 255`, with its end; without the four numbers where the colour
-/// is unknown.  In the name `"` and `\` have a `\` in front.
+/// Returns the line `# label 7 "name" 255 0 0 255`, with its end; without the four numbers where
+/// the colour is unknown.  In the name `"` and `\` have a `\` in front.
 [[nodiscard]] std::string medit_comment(const LabelName& row, bool is_signed);
 
-/// What medit_comment() wrote, from behind the '#' to the end of the line; empty for any other
-/// comment.
+/// Reads what medit_comment() wrote, from behind the '#' to the end of the line; returns nothing
+/// for any other comment.
 [[nodiscard]] std::optional<LabelName> parse_medit_comment(std::string_view comment);
 
 }  // namespace mw::io

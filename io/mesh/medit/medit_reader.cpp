@@ -18,7 +18,7 @@ namespace mw::io {
 namespace {
 
 constexpr std::uint64_t kBufferBytes = 1 << 20;
-/// No number or keyword is that long; keeps memory bounded on binary files.
+/// No number or keyword is that long; the bound keeps memory small on binary files.
 constexpr std::size_t kMaxWordBytes = 256;
 constexpr std::size_t kMaxCommentBytes = 1 << 13;
 
@@ -36,25 +36,25 @@ bool parse_all(std::string_view word, T& number) {
   return verdict == std::errc{} && stop == word.data() + word.size();
 }
 
-/// Words are separated by blanks, tabs, line ends of any kind; '#' begins a comment up to the end
-/// of its line.
+/// Reads words, which are separated by blanks, tabs and line ends of any kind; '#' begins a comment
+/// up to the end of its line.
 class TokenScanner {
  public:
   explicit TokenScanner(const ByteSource& source) : source_(source) {}
-  /// From now on each comment is passed on, without its '#' and line end, cut at 8 KiB.
+  /// Makes take get each comment that follows, without its '#' and line end, cut at 8 KiB.
   void on_comment(std::function<void(std::string_view)> take) { take_comment_ = std::move(take); }
 
-  /// The next word, or empty at the end.  Valid until the next call.
+  /// Returns the next word, or nothing at the end.  It is valid until the next call.
   [[nodiscard]] std::string_view next();
-  /// ERRORS of all: mw::Error(kInput) with file, line and what was expected.
+  /// ERRORS (also below): mw::Error(kInput) with file, line and what was expected.
   [[nodiscard]] double next_real(std::string_view expected);
   [[nodiscard]] std::uint64_t next_count(std::string_view expected);
-  /// An integer in -2^63 .. 2^64-1, as two's complement; negative tells the sign.
+  /// Reads an integer in -2^63 .. 2^64-1, as two's complement; negative tells the sign.
   [[nodiscard]] std::uint64_t next_integer(std::string_view expected, bool& negative);
   [[noreturn]] void fail(std::string_view reason) const;
 
  private:
-  /// The next character without taking it, or -1 at the end.
+  /// Returns the next character without taking it, or -1 at the end.
   [[nodiscard]] int peek() { return at_ < buffer_.size() || refill() ? buffer_[at_] : -1; }
   bool refill();
   void skip_blanks();
@@ -90,7 +90,7 @@ void TokenScanner::skip_blanks() {
   }
 }
 
-/// Leaves the line end.
+/// Skips a comment up to its line end, which it leaves.
 void TokenScanner::skip_comment() {
   std::string comment;
   ++at_;
@@ -148,7 +148,7 @@ void TokenScanner::fail(std::string_view reason) const {
 
 constexpr std::string_view kRecord = " mwmesh ";
 
-/// A count that the file could hold, so that a damaged one cannot ask for all memory.
+/// Reads a count that the file can hold, so that a damaged one cannot ask for all memory.
 std::uint64_t next_rows(TokenScanner& scanner, const ByteSource& source, std::uint64_t min_bytes) {
   const std::uint64_t rows = scanner.next_count("a number of rows");
   const std::uint64_t min = saturating_product(rows, min_bytes);
@@ -208,7 +208,7 @@ MeshData read_medit(const ByteSource& source) {
   bool tets = false;
   // Words that are no keyword are rows of a section that is skipped.
   for (std::string_view word = scanner.next(); word != "End"; word = scanner.next()) {
-    // Without it the last number of all could have been cut.
+    // Without that word the last number of all could have been cut.
     if (word.empty()) scanner.fail("truncated: the file ends without the word End");
     if (!is_keyword(word)) continue;
     if (word == "Dimension") {

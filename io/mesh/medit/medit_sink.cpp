@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The mwmesh authors
 // SPDX-License-Identifier: Apache-2.0
-// Streams a mesh into an ASCII MEDIT .mesh file; names of labels as its comments.
+// Streams a mesh into an ASCII MEDIT .mesh file, with names of labels as its comments.
 #include "io/mesh/medit/medit.h"
 
 #include <algorithm>
@@ -85,7 +85,7 @@ namespace {
 
 constexpr std::string_view kWord = "label ";
 
-/// Up to the quote that closes the name; what is behind it stays in `rest`.
+/// Takes the name up to the quote that closes it; what is behind it stays in `rest`.
 std::optional<std::string> take_name(std::string_view& rest) {
   std::string name;
   for (std::size_t i = 0; i < rest.size(); ++i) {
@@ -99,7 +99,7 @@ std::optional<std::string> take_name(std::string_view& rest) {
   return std::nullopt;
 }
 
-/// Four numbers.
+/// Reads a colour of four numbers; returns nothing where it is none.
 std::optional<Colour> parse_colour(std::string_view numbers) {
   const std::vector<std::string_view> words = words_of(numbers);
   if (words.size() != 4) return std::nullopt;

@@ -14,10 +14,10 @@ namespace mw::io {
 namespace {
 
 constexpr std::int64_t kMaxNumber = 99'999'999;
-constexpr std::size_t kColumns = 72;      // of a line of the case control
-constexpr std::size_t kFieldColumns = 8;  // of a small field
+constexpr std::size_t kColumns = 72;      // in a line of the case control
+constexpr std::size_t kFieldColumns = 8;  // in a small field
 
-/// The text at the left of a field, which has room for it.
+/// Returns the text at the left of a field, which has room for it.
 std::string field(std::string text, std::size_t columns = kFieldColumns) {
   text.resize(columns, ' ');
   return text;
@@ -27,7 +27,7 @@ std::string number_field(std::uint64_t number, std::size_t columns = kFieldColum
   return field(std::to_string(number), columns);
 }
 
-/// A number in 16 columns.
+/// Returns a number in 16 columns, or in 17 where it is negative with three digits of exponent.
 std::string real_field(double value) {
   std::array<char, 32> out{};
   std::snprintf(out.data(), out.size(), "%16.9E", value);

@@ -9,10 +9,10 @@
 
 namespace mw::io {
 
-/// GRID in large fields (ten digits), CTETRA of 4 or 10 nodes, and for each label a PSOLID, whose
-/// number is the label's in the table beside the file (label_numbers.h), with a MAT1 of the same
+/// Writes GRID in large fields (ten digits), CTETRA of 4 or 10 nodes, and for each label a PSOLID,
+/// whose number is the label's in the table beside the file (label_numbers.h), with a MAT1 of that
 /// number as a placeholder.  Nodes and tets count from 1.  The nodes of each interface, of each
-/// side of the box, and of what else bounds the mesh, are a SET of the case control, from 1 on.
+/// side of the box, and of what else bounds the mesh are a SET of the case control, from 1 on.
 /// Comments tell the names (PlainNames) of parts and sets: FACE_1_2 is where labels 1 and 2 meet.
 /// Memory: 9 MiB.  ERRORS: see AtomicFile; mw::Error(kUsage) above 99,999,999 nodes, tets or
 /// labels, which is what eight columns hold.

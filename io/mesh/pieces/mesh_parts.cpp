@@ -12,7 +12,7 @@ namespace {
 
 using Rows = std::span<std::uint64_t>;
 
-/// Four times the barycentre: where it is does not matter, only who is before whom.
+/// Returns four times the barycentre, since only the order of barycentres matters.
 Position sum_of_corners(const MeshData& mesh, const TetRows& tet) {
   Position sum{};
   for (const std::uint64_t v : tet) {
@@ -34,7 +34,7 @@ class Halving {
       std::sort(out.back().begin(), out.back().end());
       return;
     }
-    // Each piece has the same number or one more, which the first ones take.
+    // Each piece has the same number of tets, and the first ones have one more where some are left.
     const std::uint64_t below = pieces / 2;
     const std::uint64_t count =
         rows.size() / pieces * below + std::min<std::uint64_t>(rows.size() % pieces, below);

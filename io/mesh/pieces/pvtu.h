@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The mwmesh authors
 // SPDX-License-Identifier: Apache-2.0
-// A mesh in pieces, for programs that run on many processes: .pvtu files, in and out.
+// Reads and writes meshes in pieces (.pvtu files), for programs that run on many processes.
 #pragma once
 
 #include <filesystem>
@@ -11,21 +11,21 @@
 
 namespace mw::io {
 
-/// Rows of tets by piece, ascending.  Boxes around the barycentres are halved again and again
-/// across their longest side, so pieces are compact; they have as many tets as each other, give or
-/// take one.  A function of the mesh and the number: ties go by row. REQUIRES: 1 <= pieces <= tets.
-/// Memory: 40 bytes a tet.  Cost: O(tets log pieces).
+/// Returns the rows of the tets of each piece, ascending.  Boxes around the barycentres are halved
+/// again and again across their longest side, so pieces are compact; their numbers of tets differ
+/// by at most one.  The result depends on the mesh and the number of pieces alone: ties go by row.
+/// REQUIRES: 1 <= pieces <= tets.  Memory: 40 bytes a tet.  Cost: O(tets log pieces).
 [[nodiscard]] std::vector<std::vector<std::uint64_t>> mesh_parts(const MeshData& mesh,
                                                                  std::uint64_t pieces);
 
-/// M.pvtu, which names the files M/M_0000.vtu, M/M_0001.vtu, ... of a folder beside it, a piece of
-/// mesh_parts() each.  A piece has its tets and their vertices, both in the order of the mesh, and
-///   PointData/GlobalNodeIds   Int64, the vertex's row in the whole mesh: vertices of several
-///   pieces
-///                             are those with one id
+/// Writes M.pvtu, which names the files M/M_0000.vtu, M/M_0001.vtu, ... of a folder beside it; each
+/// holds a piece of mesh_parts().  A piece has its tets and their vertices, both in the order of
+/// the mesh, and
+///   PointData/GlobalNodeIds   Int64, the vertex's row in the whole mesh: a vertex has one id in
+///                             all of its pieces
 ///   CellData/label            as in a .vtu, and values beside it
 /// The folder gets its name first, then M.pvtu; a kill in between leaves the folder.
-/// Memory: the mesh, and 40 bytes a tet.  ERRORS: as AtomicFile and AtomicFolder; mw::Error(kUsage)
+/// Memory: the mesh, and 40 bytes a tet.  ERRORS: see AtomicFile, AtomicFolder; mw::Error(kUsage)
 /// for more pieces than tets.
 class PvtuSink : public MeshDataSink {
  public:
@@ -46,13 +46,14 @@ class PvtuSink : public MeshDataSink {
   std::string stem_;
 };
 
-/// The .vtu files that a .pvtu names, in its folder or below, put together: vertices by ascending
-/// PointData/GlobalNodeIds, tets piece by piece, names of labels from all.  A single piece needs no
-/// ids.  What PvtuSink wrote comes back as the mesh; only the order of tets may differ.
+/// Reads the .vtu files that a .pvtu names, in its folder or below, and puts them together:
+/// vertices by ascending PointData/GlobalNodeIds, tets piece by piece, names of labels from all.  A
+/// single piece needs no ids.  What PvtuSink wrote comes back as the mesh; only the order of tets
+/// may differ, and the record is not kept.
 /// Values that a piece does not have are NaN there.
 /// Memory: the mesh, and 24 bytes a vertex of a piece.
-/// ERRORS: mw::Error(kInput) with file and place as read_vtu(); for pieces that overlap (ghost
-/// cells), without ids, or with tets of ten nodes, and for an id at two places.
+/// ERRORS: those of read_vtu(); mw::Error(kInput) for pieces that overlap (ghost cells), without
+/// ids, or with tets of ten nodes, and for an id at two places.
 [[nodiscard]] MeshData read_pvtu(const std::filesystem::path& path);
 
 }  // namespace mw::io

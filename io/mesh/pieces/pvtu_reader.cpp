@@ -17,7 +17,7 @@
 namespace mw::io {
 namespace {
 
-/// Files of the pieces, in order.
+/// Returns the files of the pieces, in order.
 std::vector<std::filesystem::path> piece_files(const std::filesystem::path& path) {
   const auto source = open_bytes(path);
   const VtkDocument document(*source,
@@ -34,7 +34,7 @@ std::vector<std::filesystem::path> piece_files(const std::filesystem::path& path
   return out;
 }
 
-/// Ahead of the tets.
+/// Appends the values of a piece, to be called before its tets are appended.
 void append_values(const MeshData& piece, MeshData& mesh) {
   for (const TetValues& column : piece.values) {
     const auto has_name = [&](const TetValues& other) { return other.name == column.name; };
@@ -60,7 +60,7 @@ void append(const MeshData& piece, MeshData& mesh) {
   mesh.labels_signed = mesh.labels_signed || piece.labels_signed;
 }
 
-/// Rows of vertices, by ascending id.
+/// Returns the rows of vertices, by ascending id.
 std::vector<std::uint64_t> rows_by_id(const std::vector<std::uint64_t>& ids) {
   std::vector<std::uint64_t> rows(ids.size());
   std::iota(rows.begin(), rows.end(), std::uint64_t{0});
@@ -70,7 +70,7 @@ std::vector<std::uint64_t> rows_by_id(const std::vector<std::uint64_t>& ids) {
   return rows;
 }
 
-/// Makes one vertex of those with one id.
+/// Makes one vertex of all vertices with one id.
 void join_vertices(MeshData& mesh, const std::vector<std::uint64_t>& ids, const std::string& file) {
   std::vector<Position> joined;
   std::vector<std::uint64_t> new_row(ids.size());

@@ -51,7 +51,7 @@ void append(AtomicFile& file, T value) {
   file.append(bytes);
 }
 
-/// Vertices of these tets, ascending.
+/// Returns the rows of the vertices of these tets, ascending.
 std::vector<std::uint64_t> rows_of(const MeshData& mesh, std::span<const std::uint64_t> tets) {
   std::vector<std::uint64_t> rows;
   rows.reserve(4 * tets.size());

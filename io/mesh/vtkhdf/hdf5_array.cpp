@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The mwmesh authors
 // SPDX-License-Identifier: Apache-2.0
-// Data sets of numbers in an HDF5 file, read by rows, and the meshes that they are of.
+// Reads data sets of numbers in an HDF5 file by rows, and meshes that are made of them.
 #include "io/mesh/vtkhdf/hdf5_array.h"
 
 #include <algorithm>

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The mwmesh authors
 // SPDX-License-Identifier: Apache-2.0
-// Data sets of numbers in an HDF5 file, read by rows, and the meshes that they are of.
+// Reads data sets of numbers in an HDF5 file by rows, and meshes that are made of them.
 #pragma once
 
 #include <cstdint>
@@ -14,11 +14,11 @@
 
 namespace mw::io {
 
-/// Numbers in one or two dimensions, converted to what the reader asks for.
+/// A data set of one or two dimensions, whose numbers are converted to what the reader asks for.
 class Hdf5Array {
  public:
-  /// ERRORS of all: mw::Error(kInput) naming file and data set; here when it is missing, no array
-  /// of numbers, or announces more than its bytes in the file can hold.
+  /// ERRORS (all members): mw::Error(kInput) naming file and data set; here when it is missing, no
+  /// array of numbers, or announces more than its bytes in the file can hold.
   Hdf5Array(hid_t where, const std::string& path, const std::string& file);
 
   [[nodiscard]] std::uint64_t rows() const { return rows_; }
@@ -26,9 +26,9 @@ class Hdf5Array {
   [[nodiscard]] bool is_integer() const { return is_integer_; }
   [[nodiscard]] bool is_signed() const { return is_signed_; }
 
-  /// count * components() numbers.  ERRORS: also when there are fewer rows.
+  /// Reads rows, which are count * components() numbers.  ERRORS: also when there are fewer rows.
   void read(std::uint64_t first, std::uint64_t count, double* out) const;
-  /// REQUIRES of both: is_integer().  Numbers outside the type are clamped.
+  /// Likewise; numbers outside the type are clamped.  REQUIRES (both): is_integer().
   void read(std::uint64_t first, std::uint64_t count, std::int64_t* out) const;
   void read(std::uint64_t first, std::uint64_t count, std::uint64_t* out) const;
 
@@ -48,20 +48,20 @@ class Hdf5Array {
   bool is_signed_ = false;
 };
 
-/// ERRORS: mw::Error(kInput) when it is missing, damaged or no HDF5 file.
+/// Opens a file to read.  ERRORS: mw::Error(kInput) when it is missing, damaged or no HDF5 file.
 [[nodiscard]] Hdf5Handle open_hdf5(const std::string& file);
 
 /// Runs read in a child, since damage makes the library crash, and passes on to sink what it
-/// writes.  bytes: of all files that it reads, by which its time is bounded.
+/// writes.  bytes is the size of all files that it reads, and bounds its time.
 /// ERRORS: those of read and of sink; mw::Error(kInput) naming the file when the child died.
 void read_hdf5_apart(const std::string& file, std::uint64_t bytes,
                      const std::function<void(MeshSink&)>& read, MeshSink& sink);
 
-/// Writes points in batches; those that stay.  kept: null when all do.
+/// Writes the points of a range that stay, in batches; kept is null when all stay.
 /// REQUIRES: 3 components.  ERRORS: mw::Error(kInput) when there are fewer, or one is not finite.
 void stream_points(const Hdf5Array& points, RowRange range, const KeptRows* kept, MeshSink& sink);
 
-/// Fills out with labels from row `first` on.  REQUIRES: integers of 1 component.
+/// Fills out with labels from row `first` on.  REQUIRES: labels are integers of 1 component.
 void read_labels(const Hdf5Array& labels, std::uint64_t first, std::vector<RawLabel>& out);
 
 }  // namespace mw::io

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The mwmesh authors
 // SPDX-License-Identifier: Apache-2.0
-// An HDF5 file that is written, whole or not at all.
+// Writes an HDF5 file, whole or not at all.
 #pragma once
 
 #include <cstdint>
@@ -15,25 +15,25 @@
 
 namespace mw::io {
 
-/// Gives out the bytes of a file one behind the other: processes that ask for the same sizes in the
-/// same order get the same addresses.
+/// Gives out the bytes of a file one behind the other.  Processes that ask for the same sizes in
+/// the same order get the same addresses.
 class Hdf5Rooms {
  public:
-  /// Room for a data set: the address of its first byte.
+  /// Reserves room for a data set and returns the address of its first byte.
   [[nodiscard]] std::uint64_t reserve(std::uint64_t bytes) {
     return std::exchange(end_, end_ + (bytes + 7) / 8 * 8);
   }
-  /// Where the next room will begin: for data whose size is not known yet.
-  /// REQUIRES: it is reserved when they are written, and nothing else before.
+  /// Returns where the next room will begin, for data whose size is not known yet.
+  /// REQUIRES: that room is reserved once the data are written, and nothing else before it.
   [[nodiscard]] std::uint64_t next() const { return end_; }
 
  private:
-  std::uint64_t end_ = kHdf5HeadBytes;  ///< of what is reserved; a multiple of 8
+  std::uint64_t end_ = kHdf5HeadBytes;  ///< end of what is reserved, a multiple of 8
 };
 
-/// Data first, each in one piece, then what tells of them.  Without the HDF5 library, which does
-/// not survive an allocation that fails: here that is std::bad_alloc.  Equal content is equal
-/// bytes.
+/// A file with the data first, each set in one piece, then what tells of them.  It is written
+/// without the HDF5 library, which does not survive an allocation that fails; here that is
+/// std::bad_alloc.  Equal content gives equal bytes.
 /// ERRORS (all members): mw::Error(kResource) or kUsage as AtomicFile.  Thread safety: none.
 class Hdf5Output {
  public:
@@ -50,7 +50,7 @@ class Hdf5Output {
   /// Returns the path of the file until the commit.
   [[nodiscard]] const std::filesystem::path& partial() const { return file_.partial(); }
 
-  /// Writes a data set of these bytes.
+  /// Writes the bytes of a data set, and returns the set with their address.
   [[nodiscard]] Hdf5DataSet add(Hdf5DataSet set, std::span<const std::byte> bytes) {
     set.address = reserve(bytes.size());
     file_.write_at(set.address, bytes);
@@ -66,7 +66,7 @@ class Hdf5Output {
 
   /// Finishes the file and gives it its name.  REQUIRES: the data of all sets are written.
   void commit(const Hdf5Group& root) { finish(root).commit(); }
-  /// Finishes the file without the commit, which may be one with other files (commit_together.h).
+  /// Finishes the file without the commit, which may be one with other files (commit_together()).
   [[nodiscard]] AtomicFile& finish(const Hdf5Group& root) {
     const Hdf5Metadata metadata = hdf5_metadata(root, rooms_.next());
     file_.write_at(rooms_.next(), std::as_bytes(std::span(metadata.tail)));
@@ -80,7 +80,7 @@ class Hdf5Output {
   Hdf5Rooms rooms_;
 };
 
-/// Writes what is left in a column; a data set of this shape.  REQUIRES: it has as many numbers.
+/// Writes what is left in a column; returns its data set.  REQUIRES: shape is for all its numbers.
 template <class T>
 [[nodiscard]] Hdf5DataSet finish_column(FileColumn<T>& column, const std::string& name,
                                         Hdf5Kind kind, const std::vector<std::uint64_t>& shape) {

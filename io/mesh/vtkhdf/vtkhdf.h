@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The mwmesh authors
 // SPDX-License-Identifier: Apache-2.0
-// Tetrahedral .vtkhdf files: in; out, by one process or by several that write together.
+// Reads tetrahedral .vtkhdf files, and writes them by one process or by several together.
 #pragma once
 
 #include <filesystem>
@@ -18,7 +18,7 @@
 
 namespace mw::io {
 
-/// The first rooms of a file.  values: columns of numbers that tets have.
+/// Reserves the first rooms of a file, for all columns but the points, whose room comes next.
 [[nodiscard]] ColumnPlaces place_vtkhdf(Hdf5Rooms& rooms, Element element,
                                         const MeshHeader& header);
 
@@ -31,16 +31,14 @@ void commit_vtkhdf(Hdf5Output& output, const ColumnPlaces& places, Element eleme
 ///   /VTKHDF              attributes Version = (1, 0), Type = "UnstructuredGrid"
 ///     NumberOfPoints, NumberOfCells, NumberOfConnectivityIds   Int64, 1 element
 ///     Points             Float64 [vertices][3]
-///     Connectivity       Int64 [4 tets]; of ten nodes [10 tets], those behind the corners the
-///                        middles of kTetEdges; behind them those of wedges (element.h)
-///     Offsets            Int64 [tets + 1]
-///     Types              UInt8 [tets], all 10; of ten nodes 24; of wedges, behind the tets, 13,
-///     and
-///                        with ten nodes 31
-///     CellData/label     UInt64 or Int64 [tets]; beside it Float64 [tets] for each of the values
-///                        with wedges also UInt64 `cohesive`: 0, or the number of their interface
+///     Connectivity       Int64 [4 tets]; with ten nodes [10 tets], corners and then the middles of
+///                        kTetEdges; behind the tets the nodes of wedges (element.h)
+///     Offsets            Int64 [cells + 1], where cells are the tets and the wedges behind them
+///     Types              UInt8 [cells]: 10, or 24 with ten nodes; for wedges 13, or 31
+///     CellData/label     UInt64 or Int64 [cells]; beside it Float64 [cells] for each of the values
+///                        and, with wedges, UInt64 `cohesive`: 0, or the number of their interface
 ///     FieldData          names of labels, where there are any, as in /mwmesh (add_vtkhdf_facts())
-/// No time stamps: equal meshes are equal bytes.
+/// There are no time stamps, so equal meshes give equal bytes.
 /// Cost: 4 MiB of buffers.  Thread safety: none.
 class VtkhdfSink : public ColumnSink {
  public:
@@ -56,8 +54,8 @@ class VtkhdfSink : public ColumnSink {
   ColumnPlaces places_;
 };
 
-/// The bytes of VtkhdfSink: its columns are in one piece each, so that every row has a place that
-/// all processes know once tets and vertices are counted.  Tets of four nodes.
+/// Writes the bytes of VtkhdfSink from several processes, for tets of four nodes.  Each column is
+/// in one piece, so all processes know the place of every row once tets and vertices are counted.
 class VtkhdfShared : public SharedMesh {
  public:
   /// Touches no file.
@@ -85,33 +83,33 @@ class VtkhdfShared : public SharedMesh {
   MeshHeader header_;               ///< the maker's
   std::uint64_t vertices_ = 0;      ///< the maker's
   std::filesystem::path partial_;
-  std::optional<JoinedPartial> part_;  ///< what rows are written through
+  std::optional<JoinedPartial> part_;  ///< the file as this process writes rows into it
   MeshColumns columns_;
 };
 
-/// VTKHDF of type UnstructuredGrid, version 1 or 2 (one time step); partitions are put one after
-/// the other.  The label is the cell array `label`, else `Label`, `labels`, `material` or
+/// Reads VTKHDF of type UnstructuredGrid, version 1 or 2 (one time step), with its partitions one
+/// after the other.  The label is the cell array `label`, else `Label`, `labels`, `material` or
 /// `medit:ref`, else the only integer cell array.  Cell arrays of floats with one component are
-/// values (value_names()).
-/// The HDF5 library reads in a child process: damaged files crash it.
-/// Tets with ten nodes are read by their corners, without the middles of edges.
-/// Memory: batches of 65,536 rows, whatever the size of the mesh, with all their values; of one
-/// with ten-node tets a quarter of a byte a node as well. ERRORS: mw::Error(kInput) with file and
-/// place when truncated or corrupt, for cells that are not tetrahedra, without label, or when a row
-/// does not exist; what the sink throws.
+/// values (value_names()).  The HDF5 library reads in a child process, because damaged files crash
+/// it.  Tets with ten nodes are read by their corners, without the middles of edges; curved ones
+/// become kTetParts.
+/// Memory: batches of 65,536 rows with all their values, whatever the size of the mesh, and a
+/// quarter of a byte a node where tets have ten nodes.
+/// ERRORS: mw::Error(kInput) with file and place when truncated or corrupt, for cells that are not
+/// tetrahedra, without label, or when a row does not exist; what the sink throws.
 void read_vtkhdf(const std::filesystem::path& path, MeshSink& sink);
 
-/// Writes what VTK reads, in a group FieldData of `grid`: the arrays of field_names.h.  Strings
-/// have a variable length and are declared ASCII, though they are UTF-8: VTK 9.1 reads no others.
-/// What we read: the numbers there, and a second copy of the names in `file`, `mwmesh/label_name`,
-/// bytes with a NUL behind each: the HDF5 library does not survive damaged strings of variable
-/// length.  Without names nothing is written.  The record is `mwmesh/record`, bytes too.  Where
-/// there are wedges the labels under and on top of them are FieldData/cohesive_labels.
-/// ENSURES: file and grid have the groups that there are.  ERRORS: as Hdf5Output.
+/// Writes names of labels into a group FieldData of `grid`, the arrays of field_names.h that VTK
+/// reads.  Their strings have a variable length and are declared ASCII, though they are UTF-8,
+/// because VTK 9.1 reads no others.  The HDF5 library does not survive damaged strings of variable
+/// length, so this program reads only the numbers there, and names from a copy in `file`,
+/// `mwmesh/label_name`: bytes with a NUL behind each.  Likewise the record is `mwmesh/record`.
+/// Where there are wedges, FieldData/cohesive_labels has the labels under and on top of them.
+/// ENSURES: file and grid have the groups that there are.  ERRORS: see Hdf5Output.
 void add_vtkhdf_facts(Hdf5Output& output, const MeshHeader& header, Hdf5Group& file,
                       Hdf5Group& grid);
 
-/// Nothing when the file has no such arrays.  `name` is what errors call it.
+/// Read names and record; return nothing where the file has none.  `name` is what errors call it.
 /// ERRORS: mw::Error(kInput) naming file and data set when they are damaged.
 [[nodiscard]] LabelNames read_vtkhdf_names(hid_t file, hid_t grid, const std::string& name);
 [[nodiscard]] MeshRecord read_vtkhdf_record(hid_t file, const std::string& name);

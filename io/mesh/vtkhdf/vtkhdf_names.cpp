@@ -59,7 +59,7 @@ std::string bytes_of(const LabelNames& names) {
   return bytes;
 }
 
-/// Not there is an answer, not known is none.
+/// Returns whether there is such a link.  ERRORS: kInput when that cannot be known.
 bool has_link(hid_t index, const std::string& path, const std::string& file) {
   const htri_t found = H5Lexists(index, path.c_str(), H5P_DEFAULT);
   if (found < 0) {
@@ -68,7 +68,7 @@ bool has_link(hid_t index, const std::string& path, const std::string& file) {
   return found > 0;
 }
 
-/// An array of a group that may not be there either.
+/// The place of an array, which may be missing, as may its group.
 struct ArrayLayout {
   hid_t index = H5I_INVALID_HID;
   const char* group = nullptr;

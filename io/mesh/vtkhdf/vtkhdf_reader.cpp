@@ -33,7 +33,7 @@ std::string type_of(hid_t group) {
 
 class Reader {
  public:
-  /// facts: names and record.
+  /// facts holds the names and the record.
   Reader(const Hdf5Handle& group, MeshHeader facts, const std::string& file, MeshSink& sink)
       : file_(file),
         sink_(sink),
@@ -70,7 +70,7 @@ class Reader {
  private:
   using Numbers = std::vector<std::uint64_t>;
 
-  /// How many tets of the mesh a tet of the file is.
+  /// Returns how many tets of the mesh a tet of the file becomes.
   [[nodiscard]] std::size_t parts() const { return header_.in_parts ? kTetParts.size() : 1; }
   [[nodiscard]] bool drops_middles() const { return ten_nodes_ && !header_.in_parts; }
 
@@ -82,7 +82,7 @@ class Reader {
     return out;
   }
 
-  /// The sum; counts that the arrays cannot have are refused where those are read.
+  /// Returns the sum.  Counts beyond all rows are refused here, others where rows are read.
   [[nodiscard]] std::uint64_t sum(const std::vector<std::uint64_t>& counts) const {
     std::uint64_t all = 0;
     for (const std::uint64_t count : counts) {
@@ -112,7 +112,7 @@ class Reader {
     return Hdf5Array(group, "CellData/" + *name, file_);
   }
 
-  /// Floats of one component are values.
+  /// Finds the values, which are cell arrays of floats with one component.
   void find_values(hid_t group) {
     if (!labels_) return;
     std::vector<std::string> names;
@@ -159,10 +159,10 @@ class Reader {
   struct Part {
     std::uint64_t points = 0;
     std::uint64_t cells = 0;
-    std::uint64_t nodes = 0;  ///< of cells
+    std::uint64_t nodes = 0;  ///< rows of the connectivity
   };
 
-  /// Types and offsets.  Each partition has an offset more than cells.
+  /// Checks the types and offsets of a partition, which has one offset more than cells.
   void survey(std::size_t part) {
     const std::uint64_t count = cell_counts_[part];
     std::vector<std::uint64_t> types, ends;
@@ -209,8 +209,8 @@ class Reader {
   }
 
   /// Calls take(tets, middles, types) on batches of a partition's cells; middles are those of tets.
-  /// Curved tets come in their parts, without middles.  Wedges, of which the record tells, follow
-  /// from the tets.
+  /// Curved tets come in their parts, without middles.  Wedges are left out, because the record
+  /// tells of them and they follow from the tets.
   template <class Take>
   void each_batch(std::size_t part, Take take) {
     std::vector<std::uint64_t> types, middles;
@@ -330,10 +330,10 @@ class Reader {
   Part next_;
   std::uint64_t wedges_ = 0;
   bool ten_nodes_ = false;  ///< some cell has ten nodes
-  KeptRows rows_;           ///< what stays of points then
+  KeptRows rows_;           ///< the points that stay then
 };
 
-/// In a child: damage makes the library crash.
+/// Reads in a child process, because damage makes the library crash.
 void read_here(const std::string& path, MeshSink& sink) {
   const Hdf5Handle file = open_hdf5(path);
   const Hdf5Handle group(H5Gopen2(file.get(), "VTKHDF", H5P_DEFAULT), &H5Gclose);

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The mwmesh authors
 // SPDX-License-Identifier: Apache-2.0
-// Streams a mesh into a .vtkhdf file, of one process or of several that write it together.
+// Streams a mesh into a .vtkhdf file, from one process or from several that write it together.
 
 #include "io/file/errors.h"
 #include "io/mesh/mesh_sink.h"
@@ -20,13 +20,13 @@ std::uint64_t nodes_of_cells(const MeshHeader& header, Element element) {
 // Lists of groups and data sets are filled one by one: when memory runs out within a braced list of
 // them, GCC 12 destroys members that were never made.
 
-/// A data set of one number.
+/// Writes a data set of one number.
 Hdf5DataSet one(Hdf5Output& output, const char* name, std::uint64_t count) {
   return output.add({.name = name, .kind = Hdf5Kind::kInt64, .shape = {1}},
                     std::as_bytes(std::span(&count, 1)));
 }
 
-/// Adds a data set that is in the file.
+/// Adds a data set whose numbers are in the file.
 void add_set(Hdf5Group& group, std::string name, Hdf5Kind kind, std::vector<std::uint64_t> shape,
              std::uint64_t address) {
   Hdf5DataSet& set = group.sets.emplace_back();

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The mwmesh authors
 // SPDX-License-Identifier: Apache-2.0
-// Tetrahedral .vtu files, in and out.
+// Reads and writes tetrahedral .vtu files.
 #pragma once
 
 #include <filesystem>
@@ -15,24 +15,24 @@
 
 namespace mw::io {
 
-/// Pieces are put one after the other.  Of tets with ten nodes the corners are read; the middles of
-/// edges go.  The label is the cell array `label`, else `Label`,
-/// `labels`, `material` or `medit:ref`, else the only integer cell array.  Cell arrays of floats
-/// with one component are values (value_names()). ERRORS: mw::Error(kInput) with file and place
-/// when truncated or corrupt, for cells that are not tetrahedra, without label, or when a row does
-/// not exist.
+/// Reads a mesh, with its pieces one after the other.  Tets with ten nodes are read by their
+/// corners, without the middles of edges; curved ones become kTetParts.  The label is the cell
+/// array `label`, else `Label`, `labels`, `material` or `medit:ref`, else the only integer cell
+/// array.  Cell arrays of floats with one component are values (value_names()).
+/// ERRORS: mw::Error(kInput) with file and place when truncated or corrupt, for cells that are not
+/// tetrahedra, without label, or when a row does not exist.
 [[nodiscard]] MeshData read_vtu(const ByteSource& source);
 
 /// A mesh that is part of another.
 struct VtuPiece {
   MeshData mesh;
-  std::vector<std::uint64_t> ids;  ///< of its vertices in the whole: PointData/GlobalNodeIds
+  std::vector<std::uint64_t> ids;  ///< PointData/GlobalNodeIds: its vertices in the whole mesh
 };
 
-/// ERRORS: as read_vtu(); without ids, or with tets of ten nodes.
+/// Reads a piece.  ERRORS: those of read_vtu(); also without ids, or with tets of ten nodes.
 [[nodiscard]] VtuPiece read_vtu_piece(const ByteSource& source);
 
-/// Cost: five buffers of half a MiB; every number is copied once.
+/// Writes a .vtu file.  Cost: the buffers of MeshColumns; every number is copied once.
 class VtuSink : public ColumnSink {
  public:
   explicit VtuSink(const std::filesystem::path& path, Element element = Element::kTet4)

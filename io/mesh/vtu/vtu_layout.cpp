@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The mwmesh authors
 // SPDX-License-Identifier: Apache-2.0
-// What a .vtu file written here looks like: its XML with names of labels and the record of the run,
+// The layout of a .vtu file written here: its XML with names of labels and the record of the run,
 // and where its arrays are.
 #include "io/mesh/vtu/vtu_layout.h"
 
@@ -23,7 +23,7 @@ std::string id_text(RawLabel label, bool labels_signed) {
   return labels_signed ? text(static_cast<std::int64_t>(label)) : text(label);
 }
 
-/// The array of that name among the children of FieldData, if it is of that kind.
+/// Returns the child `element` of FieldData with that name, or an empty node.
 pugi::xml_node find_array(pugi::xml_node fields, const char* element, const char* name) {
   for (const pugi::xml_node array : fields.children(element)) {
     if (std::string_view(array.attribute("Name").as_string()) == name) return array;
@@ -40,7 +40,7 @@ bool is_integer(pugi::xml_node array) {
   return type && !type->is_float;
 }
 
-/// The three arrays.  Names are bytes, no strings: meshio reads no file with strings.
+/// Returns the three arrays of names, which are bytes because meshio reads no file with strings.
 std::string name_arrays(const LabelNames& names, bool labels_signed) {
   if (names.empty()) return {};
   const std::size_t count = names.rows().size();
@@ -61,7 +61,7 @@ std::string name_arrays(const LabelNames& names, bool labels_signed) {
               "      </DataArray>\n");
 }
 
-/// Bytes, as names are.
+/// Returns the array of the record, whose text is bytes as names are.
 std::string record_array(const MeshRecord& record) {
   const std::string value = record_text(record);
   if (value.empty()) return {};
@@ -83,11 +83,11 @@ std::string cohesive_labels(const MeshHeader& header) {
               labels, "      </DataArray>\n");
 }
 
-/// Longer than any head without its fields and ids.
+/// Longer than any head without its fields, values and ids.
 constexpr std::size_t kHeadBytes = 1536;
 constexpr std::string_view kAppended = "  <AppendedData encoding=\"raw\">\n_";
 
-/// A single component is not told: meshio makes columns of numbers of it, which nobody expects.
+/// Returns a tag without a number of components of 1, which meshio would make a matrix of.
 std::string array_tag(const char* type, const char* name, int components, std::uint64_t offset) {
   const std::string told = components == 1 ? "" : text(" NumberOfComponents=\"", components, "\"");
   return text("        <DataArray type=\"", type, "\" Name=\"", name, "\"", told,
@@ -103,7 +103,7 @@ std::uint64_t cells_of(const MeshHeader& header) {
   return header.tets + header.wedges.count;
 }
 
-/// The arrays of values come first, then that of cohesive cells.
+/// Returns the tags of the arrays of values, which come first, then that of cohesive cells.
 std::string value_tags(const MeshHeader& header) {
   std::string out;
   const std::uint64_t bytes = 8 + 8 * cells_of(header);
@@ -114,7 +114,7 @@ std::string value_tags(const MeshHeader& header) {
   return out + array_tag("UInt64", kCohesive, 1, header.values.size() * bytes);
 }
 
-/// `offset` of each array is relative to the '_'.
+/// Returns the head.  The offset of each array counts from behind the '_'.
 std::string make_head(const MeshHeader& header, std::uint64_t vertices, const std::string& fields,
                       const std::string& ids,
                       const std::array<std::uint64_t, VtuLayout::kArrays>& offset) {

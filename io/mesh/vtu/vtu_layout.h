@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The mwmesh authors
 // SPDX-License-Identifier: Apache-2.0
-// What a .vtu file written here looks like: its XML with names of labels and the record of the run,
+// The layout of a .vtu file written here: its XML with names of labels and the record of the run,
 // and where its arrays are.
 #pragma once
 
@@ -15,24 +15,23 @@
 
 namespace mw::io {
 
-/// The element FieldData with the arrays of field_names.h, where there are names, and an array
-/// `mwmesh`, the bytes of the record, where there is one, and where there are wedges
-/// `cohesive_labels`: by interface the labels under and on top of its wedges.  Else empty.
-/// Everything is written as
-/// numbers, so nothing needs escaping.
+/// Returns the element FieldData: the arrays of field_names.h where there are names, an array
+/// `mwmesh` with the bytes of the record where there is one, and, where there are wedges, an array
+/// `cohesive_labels` with the labels under and on top of them by interface.  It is empty without
+/// any.  Everything is written as numbers, so nothing needs escaping.
 [[nodiscard]] std::string vtu_fields(const MeshHeader& header);
 
-/// Nothing when the document has no such arrays; those of VTK's writers are read as well.
+/// Read these arrays, also as VTK's writers have them; return nothing where there are none.
 /// ERRORS: mw::Error(kInput) when they are damaged.
 [[nodiscard]] LabelNames read_vtu_names(VtkDocument& document);
 [[nodiscard]] MeshRecord read_vtu_record(VtkDocument& document);
 
-/// The file: XML head whose length depends on its fields alone (vtu_fields()), '_', then
-/// for each array a UInt64 byte count and the numbers, little-endian (Float64 for each of the
-/// values, UInt64 `cohesive` where there are wedges, connectivity Int64 x 4 or 10, offsets Int64,
-/// types UInt8, label UInt64 or Int64, points Float64 x 3), then the closing tags. The points are
-/// last, so that every place but the end is known before their number is; behind them may be ids of
-/// nodes, Int64.
+/// The file: an XML head whose length depends only on its fields (vtu_fields()), values and ids,
+/// '_', then for each array a UInt64 byte count and the numbers, little-endian (Float64 for each of
+/// the values, UInt64 `cohesive` where there are wedges, connectivity Int64 x 4 or 10, offsets
+/// Int64, types UInt8, label UInt64 or Int64, points Float64 x 3), then the closing tags.  The
+/// points are last, so that all places in front of their end are known before their number is; the
+/// ids of nodes (Int64) may follow them.
 struct VtuLayout {
   enum Array { kConnectivity, kOffsets, kTypes, kLabel, kPoints, kIds, kArrays };
   std::size_t arrays = kIds;                    ///< how many of them there are
@@ -40,17 +39,18 @@ struct VtuLayout {
   std::string tail;                             ///< behind the last array
   std::array<std::uint64_t, kArrays> start{};   ///< file offset of the byte count
   std::array<std::uint64_t, kArrays> length{};  ///< bytes of the numbers
-  std::vector<std::uint64_t> values;            ///< start of each of MeshHeader::values
-  std::uint64_t value_length = 0;               ///< of each of them, and of `cohesive`
-  std::optional<std::uint64_t> cohesive;        ///< start of that array
+  std::vector<std::uint64_t> values;            ///< like start, for each of MeshHeader::values
+  std::uint64_t value_length = 0;               ///< length of each of them and of `cohesive`
+  std::optional<std::uint64_t> cohesive;        ///< like start, for that array
   std::uint64_t tail_start = 0;
 };
 
-/// The name that VTK knows for numbers of points that hold for all pieces of a grid.
+/// The name by which VTK knows ids of points that hold for all pieces of a grid.
 inline constexpr const char* kNodeIds = "GlobalNodeIds";
 enum class VtuIds : std::uint8_t { kNone, kOfNodes };
 
-/// ENSURES: head.size() and start are those of any other number of vertices.  Cost: O(names).
+/// ENSURES: without ids, head.size() and start do not depend on the number of vertices.
+/// Cost: O(names).
 [[nodiscard]] VtuLayout make_vtu_layout(const MeshHeader& header, std::uint64_t vertices,
                                         Element element = Element::kTet4,
                                         VtuIds ids = VtuIds::kNone);

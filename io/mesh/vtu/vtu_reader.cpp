@@ -71,10 +71,10 @@ void read_points(pugi::xml_node piece, VtkDocument& document, MeshData& mesh) {
   }
 }
 
-/// Cells of a piece.  Each tet becomes `parts` tets of the mesh.
+/// The cells of a piece.  Each tet becomes `parts` tets of the mesh.
 struct VtuCells {
   std::vector<std::uint64_t> types;
-  std::vector<std::uint64_t> ends;  ///< of the nodes of each
+  std::vector<std::uint64_t> ends;  ///< where the nodes of each cell end
   std::size_t parts = 1;
 
   /// Calls visit(cell) for each tet, as often as it has parts.
@@ -87,7 +87,7 @@ struct VtuCells {
   }
 };
 
-/// Wedges are left out where the mesh's record tells of them, and follow from the tets.
+/// Reads the types and offsets of cells; wedges are allowed only where the record tells of them.
 VtuCells read_kinds(pugi::xml_node cells, std::uint64_t count, VtkDocument& document,
                     const MeshRecord& record) {
   VtuCells out{.types = document.integers(named_array(cells, "types", document), count),
@@ -111,7 +111,7 @@ VtuCells read_kinds(pugi::xml_node cells, std::uint64_t count, VtkDocument& docu
   return out;
 }
 
-/// Corners of tets, and which nodes are middles; of curved tets the parts.
+/// Adds the corners of tets and marks the nodes that are middles; of curved tets it adds the parts.
 void read_corners(pugi::xml_node cells, const VtuCells& kinds, VtkDocument& document,
                   MeshData& mesh, KeptRows& middles) {
   const std::vector<std::uint64_t>& ends = kinds.ends;
@@ -142,8 +142,8 @@ void read_corners(pugi::xml_node cells, const VtuCells& kinds, VtkDocument& docu
   }
 }
 
-/// Floats of one component are values.  Pieces without an array have NaN in its place.
-/// before: the number of tets in the pieces before.
+/// Reads values, which are floats of one component.  Pieces without an array have NaN in its place.
+/// `before` is the number of tets in the pieces before.
 void read_values(pugi::xml_node cell_data, const VtuCells& kinds, std::size_t before,
                  VtkDocument& document, MeshData& mesh) {
   for (const pugi::xml_node array : cell_data.children("DataArray")) {
@@ -179,7 +179,7 @@ void read_cells(pugi::xml_node piece, VtkDocument& document, MeshData& mesh, Kep
   read_values(piece.child("CellData"), kinds, tets_before, document, mesh);
 }
 
-/// All pieces, one after the other; which vertices are middles of edges goes to `middles`.
+/// Reads the pieces one after the other, and marks in `middles` the vertices that are middles.
 void read_grid(VtkDocument& document, MeshData& mesh, KeptRows& middles) {
   bool found = false;
   for (const pugi::xml_node piece : document.grid().children("Piece")) {

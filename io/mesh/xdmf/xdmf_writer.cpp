@@ -12,7 +12,7 @@
 namespace mw::io {
 namespace {
 
-/// A group of cells: what it is called and its number.
+/// The name and the number of a group of cells.
 struct XdmfTag {
   std::string name;
   std::int64_t number = 0;
@@ -20,19 +20,19 @@ struct XdmfTag {
 
 /// What the file says of a mesh.
 struct XdmfFacts {
-  std::string numbers;  ///< name of the HDF5 file
+  std::string numbers;  ///< the name of the HDF5 file
   Element element = Element::kTet4;
   bool labels_signed = false;
   std::uint64_t nodes = 0;
   std::uint64_t tets = 0;
   std::uint64_t facets = 0;
   std::vector<XdmfTag> labels{};
-  std::string record{};          ///< of the run, a line (mesh_record.h); empty: none
+  std::string record{};          ///< the record as a line (mesh_record.h); may be empty
   std::vector<XdmfTag> sides{};  ///< groups of facets
   std::vector<std::string> values{};
 };
 
-/// A data set.
+/// A data set of the HDF5 file.
 struct Item {
   std::string path;
   std::uint64_t rows = 0;
@@ -141,7 +141,7 @@ std::string document_text(const std::string& grids) {
               grids, "  </Domain>\n</Xdmf>\n");
 }
 
-/// A column with room for all of its numbers.
+/// Returns a column with room for all of its numbers.
 template <class T>
 FileColumn<T> column_of(Hdf5Output& output, std::uint64_t numbers) {
   return {output.file(), output.reserve(numbers * sizeof(T))};
@@ -176,13 +176,13 @@ XdmfFacts facts_of(const GroupedMesh& mesh, const LabelNumbers& numbers,
   return facts;
 }
 
-/// All grids.
+/// Returns the document with all grids.
 std::string xdmf_text(const XdmfFacts& facts) {
   return document_text(record_line(facts) + mesh_text(facts) + cell_tags_text(facts) +
                        facet_tags_text(facts));
 }
 
-/// The first grid alone.
+/// Returns the document with the first grid alone.
 std::string xdmf_cells_text(const XdmfFacts& facts) {
   return document_text(mesh_text(facts));
 }

@@ -13,20 +13,22 @@
 
 namespace mw::io {
 
-/// XDMF 3 for M.xdmf, which gets its name last.  Three grids in one domain:
-///   mesh        the tets; cell attribute `label`, the labels themselves (UInt64 or Int64)
+/// Writes XDMF 3 into M.xdmf, which gets its name last.  One domain has three grids:
+///   mesh        the tets; cell attribute `label`, the labels themselves (UInt64 or Int64), and one
+///               for each of the values (Float64)
 ///   cell_tags   the same tets; cell attribute `cell_tags`, Int32 numbers (label_numbers.h)
 ///   facet_tags  the triangles; cell attribute `facet_tags`, Int32 numbers (group_names.h)
-/// The last two have an Information a number: its Name is that of the group, its Value the number.
-/// The domain has an Information `mwmesh`, the record of the run (mesh_record.h).
-/// The numbers of all are in M.h5:
+/// The last two have an Information for each number: its Name is that of the group, its Value the
+/// number.  The domain has an Information `mwmesh`, the record of the run (mesh_record.h).
+/// The arrays of all grids are in M.h5:
 ///   /Mesh/mesh/geometry            Float64 [nodes][3]
 ///   /Mesh/mesh/topology            Int64 [tets][4 or 10], ten nodes in the order of kTetEdges
 ///   /Mesh/mesh/label               UInt64 or Int64 [tets]
 ///   /MeshTags/cell_tags/Values     Int32 [tets]
 ///   /MeshTags/facet_tags/topology  Int64 [facets][3 or 6], normal out of the lower label
 ///   /MeshTags/facet_tags/Values    Int32 [facets]
-/// M.cells.xdmf has the grid `mesh` alone, for readers that take one grid a file (meshio).  The
+///   /Values/NAME                   Float64 [tets], for each of the values
+/// M.cells.xdmf has only the grid `mesh`, for readers that take one grid from a file (meshio).  The
 /// tables are M.xdmf.labels.csv and M.facets.csv.
 class XdmfWriter : public GroupedWriter {
  public:
@@ -34,7 +36,7 @@ class XdmfWriter : public GroupedWriter {
   void write(GroupedMesh& mesh) override;
 
  private:
-  // Data sets, written.
+  // Each of these writes a data set and returns it.
   [[nodiscard]] Hdf5DataSet nodes(GroupedMesh& mesh);
   [[nodiscard]] Hdf5DataSet topology(GroupedMesh& mesh);
   [[nodiscard]] Hdf5DataSet labels(const GroupedMesh& mesh);
@@ -51,7 +53,7 @@ class XdmfWriter : public GroupedWriter {
   AtomicFile facets_;
 };
 
-/// M.h5 of M.xdmf, and M.cells.xdmf.
+/// Return the paths of M.h5 and M.cells.xdmf for M.xdmf.
 [[nodiscard]] std::filesystem::path xdmf_numbers_path(const std::filesystem::path& xdmf);
 [[nodiscard]] std::filesystem::path xdmf_cells_path(const std::filesystem::path& xdmf);
 

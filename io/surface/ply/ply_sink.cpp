@@ -50,7 +50,7 @@ void PlySink::append_comments() {
   for (const Label rank : ranks_of(header_)) {
     const RawLabel raw = table.raw(rank);
     if (const LabelName* row = header_.labels->names.find(raw)) {
-      // Without the '#' of the other format.
+      // The '#' of Medit's format is left out.
       file_.append("comment" + medit_comment(*row, table.is_signed()).substr(1));
     }
     const std::int64_t number = (*numbers_)[rank];

@@ -9,12 +9,12 @@
 
 namespace mw::io {
 
-/// Little-endian.  Vertices: x y z (double); faces: vertex_indices (int).
-/// Surfaces of labels have more on their vertices alone, which simple readers expect: label (int),
-/// red green blue (uchar).  Those of interfaces have it on their faces: label_in, label_out (int; 0
-/// where a face is on no interface), side (uchar, see Side), red green blue, those of label_in.
-/// Colours are there if that of any label is known.  Comments hold names and colours; labels beyond
-/// 31 bits get numbers, and a comment says which.
+/// Writes little-endian.  Vertices have x y z (double), faces have vertex_indices (int).
+/// Surfaces of labels have more on their vertices only, as simple readers expect: label (int), and
+/// red green blue (uchar).  Interfaces have more on their faces: label_in, label_out (int; 0 where
+/// a face is on no interface), side (uchar, see Side), and red green blue of label_in.
+/// Colours are written if that of any label is known.  Comments hold names and colours; labels
+/// beyond 31 bits get numbers, and a comment says which.
 class PlySink : public SurfaceSink {
  public:
   explicit PlySink(const std::filesystem::path& path) : name_(path.string()), file_(path) {}
@@ -36,7 +36,7 @@ class PlySink : public SurfaceSink {
   std::optional<RunCursor> cursor_;
   bool of_labels_ = false;
   bool colours_ = false;
-  std::size_t shell_ = 0;           ///< that the next vertex belongs to
+  std::size_t shell_ = 0;           ///< of the next vertex
   std::uint64_t shell_vertex_ = 0;  ///< its number there
 };
 

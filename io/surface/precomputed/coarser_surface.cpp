@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The mwmesh authors
 // SPDX-License-Identifier: Apache-2.0
-// Vertices are sorted by the cubes that they lie in.
+// Sorts vertices by the cubes that they lie in.
 #include "io/surface/precomputed/coarser_surface.h"
 
 #include <algorithm>
@@ -36,14 +36,15 @@ std::vector<std::uint64_t> sorted_rows(const std::vector<Cube>& cubes) {
   return rows;
 }
 
-/// A triangle that begins with its smallest corner and goes round as it did.
+/// Returns the triangle with its smallest corner first and in the same direction.
 Triangle turned(const Triangle& t) {
   if (t[1] < t[0] && t[1] < t[2]) return {t[1], t[2], t[0]};
   if (t[2] < t[0] && t[2] < t[1]) return {t[2], t[0], t[1]};
   return t;
 }
 
-/// Each three corners once, whichever way round: the way that comes first in the order of rows.
+/// Keeps one triangle of those with the same three corners, in either direction: the one that comes
+/// first in the order of rows.
 void drop_copies(std::vector<Triangle>& triangles) {
   const auto corners = [](Triangle t) {
     std::sort(t.begin(), t.end());

@@ -14,12 +14,12 @@ struct TriangleSurface {
   std::vector<Triangle> triangles;
 };
 
-/// All vertices in one cube of a grid become one, at their mean, and triangles that are left with
-/// fewer than three corners go, as do copies of others (vertex clustering of Rossignac and Borrel).
-/// Topology is not kept.
-/// origin: a corner of the grid, not above any vertex; cell: the edge of its cubes, positive.
+/// Joins all vertices in one cube of a grid at their mean, and drops triangles that are left with
+/// fewer than three corners, and copies of others (vertex clustering of Rossignac and Borrel).
+/// Topology is not kept.  origin is a corner of the grid, not above any vertex.
+/// REQUIRES: cell, the edge of the grid's cubes, is positive.
 /// ENSURES: no vertex moves by more than the diagonal of a cube; each is the corner of a triangle;
-/// the same result for the same surface.  Cost: O(n log n).
+/// the same surface gives the same result.  Cost: O(n log n).
 [[nodiscard]] TriangleSurface clustered(const TriangleSurface& fine, const Position& origin,
                                         double cell);
 

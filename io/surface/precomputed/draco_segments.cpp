@@ -19,7 +19,7 @@ namespace {
 constexpr std::uint64_t kShardBytes = std::uint64_t{1} << 28U;
 constexpr std::uint64_t kMinishardSegments = 512;
 
-/// The least number of bits that counts to `count`.
+/// Returns the least number of bits that have `count` different values.
 int bits_for(std::uint64_t count) {
   return count <= 1 ? 0 : static_cast<int>(std::bit_width(count - 1));
 }
@@ -109,7 +109,7 @@ class DracoSegments::ShardWriter {
     }
     std::uint64_t last = 0;
     for (const Entry& e : entries) append_little(file, e.segment - std::exchange(last, e.segment));
-    // Manifests are what the index knows; fragments lie in the gaps before them.
+    // The index has the places of manifests; fragments lie in the gaps before them.
     std::uint64_t gap = begin;
     for (const Entry& e : entries) append_little(file, std::exchange(gap, 0) + e.fragment_bytes);
     for (const Entry& e : entries) append_little(file, e.manifest_bytes);

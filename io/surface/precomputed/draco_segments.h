@@ -13,15 +13,15 @@
 
 namespace mw::io {
 
-/// Segments wait in a temporary file, as their number decides where they go.
+/// Writes segments, which wait in a temporary file, as their number decides where they go.
 /// ERRORS: as AtomicFile.
 class DracoSegments {
  public:
-  /// folder: exists, and takes the files.
+  /// The files go to folder.  REQUIRES: folder exists.
   explicit DracoSegments(std::filesystem::path folder)
       : folder_(std::move(folder)), waiting_(folder_) {}
 
-  /// REQUIRES: no two of the same number.
+  /// Adds a segment.  REQUIRES: no two segments have the same number.
   void add(std::uint64_t segment, std::string_view fragments, std::string_view manifest);
 
   /// Writes FOLDER/ID (fragments) and FOLDER/ID.index (the manifest) for each segment, or, where

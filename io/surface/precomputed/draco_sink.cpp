@@ -16,12 +16,12 @@
 namespace mw::io {
 namespace {
 
-/// Levels of detail at most, and how few triangles need no coarser one.
+/// The most levels of detail, and the most triangles of a level that needs no coarser one.
 constexpr int kMostLevels = 8;
 constexpr std::size_t kFewTriangles = 200;
 
-/// The length of a cell in mean edges, and how many cells there are along an axis at most.  No edge
-/// is longer than a cell, so no triangle becomes many pieces.
+/// The length of a cell in mean edges, and the most cells along an axis, for which cells may be
+/// longer.  No edge is longer than a cell, so that no triangle becomes many pieces.
 constexpr double kCellEdges = 64;
 constexpr double kMostCells = 1 << 13;
 
@@ -31,7 +31,7 @@ struct Octree {
   std::array<double, 3> extent{};  ///< of all vertices, from the origin
   float cell = 0;                  ///< the edge of a cube
 
-  /// Cells of a level, each twice as long as those of the level before it.
+  /// Returns the cells of a level, each twice as long as those of the level before it.
   [[nodiscard]] Index3 grid(int level) const {
     const auto along = [&](std::size_t k) {
       return std::max<std::int64_t>(1, std::llround(std::ceil(extent[k] / edge(level))));
@@ -106,7 +106,7 @@ std::uint32_t append_mesh(const SteppedSurface& surface, std::string& fragments)
   add_positions(surface.vertices, mesh);
   add_faces(surface.triangles, mesh);
   draco::Encoder encoder;
-  // Triangles may go round the other way or in another order, but not away.
+  // This method may turn triangles around and reorder them, but drops none.
   encoder.SetEncodingMethod(draco::MESH_EDGEBREAKER_ENCODING);
   draco::EncoderBuffer buffer;
   const draco::Status status = encoder.EncodeMeshToBuffer(mesh, &buffer);
@@ -122,13 +122,13 @@ struct Node {
   std::uint32_t bytes = 0;
 };
 
-/// What the manifest says of a level.
+/// A level, as the manifest describes it.
 struct Level {
-  float scale = 0;  ///< lengths below it do not show, nm
+  float scale = 0;  ///< shorter lengths do not show, nm
   std::vector<Node> nodes;
 };
 
-/// The nodes that hold those of a finer level, without bytes.
+/// Returns the nodes, without bytes, that hold those of a finer level.
 std::vector<Node> parents_of(const std::vector<Node>& nodes) {
   std::vector<Node> out;
   for (const Node& node : nodes) {
@@ -137,7 +137,7 @@ std::vector<Node> parents_of(const std::vector<Node>& nodes) {
   return out;
 }
 
-/// Adds a level's meshes.  Readers find a node from the one that holds it, so each has one.
+/// Adds a level's meshes.  Readers find a node by the one that holds it, so that each needs one.
 Level add_level(const TriangleSurface& surface, const Octree& octree,
                 const std::vector<Level>& finer, std::string& fragments) {
   const int level = static_cast<int>(finer.size());

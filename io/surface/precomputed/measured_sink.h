@@ -33,7 +33,7 @@ struct SegmentFigures {
   std::optional<SegmentBox> box;
 };
 
-/// Hands everything on, and measures it.
+/// Passes a surface on to another sink, and measures it.
 /// REQUIRES: figures outlives it.  Memory: 8 MiB; vertices wait in a temporary file in folder.
 class MeasuredSink : public SurfaceSink {
  public:
@@ -50,7 +50,7 @@ class MeasuredSink : public SurfaceSink {
   std::unique_ptr<SurfaceSink> sink_;
   PagedFile<Position> vertices_;
   bool closed_;
-  Position first_{};    ///< volumes are sums of tets to here
+  Position first_{};    ///< the volume is the sum of the tets from triangles to here
   double volume6_ = 0;  ///< six times the volume
   SegmentFigures& figures_;
 };

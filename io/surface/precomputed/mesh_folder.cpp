@@ -70,8 +70,8 @@ Json properties_json(const std::vector<RawLabel>& segments,
           {"inline", {{"ids", ids}, {"properties", properties}}}};
 }
 
-/// Around all segments, low and high corner in nm: readers of the format know no such member, but
-/// who wants to look at the folder as a whole has to know where it is.
+/// Returns the low and high corner, in nm, of the box around all segments.  The format has no such
+/// member, but a viewer of the whole folder has to know where it is.
 Json box_json(const std::deque<SegmentFigures>& figures, double nm_per_unit) {
   SegmentBox box = figures.front().box.value_or(SegmentBox{});
   for (const SegmentFigures& f : figures) {

@@ -12,11 +12,11 @@
 
 namespace mw::io {
 
-/// FOLDER/ID:0, JSON that names one fragment, and the fragment, FOLDER/ID.mesh: the number of
-/// vertices (u32), their coordinates (3 x f32, nm), the vertices of triangles (3 x u32).
+/// Writes FOLDER/ID:0, JSON that names one fragment, and the fragment, FOLDER/ID.mesh, with the
+/// number of vertices (u32), their coordinates (3 x f32, nm), the vertices of triangles (3 x u32).
 class LegacySink : public SurfaceSink {
  public:
-  /// segment: FOLDER/ID.
+  /// segment is FOLDER/ID.
   LegacySink(const std::filesystem::path& segment, double nm_per_unit);
 
   void begin(const SurfaceHeader& header) override;
@@ -41,20 +41,20 @@ struct MeshFolderOptions {
   FragmentKind kind = FragmentKind::kLegacy;
   std::string unit = "nm";           ///< of the mesh's coordinates
   double nm_per_unit = 1;            ///< the format counts in nm
-  bool closed = true;                ///< surfaces are, so they have volumes
+  bool closed = true;                ///< surfaces are closed, so that they have volumes
   std::size_t most_single = 10'000;  ///< kDraco: more segments than these go into shards
 };
 
-/// One segment a label, called by the label (a signed one by the same 64 bits unsigned), and as
-/// segment properties its name, volume, area and number of neighbours.  The folder can be shown by
-/// itself, or lie in that of a segmentation as its "mesh".
+/// Writes one segment a label, whose number is the label (a signed one by the same 64 bits
+/// unsigned), and as segment properties its name, volume, area and number of neighbours.  The
+/// folder can be shown by itself, or lie in that of a segmentation as its "mesh".
 /// ERRORS: as SurfaceSink.
 class MeshFolder {
  public:
   MeshFolder(const std::filesystem::path& path, MeshFolderOptions options)
       : folder_(path), options_(std::move(options)), draco_(folder_.path()) {}
 
-  /// For the surface of one label, not of interfaces.
+  /// Returns a sink for the surface of one label, not for interfaces.
   [[nodiscard]] std::unique_ptr<SurfaceSink> sink(RawLabel label);
   /// Writes what describes the whole, and commits.  REQUIRES: all sinks have finished.
   void finish(const LabelNames& names);
@@ -64,7 +64,7 @@ class MeshFolder {
   MeshFolderOptions options_;
   DracoSegments draco_;
   std::vector<RawLabel> segments_;
-  std::deque<SegmentFigures> figures_;  ///< of segments_, where sinks find them
+  std::deque<SegmentFigures> figures_;  ///< of segments_; sinks refer to them
 };
 
 }  // namespace mw::io

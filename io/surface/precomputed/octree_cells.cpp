@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: The mwmesh authors
 // SPDX-License-Identifier: Apache-2.0
-// Planes are taken from below, axis by axis: so each edge is cut at the same places, in whichever
-// triangle it is.
+// Cuts along planes from below, axis by axis, so that each edge is cut at the same places in all
+// triangles that have it.
 #include "io/surface/precomputed/octree_cells.h"
 
 #include <algorithm>
@@ -12,13 +12,13 @@
 namespace mw::io {
 namespace {
 
-/// The lowest plane above a coordinate.
+/// Returns the lowest plane above a coordinate.
 std::int64_t plane_above(std::int64_t at, bool halves) {
   const std::int64_t cell = at / kCellSteps * kCellSteps;
   return halves && at - cell < kHalfCell ? cell + kHalfCell : cell + kCellSteps;
 }
 
-/// a * b / c, rounded to the nearest whole number.  REQUIRES: c > 0.
+/// Returns a * b / c, rounded to the nearest whole number.  REQUIRES: c > 0.
 std::int64_t scaled(std::int64_t a, std::int64_t b, std::int64_t c) {
   const std::int64_t twice = 2 * a * b + c;
   const std::int64_t quotient = twice / (2 * c);
@@ -43,7 +43,7 @@ class AxisCutter {
     return surface_.vertices[vertex][axis_];
   }
 
-  /// The vertex where the plane cuts the edge of u and v.
+  /// Returns the vertex where the plane cuts the edge of u and v.
   std::uint64_t vertex_on(std::uint64_t u, std::uint64_t v, std::int64_t plane) {
     if (v < u) std::swap(u, v);
     const auto [found, is_new] = cuts_.try_emplace({u, v}, surface_.vertices.size());
@@ -60,7 +60,7 @@ class AxisCutter {
     return found->second;
   }
 
-  /// Appends what is below the lowest plane that cuts the triangle, and goes on above it.
+  /// Appends the part below the lowest plane that cuts the triangle, and cuts the part above it.
   void cut(Triangle t) {
     const std::int64_t low = std::min({at(t[0]), at(t[1]), at(t[2])});
     const std::int64_t high = std::max({at(t[0]), at(t[1]), at(t[2])});
@@ -101,7 +101,7 @@ Index3 cell_of(const SteppedSurface& surface, const Triangle& t, Index3 grid) {
   return {along(0, grid.x), along(1, grid.y), along(2, grid.z)};
 }
 
-/// Triangles of one cell with vertices of their own, in the order in which they come.
+/// Gives the triangles of each cell vertices of their own, in the order in which they come.
 class PartMaker {
  public:
   /// REQUIRES: surface outlives it.

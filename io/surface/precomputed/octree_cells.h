@@ -12,10 +12,10 @@
 
 namespace mw::io {
 
-/// Bits of a coordinate within a cell: 10 or 16.
+/// The bits of a coordinate within a cell; the format allows 10 or 16.
 inline constexpr int kDracoBits = 16;
 
-/// Steps along the edge of a cell.
+/// The steps along the edge of a cell.
 inline constexpr std::int64_t kCellSteps = (1 << kDracoBits) - 1;
 
 /// Where neuroglancer cuts the cell of a coarse level into eight, in steps.
@@ -29,7 +29,7 @@ struct SteppedSurface {
   std::vector<Triangle> triangles;
 };
 
-/// What of a surface lies in one cell.
+/// The part of a surface that lies in one cell.
 struct CellPart {
   Index3 cell;
   SteppedSurface surface;  ///< from the cell's least corner, within 0 to kCellSteps
@@ -37,12 +37,12 @@ struct CellPart {
 
 /// Cuts triangles along the planes between cells, and with halves also along those that cut cells
 /// into eight.  A triangle in the plane between two cells goes to the one above it.
-/// REQUIRES: vertices within 0 and kCellSteps times the grid's extents, of which each is at least 1
-/// and at most 2^14.
+/// REQUIRES: vertices are within 0 and kCellSteps times the grid's extents, each of which is at
+/// least 1 and at most 2^14.
 /// ENSURES: parts have triangles and ascend by the compressed Morton code of their cells; new
 /// vertices are within half a step of the edge that they cut, and triangles that share an edge
-/// share them; a vertex that was not cut is where it was.  Cost: O(n log n) in the triangles that
-/// are left.
+/// share them; all other vertices stay where they were.  Cost: O(n log n) in the triangles of the
+/// parts.
 [[nodiscard]] std::vector<CellPart> cut_into_cells(SteppedSurface surface, Index3 grid,
                                                    bool halves);
 

@@ -11,7 +11,7 @@
 namespace mw::io {
 namespace {
 
-/// Does not begin with "solid", by which readers know the other kind of .stl.
+/// The title must not begin with "solid", by which readers know the text kind of .stl.
 constexpr std::string_view kTitle = "binary STL, surface of a labelled mesh";
 constexpr std::size_t kTitleBytes = 80;
 

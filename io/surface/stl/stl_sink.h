@@ -9,10 +9,10 @@
 
 namespace mw::io {
 
-/// 80 bytes of text with space_comment(), the number of triangles in 32 bits, then for each its
-/// normal and its corners as 32-bit floats and two bytes of 0.  The format has neither labels nor
-/// vertices: who reads it puts together what has the same coordinates. Memory: 10 MiB; corners wait
-/// in a temporary file.
+/// Writes 80 bytes of text with space_comment(), the number of triangles in 32 bits, then for each
+/// its normal and its corners as 32-bit floats and two bytes of 0.  The format has neither labels
+/// nor vertices; readers join the corners that have the same coordinates.
+/// Memory: 10 MiB; vertices wait in a temporary file.
 class StlSink : public SurfaceSink {
  public:
   explicit StlSink(const std::filesystem::path& path);

@@ -19,13 +19,13 @@ namespace mw::io {
 /// The way out that errors name where a file is damaged.
 inline constexpr const char* kCheckDicom = "check that the file is complete, or export it again";
 
-/// What voxels say.
+/// What a voxel says.
 enum class DicomVoxels : std::int32_t {
-  kMasks,   ///< whether they belong to the segment that their frame is of
-  kLabels,  ///< the number of their segment (Segmentation Type LABELMAP)
+  kMasks,   ///< whether it belongs to the segment of its frame
+  kLabels,  ///< the number of its segment (Segmentation Type LABELMAP)
 };
 
-/// Frames of labels are of no segment of their own.
+/// The segment of frames of a label map, which have voxels of all segments.
 inline constexpr std::int32_t kAllSegments = 0;
 
 /// What all frames have in common.  Lengths are in mm, places in DICOM's patient coordinates (LPS).
@@ -33,9 +33,9 @@ struct DicomGrid {
   std::int32_t rows = 0;
   std::int32_t columns = 0;
   DicomVoxels voxels = DicomVoxels::kMasks;
-  std::int32_t bits = 1;        ///< of a voxel: of masks 1 or 8, of labels 8 or 16
-  std::int32_t threshold = 1;   ///< of masks: the least value of a voxel that belongs to a segment
-  std::int32_t background = 0;  ///< of labels: that of voxels of no segment
+  std::int32_t bits = 1;        ///< bits of a voxel: 1 or 8 in masks, 8 or 16 in label maps
+  std::int32_t threshold = 1;   ///< in masks, the least value of a voxel of the segment
+  std::int32_t background = 0;  ///< in label maps, the value of voxels of no segment
   Vector3 along_row{1, 0, 0};   ///< direction from a voxel to the next column
   Vector3 along_column{0, 1, 0};
   double column_spacing = 0;  ///< between columns
@@ -50,7 +50,7 @@ struct DicomSegment {
   std::optional<Colour> colour;
 };
 
-/// A slice of one segment, or of all.
+/// A slice of one segment, or of all of them.
 struct DicomFrame {
   std::int32_t segment = kAllSegments;
   Vector3 first{};  ///< the centre of its first voxel
@@ -67,12 +67,12 @@ struct DicomSegments {
 
 /// Reads a file of the classes Segmentation Storage and Label Map Segmentation Storage, in a
 /// process of its own (io/file/wall/apart.h).
-/// Memory: the headers of the frames, some kilobytes each, packed pixels, and
-/// one frame unpacked, in that process only; the pixels go to $TMPDIR.
+/// Memory: the headers of the frames, some kilobytes each, packed pixels, and one frame unpacked,
+/// in that process only; the pixels go to $TMPDIR.
 /// ENSURES: there are frames, each of a segment that is there, or of all in a label map, and pixels
 /// of all of them; numbers are finite.  A label map may have labels that no segment has.
-/// ERRORS: mw::Error(kInput) naming file and attribute for damage, for images and for fields of
-/// probabilities that cannot be masks; kResource when the disk is full or there can be no process.
+/// ERRORS: mw::Error(kInput) naming file and attribute for damage, for images and for types of
+/// segmentations that are not read; kResource when the disk is full or there can be no process.
 [[nodiscard]] DicomSegments read_dicom_segments(const ByteSource& source);
 
 }  // namespace mw::io

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The mwmesh authors
 // SPDX-License-Identifier: Apache-2.0
-// DCMTK's decoders, which fill what is missing of a frame and log a warning: here that is an error.
+// Runs DCMTK's decoders.  They fill what a frame lacks and log a warning, which is an error here.
 #include "io/volume/dicom/frame_unpacker.h"
 
 #include <dcmtk/config/osconfig.h>

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The mwmesh authors
 // SPDX-License-Identifier: Apache-2.0
-// Packed pixels of a DICOM file through DCMTK.  To be used where DCMTK sees the file.
+// Unpacks pixels of a DICOM file through DCMTK, in the process in which DCMTK sees the file.
 #pragma once
 
 #include <cstddef>
@@ -27,7 +27,7 @@ class FrameUnpacker {
                 const std::string& file);
 
   /// Returns the voxels of the next frame, as DicomSegments has them, until the next call.
-  /// ERRORS: mw::Error(kInput) naming the frame if it is damaged: also if DCMTK goes on with a
+  /// ERRORS: mw::Error(kInput) naming the frame if it is damaged, also if DCMTK goes on with a
   /// warning.
   [[nodiscard]] std::span<const std::byte> next();
 
@@ -41,7 +41,7 @@ class FrameUnpacker {
   const DicomGrid& grid_;
   const std::string& file_;
   bool is_rle_ = false;
-  std::uint32_t fragment_ = 1;  ///< the first of the next frame; 0 is a table
+  std::uint32_t fragment_ = 1;  ///< the next frame begins with it; 0 is a table
   std::uint32_t frame_ = 0;
   std::size_t frame_bytes_ = 0;
   std::vector<std::byte> voxels_;

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The mwmesh authors
 // SPDX-License-Identifier: Apache-2.0
-// From frames, each at one place, to labels on a grid: by masks of segments, or as they are.
+// Makes a grid of labels from frames, each at one place: by masks of segments, or as they are.
 #include "io/volume/dicom/open_dicom.h"
 
 #include <algorithm>
@@ -21,13 +21,13 @@ namespace {
 
 constexpr std::int64_t kMostSlices = 1 << 20;
 
-/// How far from the grid a frame may lie, in steps: coordinates are decimal texts of 16 characters.
+/// How far from the grid a frame may lie, in steps, as coordinates are texts of 16 characters.
 constexpr double kSlack = 0.05;
 
-/// Slices at most as far from each other, in mm, lie at one place.
+/// Slices that are at most this far from each other, in mm, lie at one place.
 constexpr double kSameSlice = 1e-3;
 
-/// first + length * way
+/// Returns first + length * way.
 Vector3 beyond(const Vector3& first, double length, const Vector3& way) {
   return {first[0] + length * way[0], first[1] + length * way[1], first[2] + length * way[2]};
 }
@@ -79,8 +79,8 @@ class SliceGrid {
                "export them on one grid of equal steps, for instance with 3D Slicer");
   }
 
-  /// The spacing or the thickness that the file has, if the slices agree, else the least distance
-  /// between two of them, which has the errors of two coordinates.
+  /// Returns the spacing or the thickness that the file states, if the slices agree with it, else
+  /// the least distance between two of them, which has the errors of two coordinates.
   static double step_of(const std::vector<double>& sorted, const DicomGrid& grid) {
     double least = 0;
     for (std::size_t i = 1; i < sorted.size(); ++i) {
@@ -100,16 +100,16 @@ class SliceGrid {
   }
 
   Vector3 normal_;
-  std::vector<double> places_;  ///< of the frames
+  std::vector<double> places_;  ///< those of the frames, along the normal
   double lowest_ = 0;
   double step_ = 0;
   Vector3 first_{};  ///< the centre of the first voxel
 };
 
-/// Frames by slice; -1: there is none.
+/// The frame of each slice; -1: there is none.
 using SliceFrames = std::vector<std::int64_t>;
 
-/// The voxels of one segment: 1, and 0 elsewhere.
+/// A volume that is 1 at the voxels of one segment, and 0 elsewhere.
 class SegmentMask : public LabelVolume {
  public:
   SegmentMask(const DicomSegments& dicom, const VolumeInfo& info, SliceFrames frames)
@@ -133,7 +133,7 @@ class SegmentMask : public LabelVolume {
   }
 
  private:
-  /// first: voxels of the file before the row.
+  /// Reads a row; `first` voxels of the file are before it.
   void read_row(std::uint64_t first, std::span<RawLabel> out) const {
     const auto bits = static_cast<std::uint64_t>(dicom_.grid.bits);
     const std::uint64_t begin = first * bits / 8, end = ((first + out.size()) * bits + 7) / 8;

@@ -16,8 +16,8 @@ namespace mw::io {
 [[nodiscard]] bool has_dicom_magic(std::span<const std::byte> head);
 
 /// Segments become labels as masks do, in the order of their numbers (MaskMerger), with their
-/// names; slices that no frame is about are empty.  Values of FRACTIONAL segmentations count from
-/// half of the most on.  Labels of a LABELMAP stay as they are, numbers of segments, and have their
+/// names; slices without a frame are empty.  Voxels of FRACTIONAL segments count from half of the
+/// largest value on.  Labels of a LABELMAP stay as they are, numbers of segments, and have their
 /// names; slices without a frame have its Pixel Padding Value, or 0.
 /// Array axes: columns, rows, slices along the normal.
 /// ERRORS: those of read_dicom_segments() and MaskMerger; mw::Error(kInput) when frames do not lie

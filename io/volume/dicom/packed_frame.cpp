@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The mwmesh authors
 // SPDX-License-Identifier: Apache-2.0
-// Headers of packed frames: of RLE 16 numbers, of JPEG and JPEG-LS marked segments.
+// Reads the headers of packed frames: 16 numbers in RLE, marked segments in JPEG and JPEG-LS.
 #include "io/volume/dicom/packed_frame.h"
 
 #include <algorithm>
@@ -31,7 +31,7 @@ struct JpegHeader {
   std::uint32_t rows = 0;
   std::uint32_t columns = 0;
   std::uint32_t components = 0;
-  std::uint32_t deviation = 0;  ///< of JPEG-LS: how far a value may be from the one before
+  std::uint32_t deviation = 0;  ///< in JPEG-LS, how far a value may be from the original
   std::uint32_t shift = 0;      ///< low bits that were left out
 };
 
@@ -69,7 +69,7 @@ std::optional<JpegHeader> read_jpeg_header(FrameBytes frame) {
   for (std::size_t at = 2; at + 4 <= frame.size();) {
     const std::uint32_t marker = byte_at(frame, at + 1);
     if (byte_at(frame, at) != kMark) return std::nullopt;
-    if (marker == kMark) {  // markers may have more of them before
+    if (marker == kMark) {  // more of them may stand before a marker
       ++at;
       continue;
     }
@@ -92,9 +92,9 @@ std::uint32_t bytes_of_voxel(const DicomGrid& grid) {
   return static_cast<std::uint32_t>(grid.bits) / 8;
 }
 
-/// Whether runs of one byte, and runs of several, give that number of bytes, before nothing but
-/// zeros that make the segment longer.  A length of -128 is that of a run, as for DCMTK: in the
-/// standard it has none, and nobody writes it.
+/// Whether a segment unpacks to that number of bytes, with only zeros behind them that make it
+/// longer.  A length of -128 is that of a run, as for DCMTK; in the standard it stands for no
+/// bytes, and nobody writes it.
 bool holds_bytes(FrameBytes segment, std::uint64_t bytes) {
   std::uint64_t found = 0;
   std::size_t at = 0;

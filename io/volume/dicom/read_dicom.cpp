@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The mwmesh authors
 // SPDX-License-Identifier: Apache-2.0
-// A DICOM segmentation through DCMTK, which sees the file in a child process only.
+// Reads a DICOM segmentation by DCMTK, which sees the file in a child process only.
 #include <dcmtk/config/osconfig.h>
 #include <dcmtk/dcmdata/dcfcache.h>
 #include <dcmtk/dcmdata/dcfilefo.h>
@@ -30,7 +30,7 @@ constexpr std::int32_t kMostSegmentNumber = 65535, kMostFrames = 1 << 22;
 /// Label Map Segmentation Storage, which DCMTK 3.6.7 has no name for.
 constexpr const char* kLabelMapClass = "1.2.840.10008.5.1.4.1.1.66.7";
 
-/// What the child sends first; then segments, frames and the bytes of the pixels.
+/// What the child sends first.  Segments, frames and the bytes of the pixels follow.
 struct SentSizes {
   DicomGrid grid;
   std::uint64_t segments = 0;
@@ -110,7 +110,7 @@ class DicomReader {
     return *pixels;
   }
 
-  /// A label map with more bytes than one to make their number even has voxels of another size.
+  /// A label map may have one padding byte; with more, its voxels have another size than they say.
   void check_length(DcmPixelData& pixels, std::uint64_t bytes) const {
     const std::uint64_t length = pixels.getLength();
     const bool may_be_longer = grid_.voxels == DicomVoxels::kMasks;
@@ -130,7 +130,7 @@ class DicomReader {
     }
   }
 
-  /// Returns a number of whatever kind, as all have texts; 0 where there is none.
+  /// Returns a number of any type by its text; 0 where there is none.
   [[nodiscard]] static double number(DcmItem* item, const DcmTagKey& key, unsigned long at = 0) {
     OFString digits;
     if (item == nullptr || item->findAndGetOFString(key, digits, at).bad()) return 0;
@@ -142,7 +142,7 @@ class DicomReader {
     return value >= 0 && value <= 1e9 ? static_cast<std::int32_t>(value) : -1;
   }
 
-  /// What the segment is shown in; four zeros where there is none.
+  /// Returns the colour in which the segment is shown; four zeros where there is none.
   [[nodiscard]] static Colour colour_of(DcmItem* segment) {
     const Uint16* values = nullptr;
     unsigned long count = 0;
@@ -152,7 +152,7 @@ class DicomReader {
     return srgb_of(cielab_of({values[0], values[1], values[2]}));
   }
 
-  /// A functional group: the frame's own, or the one that all frames share.
+  /// Returns a functional group: the frame's own, or the one that all frames share, or null.
   [[nodiscard]] DcmItem* group(DcmItem* frame, const DcmTagKey& sequence) const {
     for (DcmItem* from : {frame, shared_}) {
       DcmItem* found = nullptr;
@@ -165,7 +165,7 @@ class DicomReader {
     for (unsigned k = 0; k < 3; ++k) out[k] = number(item, key, first + k);
   }
 
-  /// What the frame says about the grid, which must be what all others say.
+  /// Returns what the frame says about the grid, which must be what all others say.
   [[nodiscard]] DicomGrid grid_of(DcmItem* frame) const {
     DicomGrid out;
     DcmItem* const orientation = group(frame, DCM_PlaneOrientationSequence);
@@ -236,7 +236,7 @@ class DicomReader {
     }
   }
 
-  /// Colours of a palette do not matter, as voxels are numbers of segments with one, too.
+  /// Ignores a palette, as the voxels are numbers of segments also where there is one.
   void read_label_type() {
     demand(whole(DCM_SamplesPerPixel) == 1, "Samples per Pixel",
            "is not 1, and a voxel of a label map has one number");
@@ -270,7 +270,7 @@ class DicomReader {
     }
   }
 
-  /// REQUIRES: segments were read.
+  /// Checks that each frame has a segment.  REQUIRES: segments were read.
   void match_frames() {
     for (DicomFrame& frame : frames_) {
       if (grid_.voxels == DicomVoxels::kLabels) {
@@ -293,7 +293,7 @@ class DicomReader {
   std::vector<DicomFrame> frames_;
 };
 
-/// The bytes in a file that DCMTK can open by a path, however they were packed before.
+/// Writes the bytes to a file that DCMTK can open by a path, however they were packed.
 FileDescriptor as_file(const ByteSource& source) {
   UnlinkedFile out(scratch_folder());
   std::vector<std::byte> piece;
@@ -306,7 +306,7 @@ FileDescriptor as_file(const ByteSource& source) {
   return out.release();
 }
 
-/// What a child sends, in this process.
+/// Takes what a child sends, in this process.
 class DicomReceiver {
  public:
   explicit DicomReceiver(const std::string& name) : name_(name) {}
@@ -334,7 +334,7 @@ class DicomReceiver {
     receive_pixels(stream, sizes.pixel_bytes);
   }
 
-  /// ERRORS: mw::Error(kInput) unless all has come.
+  /// Returns what has come.  ERRORS: mw::Error(kInput) unless it is all.
   [[nodiscard]] DicomSegments result(const std::string& death) && {
     if (is_complete_ && death.empty()) return std::move(result_);
     fail_input(name_, "DICOM structure",

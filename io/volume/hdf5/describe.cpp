@@ -14,7 +14,7 @@
 namespace mw::io {
 namespace {
 
-/// Data sets that an error names.
+/// The most data sets that an error names.
 constexpr std::size_t kMaxNamed = 12;
 
 Hdf5Entry entry_of(hid_t group, const char* name, std::string path) {
@@ -147,7 +147,7 @@ Hdf5Handle open_file(Hdf5Source& source, const std::string& name) {
   return {hdf5, &H5Fclose};
 }
 
-/// "a/b/" is "/a/b".
+/// Returns "/a/b" for "a/b/".
 std::string full_path(const std::string& given) {
   std::string path = given.starts_with('/') ? given : "/" + given;
   while (path.size() > 1 && path.ends_with('/')) path.pop_back();
@@ -180,7 +180,7 @@ std::string find_data_set(hid_t hdf5, const std::string& wanted, const std::stri
              "name one of them with --dataset");
 }
 
-/// In the child.
+/// Describes a data set; this runs in the child.
 std::string describe_here(const ByteSource& bytes, const std::string& wanted) {
   Hdf5Source source{.bytes = &bytes, .noted = {}};
   const Hdf5Handle hdf5 = open_file(source, bytes.name());
@@ -231,11 +231,11 @@ class Checker {
       next = chunk.number + 1;
       all += chunk.bytes;
     }
-    // Many chunks in one place would make little bytes a large volume.
+    // Chunks that share their bytes would make a large volume of a small file.
     demand(all <= size, "its chunks overlap");
   }
 
-  /// The most that 64 bits hold when it is more.
+  /// Returns the bytes of all voxels, or the most that 64 bits hold when they are more.
   [[nodiscard]] std::uint64_t voxel_bytes() const {
     auto bytes = static_cast<std::uint64_t>(byte_size(description_.type));
     for (const std::uint64_t extent : description_.shape) {

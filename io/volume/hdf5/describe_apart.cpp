@@ -73,7 +73,7 @@ namespace {
 
 /// A compact data set is part of a header message, which has a size of 16 bits.
 constexpr std::uint64_t kMaxCompactBytes = 1 << 16;
-/// Chunks of the grid that a slow processor finds in a second.
+/// How many chunks of the grid a slow processor finds in a second.
 constexpr std::uint64_t kChunksPerSecond = 20'000;
 constexpr std::uint64_t kSecondsBeside = 5;
 
@@ -212,7 +212,7 @@ class Describer {
     }
   }
 
-  /// Chunks along each axis.
+  /// Returns the number of chunks along each axis, and allows the time that they take.
   [[nodiscard]] std::vector<std::uint64_t> grid() const {
     std::vector<std::uint64_t> counts;
     std::uint64_t all = 1;
@@ -258,7 +258,7 @@ class Describer {
   void note_chunk(const std::vector<std::uint64_t>& chunk, std::uint64_t number) {
     std::array<hsize_t, H5S_MAX_RANK> corner{};
     for (std::size_t d = 0; d < chunk.size(); ++d) corner[d] = chunk[d] * out_.chunk_shape[d];
-    // The library calls it an error when there is none: the count of chunks tells it from damage.
+    // The library fails for a chunk that is not there; note_chunks() tells that from damage.
     hsize_t bytes = 0;
     const herr_t found = H5Dget_chunk_storage_size(set_.get(), corner.data(), &bytes);
     if (found < 0 || bytes == 0) return;

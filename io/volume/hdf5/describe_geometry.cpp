@@ -16,7 +16,7 @@ namespace {
 constexpr hssize_t kMaxNumbers = H5S_MAX_RANK;
 constexpr std::size_t kMaxTextBytes = 1 << 14;
 
-/// Looks things up by name.  None is an answer; a look-up that fails is damage.
+/// Looks things up by name.  Finding none is no error, but a look-up that fails is damage.
 class AttributeReader {
  public:
   explicit AttributeReader(std::string_view file) : file_(file) {}
@@ -45,7 +45,7 @@ class AttributeReader {
     return out;
   }
 
-  /// A string of fixed or of variable length.
+  /// Returns a string of fixed or of variable length; empty: there is none.
   [[nodiscard]] std::string attribute_text(hid_t object, const char* name) const {
     if (!has_attribute(object, name)) return {};
     const Hdf5Handle attribute = opened(H5Aopen(object, name, H5P_DEFAULT), &H5Aclose, name);
@@ -63,7 +63,7 @@ class AttributeReader {
     return out.substr(0, out.find('\0'));
   }
 
-  /// Empty when there is none, and of a link that leads nowhere or to another file.
+  /// Returns nothing when there is none, and for a link that leads nowhere or to another file.
   [[nodiscard]] Hdf5Handle object(hid_t group, const char* name) const {
     if (demand(H5Lexists(group, name, H5P_DEFAULT), name) <= 0) return {};
     H5L_info_t link{};
@@ -83,7 +83,7 @@ class AttributeReader {
                kHdf5Damaged);
   }
 
-  /// What the library returned, unless it is negative: it failed.
+  /// Returns the library's result, unless it is negative, which means that the library failed.
   template <class Result>
   Result demand(Result result, const char* name) const {
     if (result < 0) {
@@ -96,7 +96,7 @@ class AttributeReader {
     return {demand(id, name), close};
   }
 
-  /// How many numbers the type and space are those of; 0 when they are none, or many.
+  /// Returns how many numbers type and space describe; 0 when these are no numbers.
   [[nodiscard]] std::size_t few_numbers(hid_t type_id, hid_t space_id, const char* name) const {
     const Hdf5Handle type(type_id, &H5Tclose);
     const Hdf5Handle space(space_id, &H5Sclose);
@@ -129,8 +129,8 @@ void keep(Hdf5Description& description, const char* name, std::vector<double> nu
   if (!numbers.empty()) description.numbers[name] = std::move(numbers);
 }
 
-/// The geometry of DREAM.3D: a group `_SIMPL_GEOMETRY` of data sets up to version 7, attributes of
-/// the image's group from version 8 on.  Whether there is one.
+/// Finds the geometry of DREAM.3D: a group `_SIMPL_GEOMETRY` of data sets up to version 7,
+/// attributes of the image's group from version 8 on.  Returns whether there is one.
 bool find_geometry(const AttributeReader& reader, hid_t group, Hdf5Description& out) {
   if (reader.has_attribute(group, "_SPACING")) {
     keep(out, "DIMENSIONS", reader.attribute_numbers(group, "_DIMENSIONS"));

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The mwmesh authors
 // SPDX-License-Identifier: Apache-2.0
-// A description as bytes, for the way from one process to another on the same machine.
+// Packs a description as bytes, for the way between two processes on the same machine.
 #include "io/volume/hdf5/description.h"
 
 #include <cstring>
@@ -8,7 +8,7 @@
 namespace mw::io {
 namespace {
 
-/// Everything is numbers of 64 bits, and runs of bytes behind their length.
+/// Writes everything as numbers of 64 bits, and runs of bytes behind their length.
 class DescriptionWriter {
  public:
   void number(std::uint64_t value) {
@@ -29,7 +29,7 @@ class DescriptionWriter {
   std::string out_;
 };
 
-/// Reads what DescriptionWriter wrote; what is not there reads as nothing, and sound() says so.
+/// Reads what DescriptionWriter wrote.  What is not there reads as 0 or empty, and sound() says so.
 class DescriptionReader {
  public:
   explicit DescriptionReader(const std::string& bytes) : bytes_(bytes) {}

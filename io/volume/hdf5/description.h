@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The mwmesh authors
 // SPDX-License-Identifier: Apache-2.0
-// All that must be known of an HDF5 data set to read it without the HDF5 library.
+// All that must be known about an HDF5 data set to read it without the HDF5 library.
 #pragma once
 
 #include <array>
@@ -24,7 +24,7 @@ enum class Hdf5Layout : std::uint8_t {
   kChunked,
 };
 
-/// A step of the pipeline that packed the chunks, by its registered number.
+/// A step in which the chunks were packed, by its registered number.
 struct Hdf5Filter {
   std::uint32_t id = 0;
   std::vector<std::uint32_t> parameters;
@@ -45,9 +45,9 @@ struct Hdf5Description {
   VoxelType type = VoxelType::kU8;
   ByteOrder order = ByteOrder::kLittle;
   Hdf5Layout layout = Hdf5Layout::kContiguous;
-  std::uint64_t offset = 0;  ///< kContiguous
-  std::string bytes;         ///< kCompact
-  /// kChunked, the rest too.
+  std::uint64_t offset = 0;  ///< for kContiguous
+  std::string bytes;         ///< for kCompact
+  /// This and the next four are for kChunked.
   std::vector<std::uint64_t> chunk_shape;
   std::vector<Hdf5Filter> filters;  ///< in the order in which they packed
   bool edges_unfiltered = false;    ///< chunks that stick out of the array are not packed
@@ -59,66 +59,66 @@ struct Hdf5Description {
   std::string axistags;  ///< ilastik's JSON
 };
 
-/// Chunks that a data set may have: 24 bytes each are kept.
+/// The most chunks that a data set may have, as 24 bytes each are kept.
 inline constexpr std::uint64_t kMaxHdf5Chunks = std::uint64_t{1} << 22U;
 /// The most that pack() makes beside 24 bytes a chunk.
 inline constexpr std::size_t kMaxPackedDescription = std::size_t{1} << 20U;
 
 [[nodiscard]] std::string pack(const Hdf5Description& description);
 
-/// ENSURES: memory in the order of `bytes`.  Empty when they are no description; the numbers in it
-/// are not checked.
+/// Returns what pack() packed, or nothing when the bytes are no description.  Numbers in it are not
+/// checked.  Memory: in the order of `bytes`.
 [[nodiscard]] std::optional<Hdf5Description> unpack_description(const std::string& bytes);
 
-/// For x, y and z the axis of the array; empty: the array has one slice there.
+/// The axis of the array for x, y and z; empty: the array has one slice there.
 using Hdf5Axes = std::array<std::optional<std::size_t>, 3>;
 
-/// By ilastik's axistags when there are some, else [z, y, x], or [y, x] as one slice.  Of arrays of
-/// more axes those of one element are left out, the first ones first; in DREAM.3D, where the
-/// components of a voxel are last, the last ones first.
+/// Finds the axes by ilastik's axistags if there are any; else they are [z, y, x], or [y, x] as one
+/// slice.  Arrays of more axes lose those of one element, the first ones first; in DREAM.3D, where
+/// the components of a voxel are last, the last ones first.
 /// ERRORS: mw::Error(kInput) naming `file` and the data set when three do not remain, and for tags
 /// that do not fit the array.
 [[nodiscard]] Hdf5Axes find_axes(const Hdf5Description& description, std::string_view file);
 
-/// CREMI's `resolution` and `offset` (z, y, x; nm), Fiji's and ilastik's `element_size_um` (z, y,
-/// x; um), the geometry of DREAM.3D (x, y, z); all place the first corner.  What is not three
-/// numbers is not looked at; without any of them voxels have edges of 1. shape: (x, y, z). ERRORS:
-/// mw::Error(kInput) when a geometry has another shape than the array.
+/// Returns the place by CREMI's `resolution` and `offset` (z, y, x; nm), Fiji's and ilastik's
+/// `element_size_um` (z, y, x; um) or the geometry of DREAM.3D (x, y, z); all place the first
+/// corner.  What is not three numbers is not looked at; without any of them voxels have edges of 1.
+/// ERRORS: mw::Error(kInput) when a geometry has another shape (x, y, z) than the array.
 [[nodiscard]] FileSpace hdf5_space(const Hdf5Description& description, const Index3& shape,
                                    std::string_view file);
 
 struct Hdf5Entry {
-  std::string path;  ///< from the root, with the slash
+  std::string path;  ///< from the root, with a slash in front
   std::vector<std::uint64_t> shape;
   std::string type;  ///< "u8", or what it is instead
   bool is_integer = false;
 };
 
-/// The labels by convention: CREMI's /volumes/labels/neuron_ids, else the only integers below
-/// /volumes/labels; ilastik's /exported_data; the only FeatureIds of DREAM.3D; else the only
-/// integers with three axes longer than 1, else with two.
+/// Returns the data set that has the labels by convention: CREMI's /volumes/labels/neuron_ids, else
+/// the only integers below /volumes/labels; ilastik's /exported_data; the only FeatureIds of
+/// DREAM.3D; else the only integers with three axes longer than 1, else with two.
 /// ERRORS: mw::Error(kInput) naming `file` and the data sets that there are, when none or several
 /// are fit.
 [[nodiscard]] const std::string& choose_data_set(const std::vector<Hdf5Entry>& entries,
                                                  std::string_view file);
 
-/// "/a 3 x 4 x 5 u8, /b 7 f64"; the first few.
+/// Returns the first few as "/a 3 x 4 x 5 u8, /b 7 f64".
 [[nodiscard]] std::string list_text(const std::vector<Hdf5Entry>& entries);
 
-/// "3 x 4 x 5"
+/// Returns a shape as "3 x 4 x 5".
 [[nodiscard]] std::string shape_text(const std::vector<std::uint64_t>& shape);
 
-/// data_set: "/a/b" of the labels or of a group that has them; empty: by convention, see
-/// choose_data_set().  The library never sees the file in this process: damage makes it crash.
+/// Describes `data_set`, "/a/b", or the labels in it if it is a group; if it is empty, convention
+/// chooses (choose_data_set()).  The library never sees the file in this process, as damage makes
+/// it crash.
 /// ENSURES: what is described is within the file and fits together, see check_description().
 /// Memory: 24 bytes a chunk that the file has; time: some microseconds a chunk of the grid.
-/// ERRORS: mw::Error(kInput) for damage, for a data set that is missing, none or one of several
-/// that are fit, and for types and storage that cannot be read; kResource when no process can be
-/// started.
+/// ERRORS: mw::Error(kInput) for damage, for a data set that is missing, when none or several are
+/// fit, and for types and storage that cannot be read; kResource when no process can be started.
 [[nodiscard]] Hdf5Description describe_hdf5(const ByteSource& source, const std::string& data_set);
 
-/// ERRORS: mw::Error(kInput) unless shapes have as many axes as each other, chunks are within the
-/// file, in order and no more than it, and runs of bytes have the size that the shape needs.
+/// ERRORS: mw::Error(kInput) unless chunks have as many axes as the array, lie within the file, are
+/// in order and together no longer than it, and runs of bytes have the size that the shape needs.
 void check_description(const ByteSource& source, const Hdf5Description& description);
 
 }  // namespace mw::io

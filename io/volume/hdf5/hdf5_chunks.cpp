@@ -48,7 +48,7 @@ std::string filter_text(std::uint32_t id) {
   return text("filter ", id);
 }
 
-/// Byte k of all elements, for every k, becomes elements again; bytes of no whole element are last.
+/// Undoes shuffle, which puts byte k of all elements in a row; bytes of no whole one stay last.
 std::vector<std::byte> unshuffle(const std::vector<std::byte>& bytes, std::size_t size) {
   const std::size_t count = size == 0 ? 0 : bytes.size() / size;
   std::vector<std::byte> out(bytes);
@@ -58,7 +58,7 @@ std::vector<std::byte> unshuffle(const std::vector<std::byte>& bytes, std::size_
   return out;
 }
 
-/// The checksum is behind the data, least significant byte first.
+/// Checks and removes the checksum behind the data, least significant byte first.
 std::vector<std::byte> without_checksum(std::vector<std::byte> bytes, std::string_view name) {
   if (bytes.size() < kChecksumBytes) {
     fail_input(name, "fletcher32", "truncated: no checksum", "get a whole copy of the file");
@@ -129,10 +129,10 @@ std::vector<std::byte> unfilter(const std::vector<Hdf5Filter>& filters,
 
 namespace {
 
-/// Elements above are not interleaved piece by piece.
+/// The most bytes of elements that are unshuffled piece by piece.
 constexpr std::uint32_t kMaxElement = 64;
 
-/// unshuffle() of a source.
+/// Does what unshuffle() does, for a source.
 std::shared_ptr<const ByteSource> unshuffled(const ByteSource& bytes, std::size_t size) {
   constexpr std::uint64_t kPiece = 1 << 14;  // elements
   ScratchFile out(scratch_folder());
@@ -195,7 +195,7 @@ std::uint64_t max_unfilter_scratch(const std::vector<Hdf5Filter>& filters, std::
                                              : Codec::kZlib;
     max = std::max(max, max_scratch(codec, bytes));
   }
-  const std::size_t between = filters.size() > 1 ? bytes : 0;  // one filter's, for the next
+  const std::size_t between = filters.size() > 1 ? bytes : 0;  // from one filter to the next
   return max + between;
 }
 
@@ -203,7 +203,7 @@ namespace {
 
 constexpr std::uint64_t kMaxChunkBytes = UINT32_MAX;
 
-/// Elements from one to the next along axis d of an array in a chunk.
+/// Returns how many elements apart neighbours along an axis of the array are in a chunk.
 std::int64_t stride_of(const Hdf5Description& description, std::optional<std::size_t> axis) {
   if (!axis) return 0;
   std::uint64_t stride = 1;
@@ -213,7 +213,7 @@ std::int64_t stride_of(const Hdf5Description& description, std::optional<std::si
   return static_cast<std::int64_t>(stride);
 }
 
-/// Bytes of the voxels of a chunk.
+/// Returns the bytes of the voxels of a chunk.
 std::size_t checked_chunk_bytes(const Hdf5Description& description, std::string_view file) {
   auto bytes = static_cast<std::uint64_t>(byte_size(description.type));
   for (const std::uint64_t extent : description.chunk_shape) {

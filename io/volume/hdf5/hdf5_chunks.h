@@ -22,7 +22,7 @@ void check_filters(const Hdf5Description& description, std::string_view file);
 /// What a chunk is to become.
 struct Unfiltering {
   std::uint32_t skipped = 0;  ///< bit i: filter i was not applied
-  std::size_t bytes = 0;      ///< of the chunk's voxels
+  std::size_t bytes = 0;      ///< what the chunk's voxels need
   std::string_view name;      ///< what errors call the chunk
 
   [[nodiscard]] bool skips(std::size_t filter) const {
@@ -30,23 +30,23 @@ struct Unfiltering {
   }
 };
 
-/// The voxels of a chunk.  REQUIRES: check_filters().
+/// Returns the voxels of a chunk.  REQUIRES: check_filters() passed.
 /// Memory: in the order of the chunk's voxels and its stored bytes, whatever those claim.
 /// ERRORS: mw::Error(kInput) for damage, wrong checksums and other sizes.  Thread safety: any.
 [[nodiscard]] std::vector<std::byte> unfilter(const std::vector<Hdf5Filter>& filters,
                                               std::vector<std::byte> stored,
                                               const Unfiltering& wanted);
 
-/// Unfilters to a file without a name, piece by piece.  REQUIRES: unfilter_streaming().
+/// Unfilters to a file without a name, piece by piece.  REQUIRES: unfilter_streaming() has a value.
 [[nodiscard]] std::shared_ptr<const ByteSource> unfilter_to_file(
     const std::vector<Hdf5Filter>& filters, std::shared_ptr<const ByteSource> stored,
     const Unfiltering& wanted);
-/// The most that unfilter_to_file() takes in memory; nothing when a filter works as a whole only.
+/// Returns the most that unfilter_to_file() takes in memory; nothing when a filter needs the whole.
 [[nodiscard]] std::optional<std::uint64_t> unfilter_streaming(
     const std::vector<Hdf5Filter>& filters);
 
-/// The most that unfilter() takes in memory for `bytes` of voxels, beside the stored ones and what
-/// it returns.
+/// Returns the most that unfilter() takes in memory for `bytes` of voxels, beside the stored ones
+/// and what it returns.
 [[nodiscard]] std::uint64_t max_unfilter_scratch(const std::vector<Hdf5Filter>& filters,
                                                  std::size_t bytes);
 
@@ -75,7 +75,7 @@ class Hdf5Chunks : public ChunkSource {
   std::size_t chunk_bytes_ = 0;
 };
 
-/// Extents of a chunk along x, y and z.
+/// Returns the extents of a chunk along x, y and z.
 [[nodiscard]] Index3 chunk_extents(const Hdf5Description& description, const Hdf5Axes& axes);
 
 }  // namespace mw::io

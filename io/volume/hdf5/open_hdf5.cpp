@@ -53,7 +53,7 @@ Index3 shape_of(const Hdf5Description& description, const Hdf5Axes& axes, std::s
 }
 
 /// Whether z is the axis that goes fastest in the file.
-/// ERRORS: kInput for orders of axes in which neither x nor z is first or last.
+/// ERRORS: kInput for orders of axes other than z, y, x and x, y, z.
 bool is_z_fastest(const Hdf5Description& description, const Hdf5Axes& axes, std::string_view file) {
   // An axis that the array does not have can stand anywhere.
   const auto in_order = [&](const std::array<std::size_t, 3>& order) {

@@ -16,9 +16,9 @@ namespace mw::io {
 /// on within the bytes.
 [[nodiscard]] bool has_hdf5_magic(std::span<const std::byte> head);
 
-/// The data set that options.dataset names, else the labels by the conventions of CREMI, ilastik
-/// and DREAM.3D, else the only array of integers with three axes; its spacing and origin as those
-/// tools write them (see choose_data_set, find_axes, hdf5_space).
+/// Opens the data set that options.dataset names, else the labels by the conventions of CREMI,
+/// ilastik and DREAM.3D, else the only array of integers with three or two axes.  Spacing and
+/// origin are as those tools write them (see choose_data_set, find_axes, hdf5_space).
 /// The HDF5 library sees the file in a child process only; voxels are read without it.
 /// ERRORS: mw::Error(kInput) for damage, for what cannot be read here, and when no or several data
 /// sets are fit.

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The mwmesh authors
 // SPDX-License-Identifier: Apache-2.0
-// Axes and place of an HDF5 data set.
+// Finds axes and place of an HDF5 data set.
 #include "io/volume/hdf5/description.h"
 
 #include <algorithm>
@@ -17,7 +17,7 @@ namespace {
              "write the one volume of it that is meant, as [z, y, x]");
 }
 
-/// The key of each axis: "zyxc"; empty without axistags.
+/// Returns the keys of the axes, as "zyxc"; nothing without axistags.
 std::string keys_of(const Hdf5Description& description, std::string_view file) {
   if (description.axistags.empty()) return {};
   try {
@@ -55,7 +55,7 @@ Hdf5Axes tagged_axes(const Hdf5Description& description, const std::string& keys
   return axes;
 }
 
-/// Leaves out axes of one element, in this order, until three are left.
+/// Leaves out axes of one element, the first or the last ones first, until three are left.
 std::vector<std::size_t> three_of(const Hdf5Description& description, bool last_first) {
   std::vector<std::size_t> left(description.shape.size());
   for (std::size_t d = 0; d < left.size(); ++d) left[d] = d;

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The mwmesh authors
 // SPDX-License-Identifier: Apache-2.0
-// Each voxel has the number of the set of masks that it is in.
+// Puts masks over each other: each voxel has the number of the set of masks that it is in.
 #include "io/volume/masks/mask_merger.h"
 
 #include <algorithm>
@@ -18,7 +18,7 @@ namespace {
 constexpr std::int64_t kSlabVoxels = 1 << 20;
 constexpr std::size_t kMostSets = std::numeric_limits<std::uint16_t>::max();
 
-/// Labels of an array of sets.
+/// Shows an array of the numbers of sets as the labels of the sets.
 class SetVolume : public VolumeView {
  public:
   SetVolume(std::unique_ptr<LabelVolume> sets, std::vector<RawLabel> labels)
@@ -60,7 +60,7 @@ MaskMerger::MaskMerger(const VolumeInfo& frame, Overlap overlap, std::string nam
       file_(scratch_folder()),
       sets_(1),
       voxels_(1) {
-  // What is not written in between reads as zeros.
+  // What is not written in front of it reads as zeros.
   const Set none = 0;
   file_.write_at(payload_bytes(info_) - sizeof(Set), std::as_bytes(std::span(&none, 1)));
 }

@@ -20,7 +20,7 @@ namespace mw::io {
 /// The voxels of a volume that belong to a mask, and what the mask is called.
 struct Mask {
   const LabelVolume* volume = nullptr;
-  /// The value of its voxels; none: whatever is not 0, of which there may be one value only.
+  /// The value of its voxels; without one they are all that is not 0, which must be one value.
   std::optional<RawLabel> value;
   std::string file;  ///< what errors call the volume
   std::string name;
@@ -35,7 +35,7 @@ struct Mask {
 /// ERRORS: mw::Error(kResource) naming the folder when the disk is full.
 class MaskMerger {
  public:
-  /// frame: shape and place, which all masks have.  name: what errors call the masks together.
+  /// frame has the shape and place of all masks.  Errors call the masks together `name`.
   MaskMerger(const VolumeInfo& frame, Overlap overlap, std::string name);
 
   /// ERRORS: mw::Error(kInput) naming files when a mask has another shape or place than the first,
@@ -57,7 +57,7 @@ class MaskMerger {
   };
 
   [[nodiscard]] Set new_set(std::vector<std::uint16_t> masks);
-  /// The set of a voxel of the mask that is being added.
+  /// Returns the set of a voxel of the mask that is being added.
   [[nodiscard]] Set joined(Set present, Set own);
   void add_slab(const Mask& mask, Set own, const Box3& slab);
   void refuse_overlap(const Mask& mask) const;
@@ -67,12 +67,12 @@ class MaskMerger {
   Overlap overlap_;
   std::string name_;
   UnlinkedFile file_;
-  std::vector<LabelName> names_;                  ///< of the masks
+  std::vector<LabelName> names_;                  ///< names of the masks
   std::vector<std::vector<std::uint16_t>> sets_;  ///< masks of each set, ascending
-  std::vector<std::int64_t> voxels_;              ///< of each set
+  std::vector<std::int64_t> voxels_;              ///< how many each set has
   std::map<std::pair<Set, Set>, Set> joins_;
   std::uint64_t overlaps_ = 0;
-  std::optional<RawLabel> value_;  ///< of the mask that is being added
+  std::optional<RawLabel> value_;  ///< that of the mask that is being added
   Refused refused_;
 };
 

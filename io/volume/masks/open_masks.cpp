@@ -15,7 +15,7 @@
 namespace mw::io {
 namespace {
 
-/// What is left of a file's name without the endings that masks have; empty: it has none of them.
+/// Returns a file's name without the ending that masks have; empty: it has none of these endings.
 std::string stem(const std::filesystem::path& path) {
   constexpr std::array<std::string_view, 7> kEndings{".seg.nrrd", ".nii.gz", ".nii", ".nrrd",
                                                      ".nhdr",     ".mha",    ".mhd"};

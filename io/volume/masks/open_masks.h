@@ -11,22 +11,22 @@
 
 namespace mw::io {
 
-/// What a file with one mask is called: its name without the ending of a volume.
+/// Returns what a file with one mask is called: its name without the ending of a volume.
 [[nodiscard]] std::string mask_name(const std::filesystem::path& file);
 
 /// Whether the folder holds a NIfTI, NRRD or MetaImage file; hidden files do not count.
 [[nodiscard]] bool is_mask_folder(const std::filesystem::path& folder);
 
-/// All these files, in natural order of their names, are masks; other files are not looked at.
-/// REQUIRES: is_mask_folder(folder).  ERRORS: as open_masks().
+/// Opens all these files, in natural order of their names, as masks; other files are not looked at.
+/// REQUIRES: is_mask_folder(folder).  ERRORS: those of open_masks().
 [[nodiscard]] std::unique_ptr<LabelVolume> open_mask_folder(const std::filesystem::path& folder,
                                                             const OpenOptions& options);
 
-/// The paths of "A,B,C", where this names no file itself and each of its parts does; empty: it is
-/// no list.
+/// Returns the paths of "A,B,C" where this names no file itself and each of its parts does, else
+/// none.
 [[nodiscard]] std::vector<std::filesystem::path> listed_masks(const std::filesystem::path& list);
 
-/// Each file is a mask, named after the file; see MaskMerger.  options: all but crop.
+/// Opens files as masks, each named after its file; see MaskMerger.  options.crop is ignored.
 /// ERRORS: mw::Error(kInput) naming the file that is no mask, or lies elsewhere than the others.
 [[nodiscard]] std::unique_ptr<LabelVolume> open_masks(
     const std::vector<std::filesystem::path>& files, const std::string& name,

@@ -22,8 +22,8 @@ std::string field_name(std::string_view key) {
   return text("MetaImage field '", key, "'");
 }
 
-/// Reads "Key = Value" up to the line of ElementDataFile, which is the last; bytes is where it
-/// ends.
+/// Reads lines of "Key = Value" up to that of ElementDataFile, which is the last; sets bytes to
+/// where it ends.
 FieldMap split_fields(std::string_view head, std::size_t& bytes, std::string_view file) {
   FieldMap fields;
   for (std::size_t at = 0; at < head.size();) {
@@ -46,7 +46,7 @@ FieldMap split_fields(std::string_view head, std::size_t& bytes, std::string_vie
              "the header is truncated, or the file is of another format");
 }
 
-/// The value of the first of these keys that is there.
+/// Returns the value of the first of these keys that the header has, or null.
 const std::string* find_any(const FieldMap& fields, std::initializer_list<const char*> keys) {
   for (const char* key : keys) {
     const auto found = fields.find(key);
@@ -72,7 +72,7 @@ std::int64_t integer(const std::string& value, const char* key, std::string_view
   return *number;
 }
 
-/// Fields that must have one value, or be absent.
+/// Refuses a file in which one of these fields has another value than the one that is read.
 void refuse_others(const FieldMap& fields, std::string_view file) {
   const std::string* kind = find_any(fields, {"ObjectType"});
   if (kind != nullptr && *kind != "Image") {
@@ -170,7 +170,7 @@ FileSpace parse_space(const FieldMap& fields, std::size_t rank, std::string_view
   const Vector3 spacing = parse_spacing(fields, rank, file);
   space.steps = parse_directions(fields, rank, file);
   for (std::size_t i = 0; i < 3; ++i) {
-    // A negative spacing turns no axis: not finite, so that it is refused unless it is replaced.
+    // A negative spacing turns no axis.  It becomes NaN, which is refused unless it is replaced.
     const double length = spacing[i] > 0 ? spacing[i] : std::nan("");
     for (double& x : space.steps[i]) x *= length;
   }
@@ -196,7 +196,7 @@ void parse_data_offset(const FieldMap& fields, MetaImageHeader& header, std::str
   if (const std::string* value = find_any(fields, {"CompressedDataSize"})) {
     const std::int64_t size = integer(*value, "CompressedDataSize", file);
     if (size < 0) fail_input(file, field_name("CompressedDataSize"), text(size, " is negative"));
-    // 0 is what a writer leaves that did not know it.
+    // A writer that did not know the size leaves 0.
     if (size > 0) header.packed_bytes = static_cast<std::uint64_t>(size);
   }
 }

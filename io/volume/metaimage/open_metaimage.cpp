@@ -18,7 +18,7 @@ namespace {
 constexpr const char* kField = "MetaImage field 'ElementDataFile'";
 constexpr std::int64_t kMaxWidth = 32;
 
-/// "img" "%03d" ".raw".
+/// A pattern of names, such as "img" "%03d" ".raw".
 struct Pattern {
   std::string_view before;
   std::int64_t width = 0;

@@ -17,7 +17,7 @@
 
 namespace mw::io {
 
-/// Largest header looked for, bytes, a list of slices behind it included.
+/// The most bytes of a header that is looked for, with a list of slices behind it.
 inline constexpr std::size_t kMaxMetaImageBytes = 16 << 20;
 
 struct MetaImageHeader {
@@ -25,13 +25,13 @@ struct MetaImageHeader {
   ByteOrder order = ByteOrder::kLittle;
   Index3 shape;
   bool compressed = false;                    ///< one zlib (or gzip) stream
-  std::optional<std::uint64_t> packed_bytes;  ///< of that stream, where the header says it
-  /// Bytes in front of the voxels, from the beginning of their file; -1: they are its last bytes.
+  std::optional<std::uint64_t> packed_bytes;  ///< its length, where the header says it
+  /// How many bytes of their file are in front of the voxels; -1: they are its last bytes.
   std::int64_t header_size = 0;
   std::string data_file;  ///< the value of ElementDataFile: "LOCAL", a name, a pattern, "LIST"
   std::size_t bytes = 0;  ///< length of the header with the line of ElementDataFile
-  /// Row i of TransformMatrix is the direction of array axis i, Offset the centre of the first
-  /// voxel (absent: 0), and coordinates are left-posterior-superior, as ITK has them.
+  /// Row i of TransformMatrix is the direction of array axis i, Offset is the centre of the first
+  /// voxel (0 where it is absent), and coordinates are left-posterior-superior, as ITK has them.
   FileSpace space;
 };
 
@@ -44,16 +44,16 @@ struct MetaImageHeader {
 /// Whether a value of ElementDataFile names many files: "LIST", or a pattern with %.
 [[nodiscard]] bool names_many_files(std::string_view data_file);
 
-/// Names of `count` files, first slice first: the lines behind the header for "LIST", else those of
-/// "PATTERN FIRST LAST STEP" (FIRST 1 and STEP 1 where they are missing), where PATTERN has one %d,
-/// which may have a width, as in %03d.
+/// Returns the names of `count` files, first slice first.  For "LIST" they are the lines behind the
+/// header, else they follow from "PATTERN FIRST LAST STEP" (FIRST and STEP are 1 where they are
+/// missing), where PATTERN has one %d, which may have a width, as in %03d.
 /// ERRORS: mw::Error(kInput) naming the file and its field.
 [[nodiscard]] std::vector<std::string> slice_names(std::string_view data_file,
                                                    std::string_view behind_header,
                                                    std::int64_t count, std::string_view file);
 
-/// Whether the voxels follow the header, or are in one or many files beside it or in folders below,
-/// as source.name() tells where it is.
+/// Opens a file whose voxels follow the header, or are in one or many files beside it or in folders
+/// below; source.name() tells where it is.
 /// Compressed voxels are inflated into a temporary file.  Bytes behind the voxels are ignored.
 /// ERRORS: mw::Error(kInput) naming file and field; kResource when the disk is full.
 [[nodiscard]] std::unique_ptr<LabelVolume> open_metaimage(std::unique_ptr<ByteSource> source,

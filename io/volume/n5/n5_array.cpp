@@ -13,7 +13,7 @@
 namespace mw::io {
 namespace {
 
-/// No array that is read here has more.
+/// The most axes that an array may have.
 constexpr std::size_t kMaxAxes = 16;
 
 VoxelType type_of(const JsonFields& attributes) {
@@ -37,7 +37,7 @@ Codec codec_of_name(const JsonFields& attributes, const std::string& field,
                   "supported are raw, gzip, zlib, bzip2, xz, lz4, blosc and zstd");
 }
 
-/// Until N5 1.0 it was one text, "compressionType".
+/// Below version 1.0 of N5 the compression is one text, "compressionType".
 Codec codec_of(const JsonFields& attributes) {
   if (!attributes.has("compression") && attributes.has("compressionType")) {
     return codec_of_name(attributes, "compressionType", attributes.text("compressionType"));
@@ -46,12 +46,12 @@ Codec codec_of(const JsonFields& attributes) {
   const Codec codec = codec_of_name(attributes, "compression.type", compression.text("type"));
   const bool zlib = compression.has("useZlib") && compression.flag("useZlib");
   if (codec == Codec::kGzip && zlib) return Codec::kZlib;
-  // zarr-python marks what is in the framing of numcodecs by its id.
+  // zarr-python gives an id to what is in the framing of numcodecs.
   if (codec == Codec::kLz4Java && compression.has("id")) return Codec::kLz4;
   return codec;
 }
 
-/// The axes that make the volume: of more than three the slowest of extent 1 are left out.
+/// Returns the axes that make the volume: of more than three, the slowest of extent 1 are left out.
 std::array<int, 3> axes_of(const JsonFields& attributes,
                            const std::vector<std::int64_t>& dimensions) {
   std::vector<int> kept;
@@ -137,10 +137,10 @@ constexpr std::string_view kWayOut = "get a whole copy of the store";
 
 struct BlockHeader {
   std::vector<std::int64_t> extents;
-  std::uint64_t bytes = 0;  ///< of the header
+  std::uint64_t bytes = 0;  ///< length of the header
 };
 
-/// Numbers of a file one after the other.
+/// Reads the numbers of a file one after the other.
 class NumberReader {
  public:
   explicit NumberReader(const ByteSource& source) : source_(source) {}
@@ -163,7 +163,7 @@ class NumberReader {
   fail_input(file.name(), "block header", reason, kWayOut);
 }
 
-/// ENSURES: the extents are positive, and not beyond the array's block size.
+/// Reads a block's header.  ENSURES: extents are positive and not beyond the array's block size.
 BlockHeader read_header(const ByteSource& file, const N5Array& array) {
   NumberReader numbers(file);
   const auto mode = numbers.next<std::uint16_t>();
@@ -190,7 +190,7 @@ BlockHeader read_header(const ByteSource& file, const N5Array& array) {
   return out;
 }
 
-/// Values between neighbours along each axis of the volume.
+/// Returns how many values apart neighbours along each axis of the volume are.
 Index3 strides_of(const N5Array& array, const std::vector<std::int64_t>& extents) {
   std::vector<std::int64_t> strides{1};
   for (const std::int64_t extent : extents) strides.push_back(strides.back() * extent);
@@ -221,7 +221,7 @@ std::uint64_t product(const std::vector<std::int64_t>& extents) {
 
 }  // namespace
 
-/// "x/y/z", and 0 for axes that are left out.
+/// Returns the file "x/y/z" of a block, with 0 for axes that are left out.
 Place N5Blocks::path_of(Index3 chunk) const {
   const std::array<std::int64_t, 3> index{chunk.x, chunk.y, chunk.z};
   std::vector<std::int64_t> numbers(array_.dimensions.size(), 0);
@@ -264,7 +264,7 @@ std::optional<std::uint64_t> N5Blocks::streaming_bytes() const {
   return codec ? std::optional(*codec + folder_.held_bytes(max_file_bytes())) : std::nullopt;
 }
 
-/// The most bytes that the file of a block can have.
+/// Returns the most bytes that the file of a block can have.
 std::uint64_t N5Blocks::max_file_bytes() const {
   const std::uint64_t header = 8 + 4 * array_.dimensions.size();
   return header + max_packed_bytes(product(array_.block_size) *
@@ -274,8 +274,8 @@ std::uint64_t N5Blocks::max_file_bytes() const {
 N5Blocks::N5Blocks(Place folder, N5Array array)
     : folder_(std::move(folder)), array_(std::move(array)), scratch_(found_scratch()) {}
 
-/// What the blocks that are there take, where they are large; else what any may take.  Blocks at
-/// the end may be larger than their voxels in the volume, and are kept as they are.
+/// Returns what the blocks that are there take, where they are large; else what any may take.
+/// Blocks at the end may be larger than their voxels in the volume, and are kept as they are.
 std::uint64_t N5Blocks::found_scratch() const {
   const std::uint64_t block =
       product(array_.block_size) * static_cast<std::uint64_t>(byte_size(array_.type));

@@ -27,7 +27,7 @@ struct N5Document {
   [[nodiscard]] JsonFields fields() const { return {json, file}; }
 };
 
-/// The attributes of a folder; empty: it has none.
+/// Returns the attributes of a folder; nothing where it has none.
 /// ERRORS: mw::Error(kInput) when the file cannot be read or is no JSON.
 [[nodiscard]] std::optional<N5Document> read_attributes(const Place& folder);
 
@@ -36,16 +36,16 @@ struct N5Array {
   VoxelType type = VoxelType::kU8;
   Codec codec = Codec::kNone;
   std::vector<std::int64_t> dimensions;
-  std::vector<std::int64_t> block_size;  ///< of all but smaller blocks at the end
-  /// Which axes are x, y and z; the others have extent 1.  An axis of -1 is not in the array, and
-  /// has extent 1, too.
+  std::vector<std::int64_t> block_size;  ///< blocks at the end may be smaller
+  /// Which axes are x, y and z; the others have extent 1.  -1 stands for an axis that is not in the
+  /// array, which has extent 1, too.
   std::array<int, 3> axes{0, 1, 2};
 };
 
 /// Whether the attributes are those of an array, not of a group.
 [[nodiscard]] bool is_n5_array(const JsonFields& attributes);
 
-/// Checks all numbers, and bounds what blocks may take.
+/// Reads the attributes of an array, checks all numbers, and bounds what blocks may take.
 /// ERRORS: mw::Error(kInput) naming file and field, also when more than three axes have extents
 /// above 1.
 [[nodiscard]] N5Array parse_n5_array(const JsonFields& attributes);
@@ -54,11 +54,11 @@ struct N5Array {
 [[nodiscard]] Index3 shape_of(const N5Array& array);
 [[nodiscard]] Index3 block_of(const N5Array& array);
 
-/// A block file: mode (u16), number of axes (u16), extents (u32 each), in mode 1 the number of
-/// values (u32); then the values, packed; the most significant byte of each number first.
+/// Reads block files, which have a mode (u16), the number of axes (u16), extents (u32 each) and in
+/// mode 1 the number of values (u32); then the values, packed, the most significant byte first.
 class N5Blocks : public ChunkSource {
  public:
-  /// folder: the array's.
+  /// folder is that of the array.
   N5Blocks(Place folder, N5Array array);
 
   [[nodiscard]] std::string name() const override { return folder_.string(); }
@@ -78,18 +78,18 @@ class N5Blocks : public ChunkSource {
   std::uint64_t scratch_;
 };
 
-/// The attributes of an array, and of what is around a level of a pyramid (s0, s1, ... in a group).
+/// The attributes of an array, and those around a level of a pyramid (s0, s1, ... in a group).
 struct N5Attributes {
   const N5Document& own;
   const N5Document* group = nullptr;   ///< null: none, or not a level
-  const N5Document* finest = nullptr;  ///< of s0; null for s0 itself
+  const N5Document* finest = nullptr;  ///< those of s0; null for s0 itself
   std::size_t level = 0;
 };
 
-/// By `transform` {axes, units, scale, translate} (COSEM: the centre of the first voxel; names of
-/// axes give the order), else by `pixelResolution` or `resolution`, `units` and `offset` (the first
-/// corner), fastest axis first.  A level whose resolution is missing, or the same as the finest
-/// one's, has that times its `downsamplingFactors`; pyramids share a corner.
+/// Returns the place by `transform` {axes, units, scale, translate} (COSEM: the centre of the first
+/// voxel; names of axes give the order), else by `pixelResolution` or `resolution`, `units` and
+/// `offset` (the first corner), fastest axis first.  A level whose resolution is missing, or that
+/// of the finest one, has the latter times its `downsamplingFactors`; pyramids share a corner.
 /// ERRORS: mw::Error(kInput) naming file and field.  What the options replace is not looked at.
 [[nodiscard]] VolumeSpace n5_space(const N5Attributes& attributes, const N5Array& array,
                                    const OpenOptions& options);

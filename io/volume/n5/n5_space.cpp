@@ -13,7 +13,7 @@
 namespace mw::io {
 namespace {
 
-/// Units in the words of the rest of the program; empty: not a length.
+/// Returns a unit as the rest of the program calls it; empty: it is no length.
 std::string short_unit(const std::string& unit) {
   struct Unit {
     const char* symbol;
@@ -32,7 +32,7 @@ std::string short_unit(const std::string& unit) {
   return {};
 }
 
-/// The unit of all axes.
+/// Returns the unit, which must be the same for all axes.
 std::string common_unit(const JsonFields& fields, std::string_view key,
                         const std::vector<std::string>& units) {
   for (const std::string& unit : units) {
@@ -42,7 +42,7 @@ std::string common_unit(const JsonFields& fields, std::string_view key,
   return units.empty() ? std::string() : short_unit(units[0]);
 }
 
-/// What the numbers of the array's axes are along x, y and z.
+/// Returns the numbers of the array's axes along x, y and z.
 Vector3 along_xyz(const JsonFields& fields, std::string_view key, const N5Array& array,
                   double otherwise) {
   const std::vector<double> numbers = fields.numbers(key);
@@ -74,7 +74,7 @@ std::string unit_beside(const JsonFields& fields) {
   return {};
 }
 
-/// {"dimensions": [...], "unit": "um"}, or the numbers alone.
+/// Reads {"dimensions": [...], "unit": "um"}, or the numbers alone.
 std::optional<Resolution> resolution_of(const JsonFields& fields, const N5Array& array) {
   for (const char* key : {"pixelResolution", "resolution"}) {
     if (!fields.has(key)) continue;
@@ -108,7 +108,7 @@ std::optional<Vector3> factors_of(const N5Attributes& attributes, const N5Array&
   return std::nullopt;
 }
 
-/// What the finest level has, or the group for all.
+/// Returns the resolution of the finest level, else that of the group for all.
 std::optional<Resolution> base_resolution(const N5Attributes& attributes, const N5Array& array) {
   for (const N5Document* document : {attributes.finest, attributes.group}) {
     if (document == nullptr) continue;
@@ -144,8 +144,8 @@ std::optional<Vector3> wanted_offset(const N5Attributes& attributes, const N5Arr
   return std::nullopt;
 }
 
-/// COSEM's numbers along x, y and z, found by the names of axes.  An axis that the array does not
-/// have (a slice's z) has `otherwise`.
+/// Returns COSEM's numbers along x, y and z, found by the names of axes.  An axis that the array
+/// does not have (a slice's z) has `otherwise`.
 Vector3 by_name(const JsonFields& transform, std::string_view key, const N5Array& array,
                 double otherwise) {
   const std::vector<std::string> names = transform.texts("axes");

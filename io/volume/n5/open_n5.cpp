@@ -28,7 +28,7 @@ Kind kind_of(const Place& folder) {
   return has_array(folder / "s0") ? Kind::kPyramid : Kind::kGroup;
 }
 
-/// Arrays and pyramids below a group, within bounds: links may lead round and round.
+/// Finds arrays and pyramids below a group, within bounds, as links may lead round and round.
 class Search {
  public:
   explicit Search(const Place& container) { look(container, "", 0); }
@@ -83,7 +83,7 @@ Place only_one(const Place& group) {
              "choose one with --dataset");
 }
 
-/// "/volumes/labels" is meant from the container on.
+/// Returns the folder of a data set; "/volumes/labels" begins at the container.
 Place dataset_folder(const Place& container, const std::string& dataset) {
   const std::size_t start = dataset.find_first_not_of('/');
   const std::filesystem::path inside = start == dataset.npos ? "" : dataset.substr(start);
@@ -141,7 +141,7 @@ Place find_n5_array(const Place& container, const OpenOptions& options) {
 
 namespace {
 
-/// A level of a pyramid needs what is written of the finest one and of all.
+/// The place of a level of a pyramid needs the metadata of the finest one and of the group.
 VolumeSpace space_of(const Place& folder, const N5Document& own, const N5Array& array,
                      const OpenOptions& options) {
   const auto level = level_of(folder);

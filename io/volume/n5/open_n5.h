@@ -12,21 +12,21 @@
 
 namespace mw::io {
 
-/// The folder of the array: options.dataset in the container, or the only array or pyramid that
-/// there is; of a pyramid (a group with s0, s1, ...) the level options.scale.
+/// Returns the folder of the array: options.dataset in the container, or the only array or pyramid
+/// that there is; in a pyramid (a group with s0, s1, ...) the level options.scale.
 /// ERRORS: mw::Error(kInput) when there is none or several, with their names; kUsage when the
 /// options name one that is not there.
 [[nodiscard]] Place find_n5_array(const Place& container, const OpenOptions& options);
 
-/// The number of a level by the name of its folder, "s2"; empty for other names.
+/// Returns the number of a level by the name of its folder, "s2"; nothing for other names.
 [[nodiscard]] std::optional<std::size_t> level_of(const Place& folder);
 
 /// Whether the folder has an attributes.json, levels of a pyramid, or a name with .n5.
 [[nodiscard]] bool is_n5(const Place& folder);
 
-/// Blocks raw or packed by gzip, zlib, bzip2, xz, lz4, blosc or zstd; what is not there has label
-/// 0. See find_n5_array for which array, and n5_space for its place. ERRORS: mw::Error(kInput)
-/// naming file and field; kUsage when there is no such dataset or level.
+/// Opens an array (find_n5_array) at its place (n5_space).  Blocks are raw or packed by gzip, zlib,
+/// bzip2, xz, lz4, blosc or zstd; what is not there has label 0.
+/// ERRORS: mw::Error(kInput) naming file and field; kUsage when there is no such dataset or level.
 [[nodiscard]] std::unique_ptr<LabelVolume> open_n5(const Place& folder, const OpenOptions& options);
 
 /// Returns how many levels the pyramid has that open_n5() looks at; 1 for an array.

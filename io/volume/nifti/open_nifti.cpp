@@ -53,7 +53,7 @@ class View {
   [[nodiscard]] std::int32_t code(std::size_t at) const {
     return fields_.version == 1 ? int16(at) : load<std::int32_t>(&bytes_[at], order_);
   }
-  /// A byte in version 1, int32 in version 2.
+  /// The units, which are a byte in version 1 and int32 in version 2.
   [[nodiscard]] int units() const {
     return fields_.version == 1 ? std::to_integer<int>(bytes_[fields_.xyzt_units])
                                 : load<std::int32_t>(&bytes_[fields_.xyzt_units], order_);
@@ -73,7 +73,7 @@ class View {
   ByteOrder order_;
 };
 
-/// Version and byte order, told by sizeof_hdr, the first four bytes.
+/// Finds version and byte order by sizeof_hdr, the first four bytes.
 std::optional<View> detect(std::span<const std::byte> bytes) {
   if (bytes.size() < 4) return std::nullopt;
   for (const ByteOrder order : {ByteOrder::kLittle, ByteOrder::kBig}) {
@@ -166,7 +166,7 @@ std::uint64_t parse_vox_offset(const View& view, std::string_view file) {
   return static_cast<std::uint64_t>(offset);
 }
 
-/// NIfTI-1, method 3: rows of the affine.
+/// Reads the place by NIfTI-1's method 3: the rows of an affine map.
 FileSpace sform(const View& view) {
   const std::size_t at = view.fields().srow;
   FileSpace space{.steps_field = "sform", .first_field = "sform offset"};
@@ -179,7 +179,7 @@ FileSpace sform(const View& view) {
   return space;
 }
 
-/// Columns of the rotation of a unit quaternion of which b, c and d are given, a >= 0.
+/// Returns the columns of the rotation by a unit quaternion with these b, c and d, and a >= 0.
 std::array<Vector3, 3> rotation(double b, double c, double d) {
   const double square = 1 - (b * b + c * c + d * d);
   double a = 0;
@@ -194,7 +194,7 @@ std::array<Vector3, 3> rotation(double b, double c, double d) {
            {2 * (b * d + a * c), 2 * (c * d - a * b), a * a + d * d - b * b - c * c}}};
 }
 
-/// NIfTI-1, method 2: a rotation, pixdim, and a flip of the third axis where pixdim[0] is negative.
+/// Reads it by method 2: a rotation, pixdim, and a flip of the third axis if pixdim[0] is negative.
 FileSpace qform(const View& view) {
   const Fields& f = view.fields();
   FileSpace space{.steps_field = "qform, pixdim", .first_field = "qform offset"};
@@ -208,7 +208,7 @@ FileSpace qform(const View& view) {
   return space;
 }
 
-/// NIfTI-1, method 1.
+/// Reads it by method 1: pixdim alone.
 FileSpace by_pixdim(const View& view) {
   FileSpace space{.first = Vector3{0, 0, 0}, .steps_field = "pixdim"};
   const std::size_t at = view.fields().pixdim;
@@ -281,7 +281,7 @@ constexpr int kMaxExtensions = 1000;
 /// The bytes of an extension's own length and its code, two int32.
 constexpr std::uint64_t kExtensionHead = 8;
 
-/// 0: no extension begins there.
+/// Returns the bytes of the extension that begins there; 0: there is none.
 std::uint64_t extension_bytes(const ByteSource& source, std::uint64_t at, std::uint64_t end,
                               ByteOrder order) {
   if (end < at + kExtensionHead) return 0;
@@ -292,7 +292,7 @@ std::uint64_t extension_bytes(const ByteSource& source, std::uint64_t at, std::u
   return static_cast<std::uint64_t>(size) <= end - at ? static_cast<std::uint64_t>(size) : 0;
 }
 
-/// Padded with NUL, most often.
+/// Reads a text up to its NUL, as most are padded with them.
 std::string read_text(const ByteSource& source, std::uint64_t at, std::uint64_t size) {
   std::string out(size, '\0');
   source.read_at(at, std::as_writable_bytes(std::span(out)));
@@ -325,7 +325,7 @@ LabelNames read_nifti_names(const ByteSource& source, const NiftiHeader& header)
 
 namespace {
 
-/// Numbers of one of the volumes that lie one behind the other.
+/// Returns one of the volumes that lie one behind the other.
 std::shared_ptr<const LabelVolume> part(const std::shared_ptr<const ByteSource>& source,
                                         const VolumeInfo& info, const NiftiHeader& header,
                                         std::int64_t i) {
@@ -344,7 +344,7 @@ std::unique_ptr<LabelVolume> open_stack(const std::shared_ptr<const ByteSource>&
   return std::make_unique<NumberStack>(std::move(parts));
 }
 
-/// Labels of masks that lie one behind the other.
+/// Merges masks that lie one behind the other to labels.
 std::unique_ptr<LabelVolume> open_masks(const std::shared_ptr<const ByteSource>& source,
                                         const VolumeInfo& info, const NiftiHeader& header,
                                         Overlap overlap) {

@@ -17,7 +17,7 @@
 
 namespace mw::io {
 
-/// Bytes that hold a header of either version.
+/// The bytes of the longer header, that of version 2.
 inline constexpr std::size_t kNiftiHeaderBytes = 540;
 
 struct NiftiHeader {
@@ -25,11 +25,11 @@ struct NiftiHeader {
   ByteOrder order = ByteOrder::kLittle;
   VoxelType type = VoxelType::kU8;
   Index3 shape;
-  std::int64_t masks = 1;  ///< volumes one behind the other
+  std::int64_t masks = 1;  ///< how many volumes, one behind the other
   std::uint64_t data_offset = 0;
   VoxelScaling scaling{};
-  /// By the sform, else the qform (NIfTI-1 methods 3 and 2), in RAS; else by pixdim alone (method
-  /// 1), of an unknown orientation, the centre of the first voxel at 0.
+  /// The place by the sform, else the qform (NIfTI-1 methods 3 and 2), in RAS; else by pixdim alone
+  /// (method 1), with an unknown orientation and the centre of the first voxel at 0.
   FileSpace space;
 };
 
@@ -41,14 +41,15 @@ struct NiftiHeader {
 [[nodiscard]] NiftiHeader parse_nifti_header(std::span<const std::byte> bytes,
                                              std::string_view file);
 
-/// The first label table (io/names/header_names.h) among the header extensions.  Extensions that
-/// are damaged, or hold something else, are nothing: the voxels do not need them. Memory: one
-/// extension and its XML tree; none above 4 MiB is looked at. ERRORS: mw::Error(kInput) when the
-/// file cannot be read.
+/// Returns the first label table (io/names/header_names.h) among the header extensions.  Extensions
+/// that are damaged or hold something else are no error, as the voxels do not need them.
+/// Memory: one extension and its XML tree; none above 4 MiB is looked at.
+/// ERRORS: mw::Error(kInput) when the file cannot be read.
 [[nodiscard]] LabelNames read_nifti_names(const ByteSource& source, const NiftiHeader& header);
 
-/// Bytes behind the voxels are ignored.  Where the file has several volumes they are masks
-/// (io/volume/masks/mask_merger.h).  ERRORS: mw::Error(kInput) naming file and field.
+/// Several volumes in a file are masks (io/volume/masks/mask_merger.h), or numbers where
+/// options.values asks for them.  Bytes behind the voxels are ignored.
+/// ERRORS: mw::Error(kInput) naming file and field.
 [[nodiscard]] std::unique_ptr<LabelVolume> open_nifti(std::unique_ptr<ByteSource> source,
                                                       const OpenOptions& options);
 

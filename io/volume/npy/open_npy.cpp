@@ -23,7 +23,7 @@ constexpr std::string_view kSpaces = " \t\r\n";
 constexpr std::size_t kMaxDictBytes = 1 << 20;
 constexpr std::int64_t kMaxComponents = 65535;
 
-/// The text behind `'key':`.
+/// Returns the text behind `'key':`.
 std::string_view value_of(std::string_view dict, std::string_view key, std::string_view file) {
   for (const char* quote : {"'", "\""}) {
     const std::string quoted = text(quote, key, quote);
@@ -89,12 +89,12 @@ std::vector<std::int64_t> parse_tuple(std::string_view value, std::string_view f
              "reshape or pick one channel");
 }
 
-/// Finds the components, too, where voxels have scores.
+/// Returns the shape, and finds the components where voxels have scores.
 Index3 parse_shape(std::string_view value, NpyHeader& header, VoxelValues values,
                    std::string_view file) {
   std::vector<std::int64_t> axes = parse_tuple(value, file);
   if (axes.size() == 2) axes.insert(axes.begin(), 1);
-  // One volume of a series, or one channel.
+  // The array may be one volume of a series, or one channel.
   while (axes.size() > 3 && axes.front() == 1) axes.erase(axes.begin());
   const std::size_t most = values == VoxelValues::kLabels ? 3 : 4;
   while (axes.size() > most && axes.back() == 1) axes.pop_back();
@@ -162,7 +162,7 @@ std::string format_npy_header(const VolumeInfo& info) {
 
 namespace {
 
-/// REQUIRES: the source holds all components.
+/// Opens components as numbers.  REQUIRES: the source holds all of them.
 std::unique_ptr<LabelVolume> open_components(const std::shared_ptr<const ByteSource>& source,
                                              const VolumeInfo& info, std::uint64_t offset,
                                              const NpyHeader& header) {

@@ -18,7 +18,7 @@
 
 namespace mw::io {
 
-/// Bytes 0..11: magic, version, length of the dictionary that follows.
+/// What bytes 0 to 11 (magic, version, length) say about the dictionary that follows.
 struct NpyPrefix {
   std::size_t dict_offset = 0;
   std::size_t dict_length = 0;
@@ -35,23 +35,23 @@ struct NpyHeader {
 
 [[nodiscard]] bool has_npy_magic(std::span<const std::byte> bytes);
 
-/// ERRORS of both: mw::Error(kInput) naming file and field.
+/// Read prefix and dictionary.  ERRORS: mw::Error(kInput) naming file and field.
 [[nodiscard]] NpyPrefix parse_npy_prefix(std::span<const std::byte> bytes, std::string_view file);
 [[nodiscard]] NpyHeader parse_npy_dict(std::string_view dict, VoxelValues values,
                                        std::string_view file);
 
-/// A whole version 1.0 header, padded to a multiple of 64 bytes, for a C-order array [z, y, x].
+/// Returns a version 1.0 header, padded to a multiple of 64 bytes, for a C-order array [z, y, x].
 [[nodiscard]] std::string format_npy_header(const VolumeInfo& info);
 
-/// Axes of the array are [z, y, x]; both C and Fortran order.  The format knows neither spacing
-/// nor origin: 1 and 0.  Bytes behind the voxels are ignored, as numpy does.  An array of four axes
-/// is a NumberStack, which options.values must ask for.
+/// Opens an array with axes [z, y, x], in C or Fortran order.  The format knows neither spacing nor
+/// origin, which are 1 and 0.  Bytes behind the voxels are ignored, as numpy does.  An array of
+/// four axes is a NumberStack, which options.values must ask for.
 /// ERRORS: mw::Error(kInput) naming file and field.
 [[nodiscard]] std::unique_ptr<LabelVolume> open_npy(std::unique_ptr<ByteSource> source,
                                                     const OpenOptions& options);
 
-/// Voxels in file order, x fastest, little-endian, in the type of the info.  Nothing appears under
-/// the path before finish() returns.
+/// Writes voxels in file order, x fastest, little-endian, in the type of the info.  Nothing appears
+/// under the path before finish() returns.
 /// ERRORS: mw::Error(kUsage) for a label the type cannot hold, a number of voxels that is not the
 /// shape's, or a path that cannot be written; kResource on a full disk.
 class VolumeWriter {
@@ -71,13 +71,13 @@ class VolumeWriter {
   std::uint64_t written_ = 0;
 };
 
-/// .npy, C order [z, y, x].
+/// Writes a .npy file in C order [z, y, x].
 class NpyWriter : public VolumeWriter {
  public:
   NpyWriter(const std::filesystem::path& path, const VolumeInfo& info);
 };
 
-/// The voxels alone.
+/// Writes the voxels alone.
 class RawWriter : public VolumeWriter {
  public:
   RawWriter(const std::filesystem::path& path, const VolumeInfo& info);

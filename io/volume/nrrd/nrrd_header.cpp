@@ -31,7 +31,7 @@ std::string lower(std::string_view s) {
   return out;
 }
 
-/// "space directions" and "spacedirections" are the same field.
+/// Makes one key of "space directions" and "spacedirections", which are the same field.
 std::string field_key(std::string_view name) {
   std::string key = lower(trim(name));
   std::erase(key, ' ');
@@ -49,7 +49,7 @@ std::string unescaped(std::string_view value) {
   return out;
 }
 
-/// Splits the header into fields, and keys with their values; bytes is where it ends.
+/// Splits the header into fields, and keys with their values; sets bytes to where it ends.
 FieldMap split_fields(std::string_view head, std::size_t& bytes, NrrdKeys& keys,
                       std::string_view file) {
   FieldMap fields;
@@ -130,7 +130,7 @@ VoxelType parse_type(const std::string& value, std::string_view file) {
              "unsupported; labels must be integers of 8 to 64 bits", "convert the voxels");
 }
 
-/// Numbers between blanks, commas and parentheses.
+/// Returns the numbers that stand between blanks, commas and parentheses.
 template <class T>
 std::vector<T> parse_numbers(const std::string& value, std::string_view field,
                              std::string_view file) {
@@ -150,7 +150,7 @@ std::vector<T> parse_numbers(const std::string& value, std::string_view field,
   return numbers;
 }
 
-/// For each axis whether its kind is one of space; empty when the file does not say.
+/// Returns for each axis whether its kind is one of space; nothing when the file does not say.
 std::vector<bool> is_domain(const FieldMap& fields) {
   std::vector<bool> out;
   const auto found = fields.find("kinds");
@@ -162,8 +162,8 @@ std::vector<bool> is_domain(const FieldMap& fields) {
   return out;
 }
 
-/// For each axis whether it lies in space: `space directions` has a vector for it rather than
-/// "none", else its kind says so.
+/// Returns for each axis whether it lies in space: `space directions` has a vector for it rather
+/// than "none", else its kind says so.
 std::vector<bool> is_spatial(const FieldMap& fields) {
   const auto found = fields.find("spacedirections");
   if (found == fields.end()) return is_domain(fields);
@@ -178,8 +178,8 @@ std::vector<bool> is_spatial(const FieldMap& fields) {
   return out;
 }
 
-/// The sizes of the axes in space.  Another one may have layers; further ones must have a single
-/// element, and go.
+/// Returns the sizes of the axes in space.  One other axis may have layers; all further ones must
+/// have a single element, and are left out.
 std::vector<std::int64_t> spatial_sizes(const FieldMap& fields, NrrdHeader& header,
                                         std::string_view file) {
   auto sizes = parse_numbers<std::int64_t>(required(fields, "sizes", file), "sizes", file);
@@ -289,7 +289,7 @@ void parse_steps(const FieldMap& fields, FileSpace& space, std::string_view file
   }
 }
 
-/// The world frame, and vectors of left-anterior-superior, which is no frame of ours, turned to
+/// Finds the world frame.  Left-anterior-superior is no WorldFrame, and its vectors are turned to
 /// RAS.
 void parse_frame(const FieldMap& fields, FileSpace& space) {
   const auto found = fields.find("space");
@@ -304,7 +304,7 @@ void parse_frame(const FieldMap& fields, FileSpace& space) {
   }
 }
 
-/// "mm" of `"mm" "mm" "mm"`; nothing where axes differ.
+/// Returns "mm" for `"mm" "mm" "mm"`, and nothing where axes differ.
 std::string parse_unit(const FieldMap& fields) {
   auto found = fields.find("spaceunits");
   if (found == fields.end()) found = fields.find("units");

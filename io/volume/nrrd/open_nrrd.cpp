@@ -23,7 +23,7 @@ NrrdHeader read_header(const ByteSource& source) {
   return parse_nrrd_header(head, source.name());
 }
 
-/// The source that holds the voxels, still packed when the encoding is gzip.
+/// Returns the source that holds the voxels, still packed when the encoding is gzip.
 std::unique_ptr<ByteSource> data_source(std::unique_ptr<ByteSource> source,
                                         const NrrdHeader& header, bool is_trusted) {
   if (header.data_file.empty()) return source;
@@ -43,7 +43,7 @@ ArrayLayout layout_of(const NrrdHeader& header, const VolumeInfo& info, std::uin
   return layout;
 }
 
-/// REQUIRES: the source holds all layers.
+/// Opens layers as numbers.  REQUIRES: the source holds all layers.
 std::unique_ptr<LabelVolume> open_numbers(std::unique_ptr<ByteSource> data, const VolumeInfo& info,
                                           std::uint64_t offset, const NrrdHeader& header) {
   const std::shared_ptr<const ByteSource> shared = std::move(data);
@@ -62,7 +62,7 @@ void check_segments(const NrrdHeader& header, const std::string& file) {
              "pick one channel");
 }
 
-/// Labels of segments that lie in several layers.
+/// Merges segments that lie in several layers to labels.
 /// REQUIRES: the source holds them.
 std::unique_ptr<LabelVolume> open_layers(std::unique_ptr<ByteSource> data, const VolumeInfo& info,
                                          std::uint64_t offset, const NrrdHeader& header,

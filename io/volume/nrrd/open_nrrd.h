@@ -17,7 +17,7 @@
 
 namespace mw::io {
 
-/// Largest header looked for, bytes.
+/// The most bytes of a header that is looked for.
 inline constexpr std::size_t kMaxNrrdHeaderBytes = 1 << 20;
 
 struct NrrdHeader {
@@ -28,14 +28,14 @@ struct NrrdHeader {
   std::int64_t byte_skip = 0;  ///< -1: the voxels are the last bytes of the file
   std::string data_file;       ///< empty: the voxels follow the header
   std::size_t bytes = 0;       ///< length of the header with its blank line
-  /// By `space directions`, `space origin` and `space`, else `spacings`.  `space origin` is the
-  /// centre of the first sample whatever the centering (format definition).
+  /// The place, by `space directions`, `space origin` and `space`, else by `spacings`.  `space
+  /// origin` is the centre of the first sample whatever the centering (format definition).
   FileSpace space;
-  /// Numbers at each voxel, more than one where segments overlap or there are no segments; where
-  /// layers_first, the numbers of a voxel follow each other, else those of a layer.
+  /// How many numbers each voxel has: more than one where segments overlap, or where there are
+  /// none.  With layers_first the numbers of a voxel follow each other, else those of a layer do.
   std::int64_t layers = 1;
   bool layers_first = true;
-  std::vector<Segment> segments;  ///< of a .seg.nrrd
+  std::vector<Segment> segments;  ///< those of a .seg.nrrd
 };
 
 [[nodiscard]] bool has_nrrd_magic(std::span<const std::byte> head);
@@ -44,9 +44,9 @@ struct NrrdHeader {
 /// ERRORS: mw::Error(kInput) naming file and field.
 [[nodiscard]] NrrdHeader parse_nrrd_header(std::string_view head, std::string_view file);
 
-/// A detached `data file` is looked for relative to the
-/// folder of source.name().  Bytes behind the voxels
-/// are ignored.  ERRORS: mw::Error(kInput) naming file and field.
+/// Opens an NRRD file.  A detached `data file` is looked for relative to the folder of
+/// source.name().  Bytes behind the voxels are ignored.
+/// ERRORS: mw::Error(kInput) naming file and field.
 [[nodiscard]] std::unique_ptr<LabelVolume> open_nrrd(std::unique_ptr<ByteSource> source,
                                                      const OpenOptions& options);
 

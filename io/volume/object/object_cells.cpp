@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The mwmesh authors
 // SPDX-License-Identifier: Apache-2.0
-// A flood from cell to cell.
+// Follows an object through a volume, as a flood from cell to cell.
 #include "io/volume/object/object_cells.h"
 
 #include <algorithm>
@@ -28,7 +28,7 @@ bool is_one_of(const ObjectLabels& labels, RawLabel label) {
 /// (x, y, z), each -1, 0 or 1.
 using Touched = std::array<bool, 27>;
 
-/// A voxel at a side of its cell touches the neighbours on that side.
+/// Marks the neighbours on the sides of the cell at which the voxel is.
 void touch(const Box3& cell, Index3 v, Touched& touched) {
   const auto side = [](std::int64_t at, std::int64_t lo, std::int64_t hi, int sign) {
     return sign == 0 || at == (sign < 0 ? lo : hi - 1);
@@ -51,9 +51,9 @@ bool is_at_side(const Box3& cell, Index3 v) {
          v.y == cell.hi.y - 1 || v.z == cell.hi.z - 1;
 }
 
-/// What a cell has of an object.
+/// What a cell holds of an object.
 struct CellContent {
-  Box3 box{};  ///< of the object's voxels; empty: none
+  Box3 box{};  ///< around the object's voxels; empty: none
   Touched touched{};
   std::set<RawLabel> labels;
 };

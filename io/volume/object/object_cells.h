@@ -14,10 +14,10 @@ namespace mw::io {
 
 /// Labels of an object, ascending.
 using ObjectLabels = std::vector<RawLabel>;
-/// "1, 2, 3", for messages.
+/// Returns the labels as "1, 2, 3", for messages.
 [[nodiscard]] std::string listed(const ObjectLabels& labels);
 
-/// Cells of a volume, cell c being the voxels from c * size on.
+/// Cells of a volume; cell c has the voxels from c * size on.
 class ObjectCells {
  public:
   /// REQUIRES: size positive along each axis.
@@ -46,27 +46,27 @@ class ObjectCells {
 /// An object in a volume.
 struct FoundObject {
   ObjectCells cells;  ///< those that have voxels of it
-  Box3 box;           ///< of its voxels
+  Box3 box;           ///< the box around its voxels
 };
 
-/// Cells of a volume that are worth their reading: its chunks where these are of a handy size.
+/// Returns the size of cells that are worth reading: that of the volume's chunks where it is handy.
 [[nodiscard]] Index3 cell_size(const VolumeInfo& info);
 
 /// Follows an object from some cells on, through all voxels of its labels that touch each other by
-/// a face, an edge or a corner.  What touches none of the seeds' voxels is not found.
-/// bounds: nothing outside of it is looked at.  Cost: reads each cell of the object once, and each
-/// cell that the object touches.
+/// a face, an edge or a corner.  What touches none of the seeds' voxels is not found, and nothing
+/// outside of `bounds` is looked at.
+/// Cost: reads each cell of the object once, and each cell that the object touches.
 /// ERRORS: mw::Error(kInput) naming a label of which no voxel was found; what reading throws.
 [[nodiscard]] FoundObject follow_object(const LabelVolume& volume, const ObjectLabels& labels,
                                         ObjectCells seeds, const Box3& bounds);
 
-/// Calls visit(box) for the boxes of one voxel each of a coarser copy of the volume, in voxels of
-/// the volume and with one voxel of the copy around, where the copy has a voxel of the labels.
-/// bounds: in voxels of the volume.  Returns the labels that were seen, ascending.
+/// Looks for labels in a coarser copy of a volume of this shape, within `bounds`.  For each voxel
+/// of the copy that has one, calls visit(box) with the box of it and one more voxel of the copy
+/// around it.  Boxes are in voxels of the volume.  Returns the labels that were seen, ascending.
 ObjectLabels scan_for_object(const LabelVolume& copy, Index3 shape, const ObjectLabels& labels,
                              const Box3& bounds, const std::function<void(const Box3&)>& visit);
 
-/// The voxels of a copy of the volume that scan_for_object() looks at.
+/// Returns the voxels of a copy of the volume that scan_for_object() looks at.
 [[nodiscard]] Box3 bounds_in_copy(const VolumeInfo& copy, Index3 shape, const Box3& bounds);
 
 }  // namespace mw::io

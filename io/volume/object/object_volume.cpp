@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The mwmesh authors
 // SPDX-License-Identifier: Apache-2.0
-// Reads by cells.
+// Reads a volume that shows one object, cell by cell.
 #include "io/volume/object/object_volume.h"
 
 #include <algorithm>

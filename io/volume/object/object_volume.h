@@ -11,12 +11,12 @@ namespace mw::io {
 
 /// The label of all that is not the object.
 inline constexpr RawLabel kNotTheObject = 0;
-/// Voxels around an object that its volume has.
+/// How many voxels around an object its volume has.
 inline constexpr std::int64_t kObjectMargin = 4;
 
-/// A volume in which all but an object's voxels are kNotTheObject.  Only cells of the object are
+/// A volume in which all voxels except an object's are kNotTheObject.  Only cells of the object are
 /// read.
-/// Thread safety: as the volume below.
+/// Thread safety: that of the volume below.
 class ObjectVolume : public VolumeView {
  public:
   ObjectVolume(std::unique_ptr<LabelVolume> volume, ObjectLabels labels, ObjectCells cells);

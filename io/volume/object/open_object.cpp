@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The mwmesh authors
 // SPDX-License-Identifier: Apache-2.0
-// From the coarsest copy to the finest.
+// Looks for an object from the coarsest copy of a volume to the finest, and opens it.
 #include "io/volume/object/open_object.h"
 
 #include <algorithm>
@@ -26,7 +26,7 @@ class SeedSearch {
   SeedSearch(const ScaledVolume& scaled, const ObjectLabels& labels, const Box3& bounds)
       : scaled_(scaled), labels_(labels), bounds_(bounds) {}
 
-  /// Cells of the volume around what a copy, or the volume itself, shows of the labels.
+  /// Returns the cells of the volume around what a copy, or the volume itself, shows of the labels.
   ObjectCells find() {
     std::unique_ptr<LabelVolume> finer = open_copy(0);
     for (int copy = 0; copy < scaled_.copies; ++copy) {
@@ -42,7 +42,7 @@ class SeedSearch {
   [[nodiscard]] std::unique_ptr<LabelVolume> open_copy(int copy) const {
     return copy < scaled_.copies ? scaled_.open_copy(copy) : nullptr;
   }
-  /// How many of its voxels are looked at.
+  /// Returns how many voxels of a copy are looked at.
   [[nodiscard]] std::uint64_t voxels_of(const LabelVolume& copy) const {
     const Index3 shape = scaled_.volume->info().shape;
     return static_cast<std::uint64_t>(bounds_in_copy(copy.info(), shape, bounds_).voxels());

@@ -11,7 +11,7 @@
 
 namespace mw::io {
 
-/// Voxels of a copy that are looked through at most, to find where an object is.
+/// The most voxels of a copy that are looked through to find where an object is.
 inline constexpr std::uint64_t kMostScannedVoxels = std::uint64_t{1} << 32;
 
 /// A volume and its copies of lower resolution.
@@ -21,22 +21,22 @@ struct ScaledVolume {
   int copies = 0;
   /// Opens a copy, 0 the coarsest.
   std::function<std::unique_ptr<LabelVolume>(int)> open_copy = {};
-  /// Coarser copies are passed over while the next finer one has no more voxels than that.
+  /// Coarser copies are passed over while the next finer one has at most this many voxels.
   std::uint64_t cheap_voxels = std::uint64_t{1} << 24;
 };
 
 /// What is seen of a volume when only an object matters.
 struct ObjectView {
   std::unique_ptr<LabelVolume> volume;  ///< as large as the whole, all but the object one label
-  Box3 box;                             ///< of the object and kObjectMargin around, in bounds
+  Box3 box;                             ///< around the object, with kObjectMargin, in bounds
 };
 
 /// Looks through the finest copy that is cheap to read (if none is, the coarsest) or, where it
 /// lacks a label, through finer ones up to the volume itself, and follows the labels from there in
 /// the volume (follow_object()).  So parts are not found that no copy shows and that touch no part
-/// that one does. bounds: nothing outside of it is looked at.  REQUIRES: labels not empty. ERRORS:
-/// mw::Error(kUsage) for the label kNotTheObject; kInput when a label is not found, also because
-/// finer copies have more than kMostScannedVoxels; what reading throws.
+/// that one does.  Nothing outside of `bounds` is looked at.  REQUIRES: labels not empty.
+/// ERRORS: mw::Error(kUsage) for the label kNotTheObject; kInput when a label is not found, also
+/// because finer copies have more than kMostScannedVoxels; what reading throws.
 [[nodiscard]] ObjectView open_object(ScaledVolume scaled, ObjectLabels labels, const Box3& bounds);
 
 }  // namespace mw::io

@@ -34,7 +34,7 @@ struct Stream {
   std::array<char, 200> complaint{};
 };
 
-/// libpng leaves by longjmp: nothing in these frames may need a destructor.
+/// libpng leaves by longjmp, so that nothing in these frames may need a destructor.
 [[noreturn]] void leave(png_structp png, png_const_charp complaint) {
   auto* stream = static_cast<Stream*>(png_get_error_ptr(png));
   std::snprintf(stream->complaint.data(), stream->complaint.size(), "%s", complaint);
@@ -59,7 +59,7 @@ void read_bytes(png_structp png, png_bytep out, std::size_t count) {
   if (!read_next(stream, reinterpret_cast<std::byte*>(out), count)) png_error(png, "truncated");
 }
 
-/// Fills the rows; false leaves a complaint.
+/// Fills the rows; returns false with a complaint in the stream where libpng fails.
 bool decode(Stream& stream, png_bytepp rows) {
   png_structp png = png_create_read_struct(PNG_LIBPNG_VER_STRING, &stream, leave, keep_silent);
   if (png == nullptr) return false;
@@ -160,7 +160,7 @@ class PngChunks : public ChunkSource {
     }
     return Chunk{.bytes = read_png(file, header_), .strides = {1, header_.width, 0}};
   }
-  /// The rows' places, and libpng's window and row.
+  /// The memory of the rows' addresses, and of libpng's window and rows.
   [[nodiscard]] std::uint64_t scratch_bytes() const override {
     constexpr std::uint64_t kLibrary = 1 << 20;
     return kLibrary + 8 * static_cast<std::uint64_t>(header_.height) + 4 * header_.row_bytes();

@@ -27,20 +27,20 @@ struct PngHeader {
 
 [[nodiscard]] bool has_png_magic(std::span<const std::byte> head);
 
-/// ENSURES: a picture that the file can hold, below 512 MiB.
-/// ERRORS of both: mw::Error(kInput) naming the file, also for colours and transparency.
+/// ENSURES: the picture takes at most 512 MiB, and a file of this size can hold it.
+/// ERRORS: mw::Error(kInput) naming the file, also for colours and transparency.
 [[nodiscard]] PngHeader read_png_header(const ByteSource& source);
 
-/// The rows, from the top down; numbers of 16 bits are big-endian.
-/// REQUIRES: header is that of the file.
+/// Returns the rows, from the top down; numbers of 16 bits are big-endian.
+/// REQUIRES: header is that of the file.  ERRORS: those of read_png_header().
 [[nodiscard]] std::vector<std::byte> read_png(const ByteSource& source, const PngHeader& header);
 
-/// One slice, which is read through its name; otherwise as open_png_slices().
+/// Opens one slice, which is read through its name, and as open_png_slices() opens several.
 [[nodiscard]] std::unique_ptr<LabelVolume> open_png(std::unique_ptr<ByteSource> source,
                                                     const OpenOptions& options);
 
-/// Files are slices, in this order; rows go along x, from the top down along y.  Spacing is 1, the
-/// first corner at 0.  REQUIRES: at least one file.
+/// Opens files as slices, in this order.  Rows go along x, from the top down along y.  Spacing is
+/// 1, the first corner at 0.  REQUIRES: at least one file.
 /// Cost: a slice is unpacked as one.
 /// ERRORS: mw::Error(kInput) naming the file that is no labels, or not like the first.
 [[nodiscard]] std::unique_ptr<LabelVolume> open_png_slices(std::vector<std::filesystem::path> files,

@@ -16,7 +16,7 @@ namespace {
 
 /// Offsets count words of 32 bits.
 constexpr std::size_t kWordBytes = 4;
-/// A block's header: 24 bits where its table is, 8 bits a voxel's bits, 32 bits where voxels are.
+/// A block's header: 24 bits for its table, 8 for the bits of a voxel, 32 for where voxels are.
 constexpr std::size_t kHeaderBytes = 8;
 
 Index3 grid_of(const SegmentationLayout& layout) {
@@ -101,7 +101,7 @@ class Unpacker {
     if (end > channel_.size()) fail_block(block, "its voxels reach beyond the end");
   }
 
-  /// Where a voxel of the block begins.  Blocks are as large at the chunk's edge as elsewhere.
+  /// Returns where a voxel begins.  Blocks at the edge of the chunk are as large as elsewhere.
   std::size_t bit_of(const Block& block, Index3 v) const {
     const Index3 size = layout_.block;
     return block.bits * static_cast<std::size_t>(v.x + size.x * (v.y + size.y * v.z));

@@ -13,22 +13,22 @@
 
 namespace mw::io {
 
-/// What a chunk does not say of itself.
+/// What a chunk does not say about itself.
 struct SegmentationLayout {
-  Index3 shape;                      ///< of the chunk
-  Index3 block;                      ///< what is encoded as one
+  Index3 shape;                      ///< extents of the chunk
+  Index3 block;                      ///< extents of what is encoded as one
   VoxelType type = VoxelType::kU64;  ///< kU32 or kU64
 };
 
-/// The most that a block may have: tables are found by 24 bits.
+/// The most voxels of a block, as an offset of 24 bits finds its table.
 inline constexpr std::int64_t kMaxBlockVoxels = 1 << 24;
 
-/// The most bytes that a chunk needs: all blocks in 32 bits a voxel, each with a table of its own.
-/// REQUIRES: the product of the block at most kMaxBlockVoxels.
+/// Returns the most bytes that a chunk needs: all blocks in 32 bits a voxel, each with a table of
+/// its own.  REQUIRES: the product of the block is at most kMaxBlockVoxels.
 [[nodiscard]] std::uint64_t max_segmentation_bytes(const SegmentationLayout& layout);
 
-/// The voxels of a chunk of one channel, x fastest, least significant byte first.
-/// name: what errors call the chunk.
+/// Returns the voxels of a chunk of one channel, x fastest, least significant byte first.  Errors
+/// call the chunk `name`.
 /// Memory: what the shape needs.
 /// ERRORS: mw::Error(kInput) naming the block where offsets or numbers of bits make no sense, or
 /// lead out of the bytes.

@@ -18,7 +18,7 @@ namespace {
 
 constexpr std::string_view kWayOut = "get a whole copy of the store";
 
-/// A chunk that is there in another packing must not be taken for background.
+/// Refuses a chunk that is there in another packing, as it must not be taken for background.
 void refuse_packed_otherwise(const Place& path) {
   for (const char* ending : {".br", ".zst", ".bz2", ".xz"}) {
     const Place other = path + ending;
@@ -35,7 +35,7 @@ PrecomputedChunks::PrecomputedChunks(Place folder, PrecomputedScale scale)
   if (scale_.sharding) shards_.emplace(folder_, *scale_.sharding, grid_);
 }
 
-/// "x0-x1_y0-y1_z0-z1", voxels of the world.
+/// Returns the file "x0-x1_y0-y1_z0-z1" of a chunk, in voxels from the origin of the world.
 Place PrecomputedChunks::path_of(Index3 chunk) const {
   const Index3 size = scale_.chunk, first = scale_.offset, end = first + scale_.shape;
   const Index3 lo = first + Index3{chunk.x * size.x, chunk.y * size.y, chunk.z * size.z};
@@ -55,7 +55,7 @@ SegmentationLayout PrecomputedChunks::layout_of(Index3 shape) const {
   return {.shape = shape, .block = *scale_.block, .type = scale_.type};
 }
 
-/// The most bytes of a chunk before its encoding is undone; raw ones have just as many.
+/// Returns the most bytes of a chunk before its encoding is undone; raw ones have just as many.
 std::uint64_t PrecomputedChunks::max_encoded(Index3 shape) const {
   if (scale_.block) return max_segmentation_bytes(layout_of(shape));
   return static_cast<std::uint64_t>(shape.product()) *
@@ -85,10 +85,10 @@ PrecomputedChunks::Stored PrecomputedChunks::find_shard(Index3 chunk, std::uint6
           .is_gzip = packed};
 }
 
-/// Without its packing.
+/// Returns a chunk without its packing.
 Chunk PrecomputedChunks::read(const Stored& stored, std::uint64_t wanted, ChunkPlace place) const {
   if (stored.is_gzip && stored.may_be_raw) {
-    // Raw voxels of the right size may begin like gzip: its checksum tells.
+    // Raw voxels of the right size may begin like gzip, whose checksum tells.
     try {
       return read({.bytes = stored.bytes, .is_gzip = true}, wanted, place);
     } catch (const Error&) {

@@ -18,31 +18,31 @@
 
 namespace mw::io {
 
-/// Sizes in voxels.
+/// A scale of `info`.  Sizes are in voxels.
 struct PrecomputedScale {
   std::string key;        ///< folder of the chunks, relative to that of `info`
   std::string key_field;  ///< what errors call it: "scales[0].key"
   VoxelType type = VoxelType::kU8;
   Index3 shape;
-  Index3 offset;  ///< of the first voxel in the names of chunks
+  Index3 offset;  ///< that of the first voxel in the names of chunks
   Index3 chunk;   ///< not beyond the shape
   VolumeSpace space;
-  std::optional<Index3> block;       ///< of compressed_segmentation; empty: raw
+  std::optional<Index3> block;       ///< for compressed_segmentation; empty: raw
   std::optional<Sharding> sharding;  ///< empty: a file for each chunk
 };
 
-/// The scale that the options ask for: by its key (dataset), by its number (scale), or the first.
-/// Checks all numbers, and bounds what chunks may take.
+/// Returns the scale that the options ask for by its key (dataset) or its number (scale), else the
+/// first.  Checks all numbers, and bounds what chunks may take.
 /// ERRORS: mw::Error(kInput) naming file and field; kUsage when there is no such scale.
 [[nodiscard]] PrecomputedScale parse_precomputed_info(const Json& info, std::string_view file,
                                                       const OpenOptions& options);
 
-/// Chunks along each axis.
+/// Returns the number of chunks along each axis.
 [[nodiscard]] Index3 chunk_grid(const PrecomputedScale& scale);
 
 class PrecomputedChunks : public ChunkSource {
  public:
-  /// folder: the one of the scale's chunks.
+  /// folder is the one that holds the chunks of the scale.
   PrecomputedChunks(Place folder, PrecomputedScale scale);
 
   [[nodiscard]] std::string name() const override { return folder_.string(); }
@@ -77,9 +77,9 @@ class PrecomputedChunks : public ChunkSource {
 /// Whether the folder has an `info` file.
 [[nodiscard]] bool is_precomputed(const Place& folder);
 
-/// Chunks raw or in compressed_segmentation, in files of their own or in shards, each also gzipped;
-/// what is not there has label 0.  Coordinates are in nm.  options.scale or options.dataset (a key)
-/// chooses among the scales.
+/// Opens a volume whose chunks are raw or in compressed_segmentation, in files of their own or in
+/// shards, each also gzipped; what is not there has label 0.  Coordinates are in nm.  options.scale
+/// or options.dataset (a key) chooses among the scales.
 /// ERRORS: mw::Error(kInput) naming file and field; kUsage when there is no such scale.
 [[nodiscard]] std::unique_ptr<LabelVolume> open_precomputed(const Place& folder,
                                                             const OpenOptions& options);

@@ -16,7 +16,7 @@
 namespace mw::io {
 namespace {
 
-/// Far beyond any volume, and still exact in a double.
+/// The largest offset: far beyond any volume, and still exact in a double.
 constexpr std::int64_t kMaxOffset = std::int64_t{1} << 48;
 /// The largest index of a minishard that is kept in memory.
 constexpr std::uint64_t kMaxIndexBytes = 256ULL << 20U;
@@ -118,7 +118,7 @@ void check_block(const JsonFields& fields, const SegmentationLayout& layout) {
               "write the volume with blocks of 8 x 8 x 8");
 }
 
-/// Empty for raw chunks.
+/// Returns the size of a block; nothing for raw chunks.
 std::optional<Index3> block_of(const JsonFields& fields, Index3 chunk, VoxelType type) {
   const std::string encoding = in_small_letters(fields.text("encoding"));
   if (encoding == "raw") return std::nullopt;
@@ -184,7 +184,7 @@ std::optional<Sharding> sharding_of(const JsonFields& scale, Index3 grid) {
   return out;
 }
 
-/// Offsets count voxels: a spacing that replaces the file's moves the origin, too.
+/// Offsets count voxels, so that a spacing that replaces the file's moves the origin, too.
 VolumeSpace space_of(const JsonFields& fields, Index3 offset, const OpenOptions& options) {
   const std::string field = fields.name_of("resolution");
   Vector3 spacing = options.spacing.value_or(Vector3{});

@@ -51,12 +51,12 @@ std::uint64_t murmur_hash(std::uint64_t key) {
 
 namespace {
 
-/// Bits that the places 0 .. extent - 1 need.
+/// Returns how many bits the places 0 to extent - 1 need.
 int bits_of(std::int64_t extent) {
   return static_cast<int>(std::bit_width(static_cast<std::uint64_t>(extent - 1)));
 }
 
-/// Shifts by 64 and more, which C++ leaves undefined.
+/// Shifts right, also by 64 and more, which C++ leaves undefined.
 std::uint64_t shifted(std::uint64_t value, int bits) {
   return bits > 63 ? 0 : value >> static_cast<unsigned>(bits);
 }
@@ -147,10 +147,10 @@ std::vector<ShardEntry> parse_minishard_index(std::span<const std::byte> bytes,
 
 namespace {
 
-/// Enough for the minishards around a window: one of 512 chunks takes 12 KiB.
+/// The bytes of indices that are kept, enough for those around a window: 512 chunks take 12 KiB.
 constexpr std::uint64_t kKeptIndexBytes = 4ULL << 20U;
 
-/// Chunks of a minishard come in any order: the differences between them may wrap.
+/// Chunks of a minishard come in any order, as the differences between them may wrap.
 std::optional<ShardEntry> entry_of(const Chunk& index, std::uint64_t chunk) {
   ShardEntry entry;
   for (std::size_t at = 0; at < index.bytes.size(); at += sizeof entry) {

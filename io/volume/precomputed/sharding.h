@@ -18,8 +18,8 @@
 
 namespace mw::io {
 
-/// MurmurHash3_x86_128 (A. Appleby, public domain) of the 8 bytes of key, least significant first,
-/// with seed 0: the low 64 of its 128 bits.
+/// Returns the low 64 of the 128 bits of MurmurHash3_x86_128 (A. Appleby, public domain), of the 8
+/// bytes of key, least significant first, with seed 0.
 [[nodiscard]] std::uint64_t murmur_hash(std::uint64_t key);
 
 /// The member "sharding" of a scale (neuroglancer's "precomputed" format, sharding).
@@ -29,11 +29,11 @@ struct Sharding {
   int minishard_bits = 0;     ///< 0 to 32
   int shard_bits = 0;         ///< 0 to 64 - minishard_bits
   bool packed_index = false;  ///< minishard indices are gzipped
-  bool packed_data = false;   ///< chunks are
+  bool packed_data = false;   ///< chunks are gzipped
 };
 
-/// The number of the chunk at a place of the grid: the "compressed Morton code", bits
-/// of x, y and z in turn, an axis left out where the grid has no more bits of it.
+/// Returns the number of the chunk at a place of the grid, its "compressed Morton code": bits of x,
+/// y and z in turn, without those of an axis where the grid has no more of them.
 /// REQUIRES: cell inside the grid; grid extents at most 2^20.
 [[nodiscard]] std::uint64_t morton_code(Index3 cell, Index3 grid);
 
@@ -43,14 +43,14 @@ struct ShardPosition {
 };
 [[nodiscard]] ShardPosition position_of(const Sharding& sharding, std::uint64_t chunk);
 
-/// "0a.shard"
+/// Returns the name of a shard's file, such as "0a.shard".
 [[nodiscard]] std::string shard_file_name(const Sharding& sharding, std::uint64_t shard);
 
-/// Bytes of the index that a shard begins with; offsets in the shard count from its end.
+/// Returns the bytes of the index that a shard begins with, from whose end offsets count.
 [[nodiscard]] std::uint64_t shard_index_bytes(const Sharding& sharding);
 
-/// The most chunks of the grid that one minishard can hold.  By murmurhash3: eight times as many as
-/// there are on average and 64 groups, which is more than chance will ever bring.
+/// Returns the most chunks of the grid that one minishard can hold.  With murmurhash3 it is eight
+/// times the average and 64 groups more, which chance never reaches.
 [[nodiscard]] std::uint64_t max_in_minishard(const Sharding& sharding, Index3 grid);
 
 /// A chunk in a shard.
@@ -61,9 +61,9 @@ struct ShardEntry {
 };
 
 /// Decodes a minishard's index: three rows of n numbers, of which chunks and offsets are coded as
-/// differences.  data_bytes: the shard's bytes behind its index.
+/// differences.  data_bytes is the number of the shard's bytes behind its index.
 /// ENSURES: every entry lies within them.
-/// ERRORS: mw::Error(kInput) naming `name` when not.
+/// ERRORS: mw::Error(kInput) naming `name` when one does not.
 [[nodiscard]] std::vector<ShardEntry> parse_minishard_index(std::span<const std::byte> bytes,
                                                             std::uint64_t data_bytes,
                                                             std::string_view name);
@@ -73,14 +73,14 @@ class ShardFolder {
  public:
   ShardFolder(Place folder, const Sharding& sharding, Index3 grid);
 
-  /// The chunk's bytes as the shard has them, maybe gzipped; null: there is no such chunk.
-  /// name: what errors call them; max: the most that they may be.
+  /// Returns the chunk's bytes as the shard has them, maybe gzipped; null: there is no such chunk.
+  /// Errors call them `name`; `max` is the most bytes that they may be.
   /// ERRORS: mw::Error(kInput) naming the shard when it is damaged, or the chunk is larger.
   [[nodiscard]] std::shared_ptr<const ByteSource> find(std::uint64_t chunk, std::string name,
                                                        std::uint64_t max) const;
-  /// The shard that a chunk is in, if it is there.
+  /// Returns where the shard is that a chunk would be in, whether it exists or not.
   [[nodiscard]] Place path_of(std::uint64_t chunk) const;
-  /// The most that find() takes in memory, indices that are kept included.
+  /// Returns the most that find() takes in memory, with the indices that are kept.
   [[nodiscard]] std::uint64_t scratch_bytes() const;
 
  private:
@@ -88,8 +88,8 @@ class ShardFolder {
 
   Place folder_;
   Sharding sharding_;
-  std::uint64_t max_index_bytes_;  ///< of one minishard, unpacked
-  mutable ChunkCache indices_;     ///< as arrays of ShardEntry, by shard and minishard
+  std::uint64_t max_index_bytes_;  ///< of one minishard's index, unpacked
+  mutable ChunkCache indices_;     ///< arrays of ShardEntry, by shard and minishard
 };
 
 }  // namespace mw::io

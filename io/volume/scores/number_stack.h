@@ -11,8 +11,8 @@
 
 namespace mw::io {
 
-/// What a file with several numbers a voxel is opened as, where OpenOptions::values asks for them.
-/// Everything but parts() is that of the first part.
+/// A file with several numbers a voxel, as it is opened where OpenOptions::values asks for them.
+/// Everything except parts() is that of the first part.
 class NumberStack : public VolumeView {
  public:
   /// REQUIRES: at least one part; all of the same shape and place, and NumberVolumes.

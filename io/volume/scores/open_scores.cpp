@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The mwmesh authors
 // SPDX-License-Identifier: Apache-2.0
-// Components of all files in their order.
+// Collects the components of all files, in their order.
 #include "io/volume/scores/open_scores.h"
 
 #include <limits>
@@ -29,7 +29,7 @@ void check_numbers_of(const ScoreComponent& component) {
              "give them as .npy, NIfTI, NRRD, MetaImage, HDF5, Zarr or N5");
 }
 
-/// One for each part of a stack.
+/// Adds the volume, or each part of it where it is a stack.
 void add_components(std::unique_ptr<LabelVolume> opened, const std::string& file,
                     std::vector<ScoreComponent>& out) {
   const std::shared_ptr<const LabelVolume> volume = std::move(opened);

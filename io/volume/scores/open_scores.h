@@ -11,9 +11,9 @@
 
 namespace mw::io {
 
-/// Opens one file, or several: "A,B,C", whose components follow each other.  Labels have the names
-/// of the files where there are several, or one component in all, else those that the file tells.
-/// open: opens one file as OpenOptions say.  options: all but crop.
+/// Opens one file, or several: "A,B,C", whose components follow each other.  Where each file has
+/// one component, labels have the names of the files, else those that the first file tells.
+/// open() opens one file as OpenOptions say.  options.crop is ignored.
 /// ERRORS: mw::Error(kInput) naming the file that lies elsewhere than the first, or whose format
 /// has no numbers; kUsage for options of masks.
 [[nodiscard]] std::unique_ptr<LabelVolume> open_scores(

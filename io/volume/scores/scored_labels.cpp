@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The mwmesh authors
 // SPDX-License-Identifier: Apache-2.0
-// The label of the highest score, component by component.
+// Finds the label of the highest score, component by component.
 #include "io/volume/scores/scored_labels.h"
 
 #include <algorithm>
@@ -12,9 +12,9 @@
 namespace mw::io {
 namespace {
 
-/// Voxels whose scores are held at once, which are fewer than a quarter of a reader's tile.
+/// The most voxels whose scores are held at once.
 constexpr std::int64_t kMostVoxels = 1 << 17;
-/// The highest score so far, the next one, and its bits while it is read.
+/// What a voxel takes: the highest score so far, the next one, and its bits while it is read.
 constexpr std::uint64_t kBytesPerVoxel = 3 * sizeof(double);
 
 /// Splits a box across its slowest axis of more than one voxel until its parts are small.

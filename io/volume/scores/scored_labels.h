@@ -14,24 +14,25 @@
 
 namespace mw::io {
 
-/// One number for each voxel, and what is told of it.
+/// One number for each voxel, and what is known about it.
 struct ScoreComponent {
-  std::shared_ptr<const LabelVolume> volume;  ///< is a NumberVolume, too
+  std::shared_ptr<const LabelVolume> volume;  ///< a NumberVolume, too
   std::string name;                           ///< what errors call it
 };
 
-/// Each voxel has the label of the highest score, the smallest of several.
-/// - Several probabilities: the scores of labels 0, 1, 2 and so on.
-/// - One probability: that of label 1; label 0 has a half everywhere, so label 1 is where p > 0.5.
-/// - Distances: those of labels 1, 2 and so on with their sign turned; label 0 has the score 0, so
-///   it is where no distance is negative.
+/// Gives each voxel the label of the highest score, and the smallest of several.
+/// - Several probabilities are the scores of labels 0, 1, 2 and so on.
+/// - One probability is that of label 1; label 0 has a half everywhere, so label 1 is at p > 0.5.
+/// - Distances with their sign turned are the scores of labels 1, 2 and so on; label 0 has the
+///   score 0, so it is where no distance is negative.
 /// Memory: read() takes 4 MiB a thread.
 class ScoredLabels : public LabelVolume, public LabelScores {
  public:
-  /// names: of labels.  REQUIRES: at least one component, all of one shape; values is not kLabels.
+  /// names are those of the labels.
+  /// REQUIRES: at least one component, all of one shape; values is not kLabels.
   ScoredLabels(std::vector<ScoreComponent> components, VoxelValues values, LabelNames names);
 
-  /// Whether label 0 has a score that no component tells.
+  /// Whether label 0 has a score that no component gives.
   [[nodiscard]] static bool has_ground(std::size_t components, VoxelValues values) {
     return values == VoxelValues::kDistances || components == 1;
   }

@@ -21,7 +21,7 @@ bool is_digit(char c) {
   return c >= '0' && c <= '9';
 }
 
-/// The first run of digits, or of other letters, which is taken off.
+/// Takes the first run of digits, or of other letters, off the text, and returns it.
 std::string_view take_run(std::string_view& rest) {
   const bool digits = is_digit(rest.front());
   const auto end =
@@ -36,7 +36,7 @@ std::string_view without_zeros(std::string_view digits) {
   return digits.substr(std::min(digits.find_first_not_of('0'), digits.size()));
 }
 
-/// Negative, 0 or positive.
+/// Returns a negative number where a comes before b, 0 where they are equal, else a positive one.
 int compare_runs(std::string_view a, std::string_view b) {
   if (!is_digit(a.front()) || !is_digit(b.front())) return a.compare(b);
   a = without_zeros(a);
@@ -58,7 +58,7 @@ std::optional<std::int64_t> number_of(std::string_view run) {
   return number;
 }
 
-/// The only run in which the names differ, if it is a number in all.
+/// Returns the only run in which the names differ, if it is a number in all of them.
 std::optional<std::size_t> numbered_run(const std::vector<std::string>& names) {
   const auto first = runs_of(names.front());
   std::optional<std::size_t> found;

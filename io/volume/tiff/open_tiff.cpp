@@ -21,7 +21,7 @@
 namespace mw::io {
 namespace {
 
-/// A micrometre goes by many names, also as ImageJ and Latin-1 write the letter.
+/// Returns "um" for the many names of a micrometre, also as ImageJ and Latin-1 write the letter.
 std::string plain_unit(std::string_view unit) {
   for (const char* other :
        {"micron", "microns", "micrometer", "\xc2\xb5m", "\xce\xbcm", "\xb5m", "\\u00B5m"}) {
@@ -30,7 +30,7 @@ std::string plain_unit(std::string_view unit) {
   return unit == "pixel" || unit == "pixels" ? "" : std::string(unit);
 }
 
-/// Metres; 0 for a unit that is not known.
+/// Returns how many metres a unit has; 0 where it is not known.
 double metres(std::string_view unit) {
   constexpr std::pair<std::string_view, double> kUnits[]{{"m", 1},     {"cm", 1e-2}, {"mm", 1e-3},
                                                          {"um", 1e-6}, {"nm", 1e-9}, {"pm", 1e-12}};
@@ -55,7 +55,7 @@ std::string_view line_text(std::string_view description, std::string_view key) {
   return trimmed(rest.substr(0, rest.find('\n')));
 }
 
-/// "ImageJ=1.53t\nimages=12\nslices=12\nunit=micron\nspacing=2.5".
+/// Reads "ImageJ=1.53t\nimages=12\nslices=12\nunit=micron\nspacing=2.5".
 TiffDescription parse_imagej(std::string_view description, std::array<double, 2> resolution,
                              const std::string& file) {
   for (const char* axis : {"channels", "frames"}) {
@@ -71,7 +71,7 @@ TiffDescription parse_imagej(std::string_view description, std::array<double, 2>
   }
   const std::string_view spacing = line_text(description, "spacing");
   if (!spacing.empty()) {
-    // A negative one is a stack from top to bottom.
+    // A negative spacing means a stack from top to bottom.
     out.spacing[2] = std::abs(parse_real(spacing).value_or(std::nan("")));
   }
   return out;
@@ -96,7 +96,7 @@ void refuse_other_order(pugi::xml_node pixels, const std::string& file) {
   }
 }
 
-/// Edges of a voxel in the unit of the first axis that has one; PhysicalSize is in um by default.
+/// Reads the edges of a voxel in the unit of the first axis that has one; it is um by default.
 void read_sizes(pugi::xml_node pixels, TiffDescription& out) {
   for (std::size_t i = 0; i < 3; ++i) {
     const std::string size = text("PhysicalSize", std::string_view("XYZ").substr(i, 1));
@@ -174,7 +174,7 @@ std::unique_ptr<LabelVolume> chunked(std::unique_ptr<TiffStack> stack, VolumeInf
                                          options.cache_bytes);
 }
 
-/// Where the pixels of an unpacked page begin, when its strips follow each other; 0 when not.
+/// Returns where the pixels of a page begin if it is unpacked and its strips are in a row, else 0.
 std::uint64_t plain_pixels(TIFF* tiff) {
   std::uint16_t packing = COMPRESSION_NONE;
   TIFFGetFieldDefaulted(tiff, TIFFTAG_COMPRESSION, &packing);

@@ -18,16 +18,16 @@
 namespace mw::io {
 
 struct TiffDescription {
-  /// Edges of a voxel in `unit`; not a number where only others are known.
+  /// Edges of a voxel in `unit`; NaN where only those of other axes are known.
   Vector3 spacing{1, 1, 1};
   std::string unit;                    ///< "um", "nm" and so on; empty: unknown
   std::optional<std::int64_t> slices;  ///< how many there are
   bool is_imagej = false;
-  std::string note;  ///< what was taken for what it leaves open
+  std::string note;  ///< what is assumed where it leaves something open
 };
 
-/// resolution: XResolution and YResolution, pixels a unit; ImageJ keeps x and y there.  That of
-/// other files counts dots on paper, and is not used.
+/// resolution is XResolution and YResolution, in pixels a unit, by which ImageJ tells the spacing
+/// of x and y.  That of other files counts dots on paper, and is not used.
 /// ERRORS: mw::Error(kInput) naming file and field for several channels, times or images, and for
 /// OME-XML whose slices are in other files or another order.
 [[nodiscard]] TiffDescription parse_tiff_description(std::string_view description,
@@ -36,14 +36,14 @@ struct TiffDescription {
 
 [[nodiscard]] bool has_tiff_magic(std::span<const std::byte> head);
 
-/// Pages are slices, first page first; a stack of ImageJ may have one page for all its slices. Rows
-/// go along x, from the top down along y.  The first corner is at 0; spacing and unit are those of
-/// OME-XML or ImageJ, else 1.
+/// Opens pages as slices, first page first; a stack of ImageJ may have one page for all its slices.
+/// Rows go along x, from the top down along y.  The first corner is at 0; spacing and unit are
+/// those of OME-XML or ImageJ, else 1.
 /// ERRORS: mw::Error(kInput) naming file and page.
 [[nodiscard]] std::unique_ptr<LabelVolume> open_tiff(std::unique_ptr<ByteSource> source,
                                                      const OpenOptions& options);
 
-/// Files are slices, in this order.  REQUIRES: at least one.
+/// Opens files as slices, in this order.  REQUIRES: at least one.
 /// ERRORS: mw::Error(kInput) naming the file that is not like the first.
 [[nodiscard]] std::unique_ptr<LabelVolume> open_tiff_slices(
     std::vector<std::filesystem::path> files, const OpenOptions& options);

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The mwmesh authors
 // SPDX-License-Identifier: Apache-2.0
-// A page of a TIFF file, by libtiff.
+// Reads a page of a TIFF file by libtiff.
 #include "io/volume/tiff/tiff_stack.h"
 
 #include <algorithm>
@@ -17,9 +17,9 @@ namespace {
 
 using Stream = TiffHandle::Stream;
 
-/// Gives fewer bytes at the end.  Errors must not pass through libtiff: they become its own, as too
-/// few bytes.  Never -1: libtiff 4.5 takes it for a length when it clears the rest of a block, and
-/// writes in front of its buffer.
+/// Reads fewer bytes at the end.  Errors must not pass through libtiff, so that they become its
+/// own, as too few bytes.  Never returns -1: libtiff 4.5 takes it for a length when it clears the
+/// rest of a block, and writes in front of its buffer.
 tmsize_t read_bytes(thandle_t handle, void* out, tmsize_t count) {
   auto* stream = static_cast<Stream*>(handle);
   const std::uint64_t size = stream->source->size();
@@ -74,7 +74,7 @@ struct FreeOptions {
   void operator()(TIFFOpenOptions* options) const { TIFFOpenOptionsFree(options); }
 };
 
-/// Tables of a page and packed strips are at most as large as the file.
+/// Returns the most that libtiff may take at once: tables and packed strips fit into the file.
 tmsize_t max_memory(std::uint64_t file_bytes) {
   constexpr std::uint64_t kMin = 64 << 20;
   constexpr std::uint64_t kMax = std::uint64_t{1} << 40;
@@ -116,10 +116,10 @@ void TiffHandle::fail(std::string_view field, std::string_view reason) const {
 namespace {
 
 constexpr std::uint64_t kMaxBlockBytes = 512 << 20;
-/// More than any codec gets out of a byte.
+/// More bytes than any codec gets out of one.
 constexpr std::uint64_t kMaxRatio = 65536;
 
-/// A tag of that C++ type, or what the standard says when it is missing.
+/// Returns a tag of that C++ type, or when it is missing the standard's value, else `otherwise`.
 template <class T>
 T tag(const TiffHandle& handle, std::uint32_t number, T otherwise) {
   T value{};

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The mwmesh authors
 // SPDX-License-Identifier: Apache-2.0
-// Pages of TIFF files as the slices of a volume.
+// Reads pages of TIFF files as the slices of a volume.
 #include "io/volume/tiff/tiff_stack.h"
 
 #include <algorithm>
@@ -15,7 +15,7 @@
 namespace mw::io {
 namespace {
 
-/// Handles kept open between reads: about as many as threads work at once.
+/// How many handles are kept open between reads: about as many as threads work at once.
 constexpr std::size_t kMaxIdle = 16;
 
 std::shared_ptr<const ByteSource> open_file(const std::filesystem::path& path) {
@@ -90,7 +90,7 @@ std::string TiffStack::name_of(std::int64_t slice) const {
   return text(name_, ": slice ", slice + 1);
 }
 
-/// One that stands there, else any other of the same file, else a new one.
+/// Returns a handle that stands there, else any other of the same file, else a new one.
 std::unique_ptr<TiffHandle> TiffStack::take(std::int64_t slice) const {
   {
     const std::lock_guard lock(mutex_);
@@ -132,7 +132,7 @@ struct Pixels {
   std::byte* bytes;
 };
 
-/// The block at column, row of the page, unpacked; rows: how many of it are in the page.
+/// Unpacks a block by its column and row on the page; rows is how many of its rows are in the page.
 void unpack(const TiffHandle& handle, const TiffPage& page, Index3 block, std::int64_t rows,
             std::span<std::byte> out) {
   TIFF* tiff = handle.get();

@@ -21,17 +21,17 @@
 namespace mw::io {
 
 /// libtiff over a ByteSource: it opens nothing itself, prints nothing, and takes no piece of memory
-/// that is large against the file.  Thread safety: none; handles of one source may be used at once.
+/// that is large against the file.  Thread safety: none, but handles may share a source.
 class TiffHandle {
  public:
-  /// Stands at the first page.
+  /// Opens a file, and stands at its first page.
   /// ERRORS: mw::Error(kInput) naming the file when it is no TIFF file.
   explicit TiffHandle(std::shared_ptr<const ByteSource> source);
   ~TiffHandle();
   TiffHandle(const TiffHandle&) = delete;
   TiffHandle& operator=(const TiffHandle&) = delete;
 
-  /// Stands at the page whose directory begins there.
+  /// Goes to the page whose directory begins there.
   /// ERRORS: mw::Error(kInput) naming file and place.
   void go_to(std::uint64_t directory);
 
@@ -56,23 +56,23 @@ struct TiffPage {
   std::int64_t width = 0;
   std::int64_t height = 0;
   VoxelType type = VoxelType::kU8;
-  /// Pixels are packed in blocks of this size, from the top left corner on: strips or tiles.
+  /// Pixels are packed in blocks of this size, strips or tiles, from the top left corner on.
   std::int64_t block_width = 0;
   std::int64_t block_height = 0;
   bool tiled = false;
   bool smaller_copy = false;  ///< a thumbnail, a level of a pyramid or a mask: no slice
 
-  /// What a block unpacks to; the last strip of a page is shorter.
+  /// Returns the bytes that a block unpacks to; the last strip of a page is shorter.
   [[nodiscard]] std::uint64_t block_bytes() const;
-  /// 5 x 4 pixels of u8.
+  /// Returns the page in words, such as "5 x 4 pixels of u8".
   [[nodiscard]] std::string words() const;
   [[nodiscard]] bool is_like(const TiffPage& other) const {
     return width == other.width && height == other.height && type == other.type;
   }
 };
 
-/// Reads the page where the handle stands.  place: what errors call it, "page 3".
-/// ENSURES: extents within kMaxAxisVoxels; blocks that the file can hold, below 512 MiB.
+/// Reads the page where the handle stands.  Errors call it `where`, such as "page 3".
+/// ENSURES: extents within kMaxAxisVoxels; blocks that the file can hold, at most 512 MiB.
 /// ERRORS: mw::Error(kInput) naming file and page for pixels that are no labels: of several
 /// samples, of a type or compression that is not read, or of a depth.
 [[nodiscard]] TiffPage read_tiff_page(const TiffHandle& handle, const std::string& where);
@@ -94,16 +94,16 @@ class TiffStack {
   [[nodiscard]] const TiffPage& first() const { return first_; }
   /// Returns the largest number of bytes of a block of any slice.
   [[nodiscard]] std::uint64_t largest_block() const { return largest_block_; }
-  /// ImageDescription of the first slice; empty when it has none.
+  /// Returns the ImageDescription of the first slice; empty when it has none.
   [[nodiscard]] const std::string& description() const { return description_; }
-  /// XResolution, YResolution of the first slice, pixels a unit; 0 when it has none.
+  /// Returns XResolution and YResolution of the first slice, in pixels a unit; 0 when it has none.
   [[nodiscard]] std::array<double, 2> resolution() const { return resolution_; }
-  /// The file, or the folder of the files.
+  /// Returns the file, or the folder of the files.
   [[nodiscard]] const std::string& name() const { return name_; }
-  /// "FILE: page 3", or the file of the slice.
+  /// Returns "FILE: slice 3", or the file of the slice.
   [[nodiscard]] std::string name_of(std::int64_t slice) const;
 
-  /// A handle that stands at the slice, for one thread until it goes.
+  /// Lends a handle that stands at the slice to one thread, until the lease ends.
   class Lease {
    public:
     Lease(const TiffStack& stack, std::int64_t slice);
@@ -131,7 +131,7 @@ class TiffStack {
 
   std::shared_ptr<const ByteSource> file_;    ///< empty for many files
   std::vector<std::filesystem::path> files_;  ///< empty for one
-  std::vector<std::uint64_t> positions_;      ///< of each slice's directory in its file
+  std::vector<std::uint64_t> positions_;      ///< where each slice's directory is in its file
   std::string name_;
   TiffPage first_;
   std::uint64_t largest_block_ = 0;
@@ -141,8 +141,8 @@ class TiffStack {
   mutable std::vector<Idle> idle_;  ///< the one used last at the end
 };
 
-/// A chunk is a tile of one slice, or some strips.  Blocks that a file leaves out are label 0.
-/// Numbers are in the byte order of this machine.
+/// Reads chunks, each a tile of one slice or some strips.  Blocks that a file leaves out are label
+/// 0.  Numbers are in the byte order of this machine.
 class TiffChunks : public ChunkSource {
  public:
   explicit TiffChunks(std::unique_ptr<TiffStack> stack) : stack_(std::move(stack)) {}
@@ -151,9 +151,9 @@ class TiffChunks : public ChunkSource {
   [[nodiscard]] std::string name_of(Index3 chunk) const override;
   [[nodiscard]] std::optional<Chunk> load(Index3 chunk, const Box3& box,
                                           ChunkPlace place) const override;
-  /// A block, unpacked and packed.
+  /// A block takes memory both packed and unpacked.
   [[nodiscard]] std::uint64_t scratch_bytes() const override { return 2 * stack_->largest_block(); }
-  /// A tile, or as many strips as make 64 KiB.
+  /// Returns the extents of a tile, or of as many strips as make 64 KiB.
   [[nodiscard]] Index3 chunk_shape() const;
 
  private:

@@ -20,7 +20,7 @@ std::optional<std::size_t> axis_named(const std::vector<std::string>& names,
   return static_cast<std::size_t>(found - names.begin());
 }
 
-/// The axes that stay when leading ones of one entry, and then any such, go until there are three.
+/// Returns the axes that stay when the first ones of one entry are left out until there are three.
 std::vector<std::size_t> last_three(const std::vector<std::int64_t>& shape) {
   std::size_t surplus = shape.size() > 3 ? shape.size() - 3 : 0;
   std::vector<std::size_t> kept;
@@ -92,7 +92,7 @@ AxisMap map_axes(std::string_view file, const std::vector<std::int64_t>& shape,
 
 namespace {
 
-/// From 0.5 on everything is in "ome".
+/// Returns the object that has the metadata: from version 0.5 on it is "ome".
 const Json& ome_of(const Json& attributes) {
   const Json* found = attributes.find("ome");
   return found != nullptr && found->is_object() ? *found : attributes;
@@ -112,7 +112,7 @@ void check_version(const JsonFields& fields) {
               "write the image in version 0.4 or 0.5");
 }
 
-/// In the words of the rest of the program; others stay as they are.
+/// Returns a unit as the rest of the program calls it; others stay as they are.
 std::string short_unit(const std::string& unit) {
   constexpr std::array kUnits{
       std::pair{"picometer", "pm"}, std::pair{"nanometer", "nm"},  std::pair{"micrometer", "um"},
@@ -125,7 +125,7 @@ std::string short_unit(const std::string& unit) {
   return unit.substr(0, 30);
 }
 
-/// Versions before 0.4 have names only.
+/// Adds an axis, which is a name only in versions below 0.4.
 void add_axis(const Json& axis, const JsonFields& fields, std::size_t index,
               std::vector<bool>& spatial, Multiscale& out) {
   if (axis.is_string()) {
@@ -140,7 +140,7 @@ void add_axis(const Json& axis, const JsonFields& fields, std::size_t index,
   spatial.push_back(one.has("type") && one.text("type") == "space");
 }
 
-/// Axes of space that are not called x, y and z are z, y, x in this order.
+/// Names axes of space that are not called x, y and z: they are z, y, x in this order.
 void name_axes(const std::vector<bool>& spatial, std::vector<std::string>& names) {
   const bool has_names = std::find(names.begin(), names.end(), "x") != names.end() &&
                          std::find(names.begin(), names.end(), "y") != names.end();
@@ -163,7 +163,7 @@ void parse_axes(const Json& multiscale, const JsonFields& fields, Multiscale& ou
   name_axes(spatial, out.axis_names);
 }
 
-/// Makes one vector out of none, and checks that all are as long.
+/// Gives an empty vector `count` entries of `start`, and checks that any other has as many.
 void match_length(std::vector<double>& numbers, std::size_t count, double start,
                   const JsonFields& fields, const char* key) {
   if (numbers.empty()) numbers.assign(count, start);

@@ -27,9 +27,9 @@ struct AxisMap {
   [[nodiscard]] std::vector<std::int64_t> spread(Index3 index, std::size_t axes) const;
 };
 
-/// Finds x, y and z by their names (z may be missing); without names the axes are z, y, x in this
-/// order.  All others must have one entry: without names the first such axes are the others.
-/// names: as many as the shape has axes, or none.  way_out: what to do about further axes.
+/// Finds x, y and z by their names (z may be missing); without names of x and y the axes are z, y,
+/// x in this order.  All others must have one entry, and without names they are the first that have
+/// one.  There are as many names as axes, or none.  way_out says what to do about further axes.
 /// ERRORS: mw::Error(kInput) naming file and axis.
 [[nodiscard]] AxisMap map_axes(std::string_view file, const std::vector<std::int64_t>& shape,
                                const std::vector<std::string>& names, std::string_view way_out);
@@ -41,15 +41,15 @@ struct LevelTransform {
 };
 
 struct MultiscaleLevel {
-  std::string path;  ///< of its array, relative to the group
+  std::string path;  ///< path of its array, relative to the group
   LevelTransform transform;
 };
 
 struct Multiscale {
-  std::vector<std::string> axis_names;  ///< as map_axes wants them; empty: not said
+  std::vector<std::string> axis_names;  ///< as map_axes wants them; empty: unknown
   std::vector<std::string> axis_units;  ///< in short, "nm"; as many as names
   std::vector<MultiscaleLevel> levels;  ///< the finest first
-  /// True if any transform has a translation: only then they place the centres of voxels.
+  /// Whether any transform has a translation: only then they place the centres of voxels.
   bool has_position = false;
 };
 

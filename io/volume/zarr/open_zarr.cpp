@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The mwmesh authors
 // SPDX-License-Identifier: Apache-2.0
-// Finds the array that is meant, its place, and makes a chunked volume of it.
+// Finds the array that is meant and its place, and makes a chunked volume of it.
 #include "io/volume/zarr/open_zarr.h"
 
 #include <algorithm>
@@ -20,22 +20,22 @@ namespace {
 struct Level {
   Multiscale multiscale;
   std::size_t number = 0;
-  std::string file;                 ///< that has the multiscale
-  std::vector<std::string> labels;  ///< of the image
+  std::string file;                 ///< where the multiscale is
+  std::vector<std::string> labels;  ///< those of the image
 };
 
 [[noreturn]] void fail_usage(const std::string& what) {
   throw Error(ErrorKind::kUsage, what);
 }
 
-/// What to do about a further axis, or an image that is not one of labels.
+/// Returns what to do about a further axis, or an image that is not one of labels.
 std::string way_out_of_image(const std::vector<std::string>& labels) {
   if (labels.empty()) return "store one channel and one time as an array of its own";
   return "its labels are images of their own: --dataset " + listed(labels);
 }
 
-/// Whether chunks are in folders of their axes; where folders cannot be seen, the first chunk
-/// tells.
+/// Whether chunks are in nested folders, one for each axis; where folders cannot be seen, the first
+/// chunk tells.
 bool has_nested_chunks(const ZarrNode& node, const ZarrArray& array) {
   if (const auto is_folder = (node.folder / "0").is_folder()) return *is_folder;
   if (array.shape.size() < 2) return false;
@@ -70,12 +70,12 @@ VolumeSpace space_of_array(const ZarrNode& node, const AxisMap& axes, const Leve
                            const OpenOptions& options) {
   if (level == nullptr) return placed(node.metadata_file, FileSpace{}, options);
   Multiscale multiscale = level->multiscale;
-  if (options.spacing) multiscale.axis_units.clear();  // then they do not matter
+  if (options.spacing) multiscale.axis_units.clear();  // they do not matter then
   const FileSpace space = space_of(multiscale, multiscale.levels[level->number], axes, level->file);
   return placed(level->file, space, options);
 }
 
-/// level: of the image that the array belongs to, if any.
+/// Opens an array; level is that of the image that it belongs to, or null.
 std::unique_ptr<LabelVolume> open_array(const ZarrNode& node, const Level* level,
                                         const OpenOptions& options) {
   const ZarrArray array = parse_array(node);
@@ -127,7 +127,7 @@ std::unique_ptr<LabelVolume> open_image(const ZarrNode& group, const OpenOptions
   return open_array(*node, &level, options);
 }
 
-/// The level that an array is, when its parent is a multiscale image that has it.
+/// Returns which level an array is when its parent is a multiscale image that has it.
 std::optional<Level> level_of(const ZarrNode& array) {
   const auto above = array.folder.parent();
   if (!above) return std::nullopt;

@@ -8,13 +8,13 @@
 
 namespace mw::io {
 
-/// Whether the folder is a node of a store, or is called .zarr.
+/// Whether the folder is a node of a store, or its name ends in .zarr.
 [[nodiscard]] bool is_zarr(const Place& folder);
 
-/// The folder: an array; or a group, which is a multiscale image of OME-NGFF, or holds the node
-/// that options.dataset names, or else only one array or image.  options.scale is the level of an
-/// image. Axes are z, y, x unless the metadata name them; levels of images are placed by their
-/// transformations, also when they are opened as arrays.
+/// Opens the node that options.dataset names below the folder, or the folder itself: an array, a
+/// multiscale image of OME-NGFF, or a group with only one of them below it.  options.scale is the
+/// level of an image.  Axes are z, y, x unless the metadata name them; levels of images are placed
+/// by their transformations, also when they are opened as arrays.
 /// ERRORS: mw::Error(kInput) naming file and field; kUsage when there is no such dataset or scale.
 [[nodiscard]] std::unique_ptr<LabelVolume> open_zarr(const Place& folder,
                                                      const OpenOptions& options);

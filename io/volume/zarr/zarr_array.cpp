@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The mwmesh authors
 // SPDX-License-Identifier: Apache-2.0
-// Chunks of a Zarr array: where they are, and their voxels.
+// Checks the shapes of chunks of a Zarr array, and unpacks their voxels.
 #include "io/volume/zarr/zarr_array.h"
 
 #include <algorithm>
@@ -52,7 +52,7 @@ void check_chunk(std::string_view file, std::string_view field,
 
 namespace {
 
-/// How many voxels further in memory the next along each axis is.
+/// Returns how many voxels further in memory the next one along each axis is.
 std::vector<std::int64_t> strides_of(const ChunkCoding& coding) {
   std::vector<std::int64_t> strides(coding.shape.size());
   std::int64_t stride = 1;
@@ -76,7 +76,7 @@ void strip_crc32c(std::vector<std::byte>& bytes, std::string_view name) {
 
 namespace {
 
-/// What the step may give: the voxels, or what another packed.
+/// Returns the most bytes that undoing a step may give: the voxels, or what a step before packed.
 std::uint64_t max_of_step(const ZarrArray& array, std::size_t step) {
   const std::uint64_t size = chunk_bytes(array);
   return step == 0 ? size : max_packed_bytes(size);
@@ -92,7 +92,7 @@ Chunk checked(const ZarrArray& array, const AxisMap& axes, Chunk chunk, std::str
   return chunk;
 }
 
-/// strip_crc32c() of a source.
+/// Does what strip_crc32c() does, for a source.
 std::shared_ptr<const ByteSource> without_crc32c(std::shared_ptr<const ByteSource> bytes) {
   constexpr std::uint64_t kPiece = 1 << 20;
   const PackedName named{"crc32c", bytes->name()};
@@ -171,7 +171,7 @@ std::uint64_t unpack_scratch(const ZarrArray& array, const AxisMap& axes) {
   for (const PackStep& step : array.chunk.steps) {
     if (!step.is_crc32c) library = std::max(library, max_scratch(step.codec, size));
   }
-  // What goes into a step, and what comes out of it when another follows.
+  // This counts what goes into a step, and what comes out of it when another follows.
   return max_packed(array) * std::clamp<std::uint64_t>(array.chunk.steps.size(), 1, 2) + library +
          unused_bytes(array, axes);
 }

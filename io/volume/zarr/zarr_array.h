@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: The mwmesh authors
 // SPDX-License-Identifier: Apache-2.0
-// What the metadata of a Zarr array say, of either version of the format, and how the bytes of a
-// chunk become voxels by it.
+// What the metadata of a Zarr array of either version of the format say, and how they make voxels
+// of the bytes of a chunk.
 #pragma once
 
 #include <cstdint>
@@ -23,14 +23,13 @@ namespace mw::io {
 /// The most axes that an array may have.
 inline constexpr std::size_t kMaxZarrAxes = 32;
 
-/// A step in which bytes are packed: by a codec, or CRC-32C is put behind them.
+/// A step of packing: a codec packs the bytes, or their CRC-32C is put behind them.
 struct PackStep {
   Codec codec = Codec::kNone;
   bool is_crc32c = false;
 };
 
-/// How the voxels of a chunk become bytes.  All vectors of axes have one entry an axis of the
-/// array.
+/// How the voxels of a chunk become bytes.  shape and order have one entry an axis of the array.
 struct ChunkCoding {
   std::vector<std::int64_t> shape;
   std::vector<std::size_t> order;  ///< axes of the array, from the slowest to the fastest
@@ -38,7 +37,7 @@ struct ChunkCoding {
   std::vector<PackStep> steps;  ///< in the order of writing
 };
 
-/// How a shard holds its chunks: one after the other, and an index of 16 bytes a chunk.
+/// How a shard holds its chunks, which an index of 16 bytes a chunk finds.
 struct ShardCoding {
   std::vector<std::int64_t> chunks;  ///< how many along each axis
   std::vector<std::size_t> order;    ///< axes in which the index counts, from the slowest
@@ -47,7 +46,7 @@ struct ShardCoding {
   ByteOrder byte_order = ByteOrder::kLittle;
 };
 
-/// Names of the files: prefix, then the numbers along the axes with the separator between two.
+/// The names of files: a prefix, then the numbers along the axes with separators between them.
 struct ChunkKeys {
   std::string prefix;
   char separator = '.';
@@ -56,14 +55,14 @@ struct ChunkKeys {
 struct ZarrArray {
   std::vector<std::int64_t> shape;
   VoxelType type = VoxelType::kU8;  ///< booleans are kU8
-  std::optional<RawLabel> fill;     ///< of chunks that are not there; empty: it is no label
+  std::optional<RawLabel> fill;     ///< for chunks that are not there; empty: no label
   ChunkKeys keys;
   ChunkCoding chunk;                    ///< what is read at once: within shards, their chunks
   std::optional<ShardCoding> shard;     ///< what a file holds, if not one chunk
   std::vector<std::string> axis_names;  ///< by `dimension_names`; empty: none
 };
 
-/// Bytes of the voxels of a chunk.  REQUIRES: checked (check_chunk).
+/// Returns the bytes of the voxels of a chunk.  REQUIRES: the shape was checked (check_chunk).
 [[nodiscard]] std::uint64_t chunk_bytes(const ZarrArray& array);
 
 /// ERRORS: mw::Error(kInput) naming file and field when there are more than kMaxZarrAxes.
@@ -77,33 +76,33 @@ void check_grid(std::string_view file, std::string_view field,
 void check_chunk(std::string_view file, std::string_view field,
                  const std::vector<std::int64_t>& chunk, std::size_t axes, VoxelType type);
 
-/// Unpacks a chunk.  name: what errors call it.
+/// Unpacks a chunk, which errors call `name`.
 /// ENSURES: the bytes are as many as the chunk's voxels need.
 /// ERRORS: mw::Error(kInput) naming `name` when it is damaged.
 [[nodiscard]] Chunk unpack_chunk(const ZarrArray& array, const AxisMap& axes,
                                  std::vector<std::byte> packed, std::string_view name);
 
-/// Unpacks to a file without a name, piece by piece.  REQUIRES: unpack_streaming() is something.
+/// Unpacks to a file without a name, piece by piece.  REQUIRES: unpack_streaming() has a value.
 [[nodiscard]] Chunk unpack_chunk_to_file(const ZarrArray& array, const AxisMap& axes,
                                          std::shared_ptr<const ByteSource> packed);
 
-/// The bytes in front of the CRC-32C that ends them.
-/// ERRORS: mw::Error(kInput) naming `name` when it is another.
+/// Takes off the CRC-32C that ends the bytes.
+/// ERRORS: mw::Error(kInput) naming `name` when it is not that of the bytes in front of it.
 void strip_crc32c(std::vector<std::byte>& bytes, std::string_view name);
 
-/// The most that a packed chunk may have.
+/// Returns the most bytes that a packed chunk may have.
 [[nodiscard]] std::uint64_t max_packed(const ZarrArray& array);
-/// The most that reading and unpacking a chunk takes beside its voxels that are in the volume: axes
-/// of one entry may have chunks of more.
+/// Returns the most that reading and unpacking a chunk takes beside its voxels that are in the
+/// volume.  Along axes that are left out, chunks may have more entries than the array.
 [[nodiscard]] std::uint64_t unpack_scratch(const ZarrArray& array, const AxisMap& axes);
-/// What it takes for this chunk, as its size and its header tell.
+/// Returns what it takes for this chunk, as its size and its header tell.
 [[nodiscard]] std::uint64_t unpack_scratch(const ZarrArray& array, const AxisMap& axes,
                                            const ByteSource& packed);
-/// The most that unpack_chunk_to_file() takes; nothing when a codec cannot.
+/// Returns the most that unpack_chunk_to_file() takes; nothing when a codec cannot do it.
 [[nodiscard]] std::optional<std::uint64_t> unpack_streaming(const ZarrArray& array);
 
-/// A missing file, and a chunk that a shard does not have, are fill values: an error when those are
-/// no labels.  An index of a shard is read once and kept with the last used others.
+/// A missing file, and a chunk that a shard does not have, are fill values, which are an error when
+/// they are no labels.  The index of a shard is read once and kept, with those of others used last.
 /// REQUIRES: the array is checked, and axes are its.
 [[nodiscard]] std::unique_ptr<ChunkSource> zarr_chunks(const Place& folder, const ZarrArray& array,
                                                        const AxisMap& axes);

@@ -19,7 +19,8 @@ namespace {
 constexpr std::uint64_t kEntryBytes = 16;  // offset and length
 constexpr std::uint64_t kNone = UINT64_MAX;
 
-/// Enough for 32 shards of 4096 chunks, and for one of any number with what keeping it costs.
+/// Returns the bytes of indices that are kept: enough for 32 shards of 4096 chunks, and for one of
+/// any number of chunks with what keeping it costs.
 std::uint64_t kept_bytes(std::uint64_t index) {
   return std::max<std::uint64_t>(2U << 20U, index + 1024);
 }
@@ -30,13 +31,13 @@ std::uint64_t product(const std::vector<std::int64_t>& extents) {
   return out;
 }
 
-/// Shards of a volume are at most that many along an axis.
+/// Returns a number for a shard; there are at most kMaxAxisVoxels of them along an axis.
 std::uint64_t number_of(Index3 shard) {
   constexpr Index3 kAll{kMaxAxisVoxels, kMaxAxisVoxels, kMaxAxisVoxels};
   return static_cast<std::uint64_t>(Box3{{0, 0, 0}, kAll}.offset(shard));
 }
 
-/// Bytes of a shard's file.  Not compared to the size of the file.
+/// Where a chunk is in a shard's file.  It is not compared to the size of the file.
 struct ShardRange {
   std::uint64_t offset = 0;
   std::uint64_t bytes = 0;
@@ -49,13 +50,13 @@ class ShardIndices {
  public:
   explicit ShardIndices(ShardCoding coding);
 
-  /// shard: its number along x, y and z; path: its file; chunk: its number in the shard along each
-  /// axis of the array.
+  /// Returns where a chunk is.  shard is the shard's number along x, y and z, path is its file, and
+  /// chunk is the number in the shard along each axis of the array.
   /// ENSURES: empty when there is no such file, or no such chunk in it.
   /// ERRORS: mw::Error(kInput) naming the file when its index is damaged.
   [[nodiscard]] std::optional<ShardRange> find(Index3 shard, const Place& path,
                                                const std::vector<std::int64_t>& chunk) const;
-  /// The most that is kept.
+  /// Returns the most bytes that are kept.
   [[nodiscard]] std::uint64_t max_bytes() const;
 
  private:
@@ -119,7 +120,7 @@ std::optional<ShardRange> ShardIndices::find(Index3 shard, const Place& path,
   return range;
 }
 
-/// What both kinds of files share.
+/// What files of chunks and files of shards share.
 class ZarrChunks : public ChunkSource {
  public:
   ZarrChunks(Place folder, ZarrArray array, AxisMap axes)
@@ -138,7 +139,7 @@ class ZarrChunks : public ChunkSource {
   [[nodiscard]] const AxisMap& axes() const { return axes_; }
   [[nodiscard]] const Place& folder() const { return folder_; }
 
-  /// The file of that number along x, y and z.
+  /// Returns the file of that number along x, y and z.
   [[nodiscard]] Place path_of(Index3 number) const {
     std::string key;
     for (const std::int64_t along : axes_.spread(number, array_.shape.size())) {
@@ -148,7 +149,7 @@ class ZarrChunks : public ChunkSource {
     return folder_ / (array_.keys.prefix + key);
   }
 
-  /// For a chunk that is not there.
+  /// Returns nothing for a chunk that is not there.  ERRORS: kInput where its fill is no label.
   [[nodiscard]] std::optional<Chunk> fill_of(Index3 chunk) const {
     if (array_.fill) return std::nullopt;
     fail_input(name_of(chunk), "fill_value",
@@ -185,7 +186,7 @@ class ChunkFiles : public ZarrChunks {
   [[nodiscard]] std::uint64_t held_bytes() const {
     return folder().held_bytes(max_packed(array()));
   }
-  /// What the chunks that are there take, where they are large; else what any may take.
+  /// Returns what the chunks that are there take, where they are large; else what any may take.
   [[nodiscard]] std::uint64_t found_scratch() const {
     const std::uint64_t most = unpack_scratch(array(), axes());
     const Index3 chunk = axes().pick(array().chunk.shape, 1);
@@ -256,7 +257,7 @@ class ShardFiles : public ZarrChunks {
     return path.open_part(range.offset, range.bytes, name_of(chunk));
   }
 
-  Index3 chunks_;  ///< of a shard
+  Index3 chunks_;  ///< how many a shard has
   ShardIndices indices_;
 };
 

@@ -27,7 +27,7 @@ std::optional<RawLabel> label_of(double value) {
   return static_cast<RawLabel>(static_cast<std::int64_t>(value));
 }
 
-/// The float whose bits the text has; "0x7fc00000" is the usual NaN.
+/// Returns the float whose bits the text has; "0x7fc00000" is the usual NaN.
 std::optional<double> float_of_bits(std::string_view digits, VoxelType type) {
   if (digits.substr(0, 2) != "0x") return std::nullopt;
   digits.remove_prefix(2);
@@ -104,7 +104,7 @@ constexpr std::array kTypes{
     TypeName{"f8", VoxelType::kF64},
 };
 
-/// numpy's letters: byte order, kind, bytes.
+/// Reads numpy's three letters: byte order, kind, bytes.
 void parse_type(const JsonFields& fields, ZarrArray& array) {
   const std::string text = fields.text("dtype");
   for (const TypeName& type : kTypes) {

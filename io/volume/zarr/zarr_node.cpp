@@ -86,7 +86,7 @@ namespace {
 constexpr std::size_t kMaxVolumes = 100;
 constexpr int kMaxDepth = 5;
 
-/// Chunks are in no group, so that their folders are never listed.
+/// Looks through groups only, so that the folders of chunks are never listed.
 void search(const Place& group, const std::string& prefix, int depth,
             std::vector<std::string>& found) {
   if (depth == 0) return;

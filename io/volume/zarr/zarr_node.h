@@ -18,7 +18,7 @@ struct ZarrNode {
   Place folder;
   int version = 2;
   bool is_array = false;
-  Json metadata;  ///< of an array: .zarray or zarr.json
+  Json metadata;  ///< an array's .zarray or zarr.json
   /// Always an object.  Attributes of arrays of version 2 are not read: they hold nothing that is
   /// used here, and NaN, which some writers put there, is no JSON.
   Json attributes;
@@ -29,26 +29,28 @@ struct ZarrNode {
 /// Whether there is metadata of a group or an array.
 [[nodiscard]] bool is_zarr_node(const Place& folder);
 
-/// Version 3 where there is metadata of both; attributes without any other metadata are a group.
+/// Reads the node in a folder, by version 3 where both versions have metadata there.  Attributes
+/// without other metadata make a group.
 /// ENSURES: empty when the folder is no node.
 /// ERRORS: mw::Error(kInput) naming the file when metadata are damaged.
 [[nodiscard]] std::optional<ZarrNode> read_zarr_node(const Place& folder);
 
-/// A folder of the store; empty, "." and "/" in front are the store itself.  Not looked up.
+/// Returns a folder of the store, whether it exists or not.  "" and "." are the store itself, and
+/// so is "/" in front of a path.
 /// ENSURES: empty for a path that leads out of the store.
 [[nodiscard]] std::optional<Place> path_in_store(const Place& folder, std::string_view path);
 
-/// Paths, below the group, of arrays and of multiscale images (whose levels are not named): sorted,
-/// the first 100, at most 5 groups deep.
+/// Returns the paths, below the group, of arrays and of multiscale images (whose levels are not
+/// named): sorted, the first 100, at most 5 groups deep.
 /// ENSURES: empty where the store cannot list its folders.
 /// ERRORS: mw::Error(kInput) when metadata on the way are damaged.
 [[nodiscard]] std::vector<std::string> volumes_below(const Place& group);
 
-/// The labels of a multiscale image, as --dataset wants them: "labels/cells".  Damaged metadata of
-/// theirs are none.
+/// Returns the labels of a multiscale image, as --dataset wants them: "labels/cells".  There are
+/// none where their metadata are damaged.
 [[nodiscard]] std::vector<std::string> labels_of_image(const Place& group);
 
-/// "a, b, c", and "..." behind the first 20.
+/// Returns "a, b, c", and "..." behind the first 20.
 [[nodiscard]] std::string listed(const std::vector<std::string>& names);
 
 }  // namespace mw::io

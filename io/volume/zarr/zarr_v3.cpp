@@ -32,10 +32,10 @@ Extension parse_extension(const Json& value, const std::string& file, const std:
 
 namespace {
 
-/// The index of a shard is read at once.
+/// The most bytes of the index of a shard, which is read at once.
 constexpr std::uint64_t kMaxIndexBytes = 64ULL << 20U;
 
-/// A chain while it is read.
+/// A chain of codecs while it is read.
 struct Chain {
   std::vector<std::size_t> order;  ///< axes of the array, from the slowest
   std::optional<ByteOrder> bytes;  ///< once voxels have become bytes
@@ -48,7 +48,7 @@ struct Chain {
   fail_input(file, "codec " + codec.name.substr(0, 60), reason, way_out);
 }
 
-/// Behind those of before: axis i of the result is axis order[i] of what it is applied to.
+/// Adds a transposition behind those before: axis i of its result is axis order[i] of theirs.
 void add_transpose(const Extension& codec, const std::string& file, Chain& chain) {
   const std::vector<std::int64_t> order = codec.fields(file).integers("order");
   std::vector<bool> seen(chain.order.size(), false);
@@ -66,7 +66,7 @@ void add_transpose(const Extension& codec, const std::string& file, Chain& chain
   chain.order = std::move(result);
 }
 
-/// endian may be missing where it does not matter.
+/// Returns the byte order; it may be missing where it does not matter.
 ByteOrder parse_endian(const Extension& codec, const std::string& file, int bytes) {
   const JsonFields fields = codec.fields(file);
   if (bytes == 1 && !fields.has("endian")) return ByteOrder::kLittle;
@@ -130,7 +130,7 @@ Chain parse_chain(const Json& codecs, const std::string& file, const std::string
   return chain;
 }
 
-/// The index is an array of two numbers of 64 bits a chunk.
+/// Reads the coding of the index, which is an array of two numbers of 64 bits a chunk.
 void parse_index(const Extension& shards, const std::string& file, ShardCoding& shard) {
   const JsonFields fields = shards.fields(file);
   const std::string where = fields.name_of("index_codecs");
@@ -153,7 +153,7 @@ void parse_index(const Extension& shards, const std::string& file, ShardCoding& 
   shard.index_at_end = location == "end";
 }
 
-/// How many chunks a shard has along each axis; array.chunk.shape becomes the chunks'.
+/// Finds how many chunks a shard has along each axis; array.chunk.shape becomes that of chunks.
 void parse_chunks_of_shard(const Extension& shards, const std::string& file,
                            const std::vector<std::size_t>& order, ZarrArray& array,
                            ShardCoding& shard) {
@@ -215,8 +215,8 @@ bool is_optional(const Json& extension) {
   return needed != nullptr && needed->is_boolean() && !needed->boolean();
 }
 
-/// A field that is none of the core's and does not say that it may be passed over is an extension
-/// that changes what the bytes mean.
+/// Refuses an unknown field that does not say that it may be passed over: it is an extension that
+/// changes what the bytes mean.
 void check_fields(const Json& document, const JsonFields& fields) {
   constexpr std::array<std::string_view, 11> kKnown{
       "zarr_format",    "node_type", "shape",      "data_type",          "chunk_grid",
@@ -268,7 +268,7 @@ ChunkKeys parse_keys(const Json& document, const JsonFields& fields) {
   return {.prefix = is_default ? "c" + separator : "", .separator = separator[0]};
 }
 
-/// An axis without a name has null.
+/// Returns the names of the axes; one without a name is null in the metadata, and empty here.
 std::vector<std::string> parse_axis_names(const Json& document, const JsonFields& fields) {
   std::vector<std::string> names;
   if (!fields.has("dimension_names")) return names;
@@ -305,7 +305,7 @@ ZarrArray parse_zarr_v3(const Json& document, const std::string& file) {
   array.keys = parse_keys(document, fields);
   array.axis_names = parse_axis_names(document, fields);
   parse_codecs(document["codecs"], file, array);
-  // Of shards it was the chunks' shape that was bounded; this is for arrays without.
+  // With shards, parse_codecs() bounds the chunks; this bounds those of arrays without shards.
   check_chunk(file, "chunk_grid.configuration.chunk_shape", array.chunk.shape, array.shape.size(),
               array.type);
   array.fill = parse_fill_value(document["fill_value"], array.type, file);

@@ -40,7 +40,7 @@ class Conclusion {
       (found.in_volume ? report_.only_in_volume : report_.only_in_mesh).push_back(label);
       return;
     }
-    // Nothing is asked the other way round of what was left out.
+    // What was left out is not measured from the input to the mesh.
     const DistanceTally to_mesh = row == gap ? DistanceTally{} : with_far(found.to_mesh);
     const DistanceTally to_input = with_far(found.to_input);
     report_.per_label.push_back(

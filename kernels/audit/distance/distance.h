@@ -14,14 +14,14 @@
 
 namespace mw::audit {
 
-/// No point of an interface is farther than this from one that was looked at, in voxels, but where
-/// distances are known to be no larger than a limit (DistanceTask::limit).
+/// No point of an interface is farther than this, in voxels, from a point that was measured, except
+/// where distances are known to be no larger than a limit (DistanceTask::limit).
 inline constexpr double kCoveringRadius = 0.25;
 
-/// The limit unless another one is given.
+/// The limit if no other one is given.
 inline constexpr double kDistanceLimit = 1.0;
 
-/// The limit where a bound is checked.
+/// The limit for a check of distances against a bound.
 [[nodiscard]] inline double distance_limit(const std::optional<double>& bound) {
   return std::min(kDistanceLimit, bound.value_or(kDistanceLimit));
 }
@@ -32,8 +32,8 @@ inline constexpr double kDistanceLimit = 1.0;
 struct DistanceReport {
   /// A label with an interface on one side only has infinite figures, in both directions.
   struct PerLabel {
-    /// kUnknown for all labels of the mesh that the volume does not have, kLeftOut for the space
-    /// that has no tets because labels were left out.
+    /// kUnknown stands for all labels of the mesh that the volume does not have, kLeftOut for the
+    /// space that has no tets because labels were left out.
     Label label = 0;
     double input_to_mesh_max = 0;
     double input_to_mesh_mean = 0;
@@ -44,13 +44,13 @@ struct DistanceReport {
     [[nodiscard]] bool is_finite() const;
   };
 
-  double max_voxels = 0;   ///< over all labels and both directions
-  double mean_voxels = 0;  ///< the same, by area: each face and triangle counts once a label
+  double max_voxels = 0;            ///< over all labels and both directions
+  double mean_voxels = 0;           ///< mean by area; a face or triangle counts once for each label
   std::vector<PerLabel> per_label;  ///< labels with an interface on some side, ascending
   std::vector<Label> only_in_volume;
   std::vector<Label> only_in_mesh;
   double limit = kDistanceLimit;
-  /// Samples farther than what was looked at around them: they count as that far.
+  /// Samples with nothing in reach of the search; they count as that reach away.
   std::uint64_t far_samples = 0;
 
   [[nodiscard]] bool is_finite() const { return only_in_volume.empty() && only_in_mesh.empty(); }
@@ -58,22 +58,22 @@ struct DistanceReport {
   [[nodiscard]] const PerLabel* farthest() const;
 };
 
-/// P4.  A label's boundary are the voxel faces, or the triangles, between it and another label of
-/// the volume; the box is none.  Lengths are in voxels along each axis: (p - origin) / spacing.
-/// Means are by area, of the centres of every fourth voxel face and of pieces of triangles.
-/// For a mesh from which labels were left out, boundaries of kept labels are also its triangles of
-/// one tet that are not on the box.  Those are samples of kLeftOut as well, held against the faces
-/// of all labels that were left out: no such triangle may be where none of these labels is.  The
-/// other way round nothing is known of them.
+/// Measures P4.  A label's boundary consists of the voxel faces, or the triangles, between it and
+/// another label of the volume; the sides of the box are no part of it.  Lengths are in voxels
+/// along each axis: (p - origin) / spacing.  Means are by area, over the centres of every fourth
+/// voxel face and of pieces of triangles.
+/// In a mesh from which labels were left out, triangles of one tet that are not on the box are part
+/// of the boundaries of kept labels too.  They are also samples of kLeftOut, whose distances to the
+/// faces of labels that were left out are measured.  In the other direction nothing is measured.
 /// REQUIRES: as voxel_betti and mesh_betti; finite vertices; positive spacing.
-/// Errors: kInput when the mesh is none, kResource above 2^20 voxels along an axis.
+/// Errors: kInput when the mesh is none, kResource from 2^20 voxels along an axis on.
 /// Cost: see measure_distances().  Deterministic, one thread.
 [[nodiscard]] DistanceReport measure_distance(const VoxelLabels& volume, std::size_t label_count,
                                               const AuditMesh& mesh, const Frame& frame,
                                               const KeptLabels& kept = {},
                                               double limit = kDistanceLimit);
 
-/// What the figures mean, in words.
+/// Says in words what the figures mean.
 [[nodiscard]] std::string sampling_text(const DistanceReport& report);
 
 }  // namespace mw::audit

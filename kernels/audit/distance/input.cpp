@@ -24,7 +24,7 @@ bool is_interface(Label a, Label b) {
   return a != b && a != kExterior && b != kExterior;
 }
 
-/// curve_position of the voxel above and the axis, which together sort and name a face.
+/// Joins the curve_position of the voxel above and the axis, which together sort and name a face.
 std::vector<std::uint64_t> face_keys(const VoxelLabels& volume) {
   std::vector<std::uint64_t> keys;
   const Box3 all{{0, 0, 0}, volume.shape + Index3{1, 1, 1}};
@@ -34,7 +34,7 @@ std::vector<std::uint64_t> face_keys(const VoxelLabels& volume) {
   return keys;
 }
 
-/// Every third bit of the key from bit 0 on.
+/// Gathers every third bit of the key, from bit 0 on.
 std::uint32_t gathered(std::uint64_t key) {
   key &= 0x1249249249249249ULL;
   key = (key | key >> 2) & 0x10c30c30c30c30c3ULL;
@@ -148,8 +148,8 @@ std::array<CloseFaces::Near, 2> CloseFaces::nearest(const VoxelPoint& p,
   const Voxel voxel = voxel_of(p);
   const Block block = block_around(voxel);
   const auto square = [](double x) { return x * x; };
-  std::array<std::array<double, 3>, 3> to_slab{};   // of voxels, along each axis
-  std::array<std::array<double, 2>, 3> to_plane{};  // between them
+  std::array<std::array<double, 3>, 3> to_slab{};   // squared distances to voxels along each axis
+  std::array<std::array<double, 2>, 3> to_plane{};  // and to the planes between them
   for (std::size_t k = 0; k < 3; ++k) {
     const double at = p[k] - static_cast<double>(voxel[k]);
     to_plane[k] = {square(at), square(at - 1)};

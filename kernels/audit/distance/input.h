@@ -24,21 +24,21 @@ struct VoxelFace {
 };
 
 [[nodiscard]] Extent extent_of(const VoxelFace& face);
-/// Labels below and above.
+/// The labels below and above the face.
 [[nodiscard]] LabelPair labels_of(const VoxelFace& face, const VoxelLabels& volume);
 
 /// Every face between two labels, in the order of a space-filling curve.
-/// Errors: kResource above 2^20 voxels along an axis or 2^32 - 1 faces.
+/// Errors: kResource from 2^20 voxels along an axis on, or from 2^32 - 1 faces on.
 [[nodiscard]] std::vector<VoxelFace> interface_faces(const VoxelLabels& volume);
 
-/// A corner of voxels where labels meet: the labels of the eight voxels around it, bit k of the
-/// index for the upper side of axis k; kExterior outside the box.
+/// A corner of voxels where labels meet, with the labels of the eight voxels around it: bit k of an
+/// index stands for the upper side of axis k.  Voxels outside the box are kExterior.
 struct MixedCorner {
   std::array<std::uint32_t, 3> at{};
   std::array<Label, 8> around{};
 };
 
-/// Visits those corners around which there are two labels or more, x fastest.
+/// Visits the corners around which there are two labels or more, x fastest.
 class MixedCorners {
  public:
   /// REQUIRES: at least one voxel; corners from 0 to the shape; `volume` outlives this.
@@ -62,7 +62,7 @@ class MixedCorners {
   void visit_row(std::int64_t y, std::int64_t z, Visit& visit) const {
     const std::array<const Label*, 4> row = rows(y, z);
     const std::int64_t last = volume_.shape.x - 1;
-    // Beyond the first and the last voxel are the same ones again, which adds no label.
+    // Beyond its ends a row repeats its first and last voxel, which adds no label.
     const auto column = [&](std::int64_t x) {
       const std::int64_t i = std::clamp<std::int64_t>(x, 0, last);
       const Label label = row[0][i];
@@ -88,14 +88,14 @@ class CloseFaces {
 
   struct Near {
     double squared = std::numeric_limits<double>::infinity();
-    Extent face{};  ///< what is that far away; REQUIRES: squared is finite
+    Extent face{};  ///< what is that far away; valid if squared is finite
   };
 
   /// REQUIRES: at least one voxel; `volume` outlives this.
   explicit CloseFaces(const VoxelLabels& volume) : volume_(volume) {}
 
-  /// For each label the squared distance from p to its nearest face, and that face; another one, or
-  /// none, when that is farther than kReach.  p may lie outside the box.
+  /// Finds for each label the squared distance from p to its nearest face, and that face.  If that
+  /// is farther than kReach, it finds another face or none.  p may lie outside the box.
   /// Cost: a look at 27 voxels.
   [[nodiscard]] std::array<Near, 2> nearest(const VoxelPoint& p, const LabelPair& labels) const;
 
@@ -105,7 +105,7 @@ class CloseFaces {
 
   /// The voxel in the box nearest to p.
   [[nodiscard]] Voxel voxel_of(const VoxelPoint& p) const;
-  /// 3 x 3 x 3 voxels; kExterior outside the box.
+  /// The labels of 3 x 3 x 3 voxels, kExterior outside the box.
   [[nodiscard]] Block block_around(const Voxel& voxel) const;
 
   const VoxelLabels& volume_;

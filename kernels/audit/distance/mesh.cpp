@@ -33,13 +33,13 @@ class TriangleCollector {
     }
     std::sort(labels_.begin(), labels_.end());
     labels_.erase(std::unique(labels_.begin(), labels_.end()), labels_.end());
-    // More than two only where P2 fails; the chain names each label all the same.
+    // There are more than two only where P2 fails; the chain names each label all the same.
     for (std::size_t i = 1; i < labels_.size(); ++i) {
       triangles_.push_back({corners(face.vertices), {labels_[i - 1], labels_[i]}});
     }
   }
 
-  /// A triangle of one tet, unless it is on the box.
+  /// Adds a triangle of one tet, unless it is on the box.
   void add_gap(const MeshFace& face) {
     const auto& [a, b, c] = face.vertices;
     const auto& at = mesh_.vertices;

@@ -33,14 +33,14 @@ double squared_rest(const VoxelPoint& r, const VoxelPoint& u, double s, const Vo
   return sum;
 }
 
-/// To the edge from a to a + way, with r = p - a.
+/// Squared distance from p to the edge from a to a + way, with r = p - a.
 double squared_to_edge(const VoxelPoint& r, const VoxelPoint& way) {
   const double length = dot(way, way);
   const double t = length > 0 ? std::clamp(dot(r, way) / length, 0.0, 1.0) : 0.0;
   return squared_rest(r, way, t, way, 0);
 }
 
-/// Every third bit from bit 0 on.
+/// Spreads the bits to every third bit, from bit 0 on.
 std::uint64_t spread(std::uint64_t bits) {
   bits = (bits | bits << 32) & 0x001f00000000ffffULL;
   bits = (bits | bits << 16) & 0x001f0000ff0000ffULL;
@@ -73,7 +73,7 @@ double squared_distance(const VoxelPoint& p, const VoxelTriangle& t) {
   const double whole = at_a + at_b + at_c;
   const bool is_inside = at_a > 0 && at_b > 0 && at_c > 0;
   const double inside = is_inside ? squared_rest(ap, ab, at_b / whole, ac, at_c / whole) : kFar;
-  // In flat triangles the areas are rounding, and all points are near an edge.
+  // The areas in a flat triangle are rounding errors, and all its points are near an edge.
   const bool is_flat = whole <= kFlatness * dot(ab, ab) * dot(ac, ac);
   if (is_inside && !is_flat) return inside;
   return std::min({inside, squared_to_edge(ap, ab), squared_to_edge(ap, ac),

@@ -10,10 +10,10 @@
 
 namespace mw::audit {
 
-/// (p - origin) / spacing along each axis.
+/// A point in voxels: (p - origin) / spacing along each axis.
 using VoxelPoint = std::array<double, 3>;
 
-/// Corners in any order.
+/// A triangle by its corners, in any order.
 using VoxelTriangle = std::array<VoxelPoint, 3>;
 
 /// All points between two corners; flat for a voxel face.
@@ -31,8 +31,8 @@ struct Extent {
   return sum;
 }
 
-/// To the nearest point of the triangle, degenerate ones included.  Always the distance to some
-/// point of it, up to rounding, so no triangle ever seems nearer than it is.
+/// Squared distance to the nearest point of a triangle, which may be degenerate.  Up to rounding it
+/// is always the distance to some point of the triangle, so none ever seems nearer than it is.
 [[nodiscard]] double squared_distance(const VoxelPoint& p, const VoxelTriangle& t);
 
 [[nodiscard]] inline Extent extent_of(const VoxelTriangle& t) {

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The mwmesh authors
 // SPDX-License-Identifier: Apache-2.0
-// Both directions of the distance, from the centre of each face and piece inwards.
+// Both directions of the distance, from the centre of each face and piece, then from its parts.
 #include "kernels/audit/distance/tile.h"
 
 #include <algorithm>
@@ -22,7 +22,7 @@ class Finder {
   Finder(const LabelTrees& trees, std::size_t label_count, Items items)
       : trees_(trees), items_(items), last_(label_count, kNone) {}
 
-  /// Infinite when the label has none.  Another item will do that is near enough.
+  /// Returns an infinite distance when the label has no item.  An item within `enough` will do.
   [[nodiscard]] LabelTrees::Nearest nearest(Label label, const VoxelPoint& p, double enough = -1) {
     if (trees_.empty(label)) return {};
     const auto to_item = [&](std::uint32_t item) { return items_.squared_distance(p, item); };
@@ -61,8 +61,8 @@ constexpr std::uint32_t kWeighed = 4;
 /// A square on a voxel face, by its centre.
 struct Square {
   VoxelPoint centre{};
-  std::uint32_t axis = 0;  ///< of the normal
-  double half = 0.5;       ///< of its edge
+  std::uint32_t axis = 0;  ///< axis of the normal
+  double half = 0.5;       ///< half the length of its edge
 
   [[nodiscard]] double reach() const { return half * std::numbers::sqrt2; }
   [[nodiscard]] std::array<Square, 4> quarters() const {
@@ -110,7 +110,7 @@ class TileDistances {
  private:
   [[nodiscard]] const VoxelLabels& voxels() const { return task_.voxels.voxels; }
 
-  /// From the first voxel loaded: exact, as only leading digits go.
+  /// Moves the origin to the first voxel loaded, which is exact, as only leading digits vanish.
   [[nodiscard]] InterfaceTriangle moved(InterfaceTriangle piece) const {
     const std::array<double, 3> by{static_cast<double>(lo_.x), static_cast<double>(lo_.y),
                                    static_cast<double>(lo_.z)};
@@ -120,7 +120,7 @@ class TileDistances {
     return piece;
   }
 
-  /// Each piece is measured in one tile, also those that are outside of the volume.
+  /// Each piece is measured in exactly one tile, even if it lies outside of the volume.
   [[nodiscard]] bool is_measured(const InterfaceTriangle& piece) const {
     const VoxelPoint p = centroid(piece.corners);
     const Index3 s = task_.voxels.shape;
@@ -132,13 +132,13 @@ class TileDistances {
         {voxel(p[0], lo_.x, s.x), voxel(p[1], lo_.y, s.y), voxel(p[2], lo_.z, s.z)});
   }
 
-  /// Distances of points so far around tell nothing new where this one's is no larger: they are not
-  /// above the largest so far, or the limit.
+  /// Where the distance of a point is no larger than this, those of points up to `around` away are
+  /// not above the largest so far, or not above the limit, and tell nothing new.
   [[nodiscard]] double enough(const DistanceTally& tally, double around) const {
     return std::max(tally.largest, task_.limit) - around;
   }
 
-  /// Returns whether something is in reach.
+  /// Takes a distance into the tally.  Returns whether something is in reach.
   bool take(DistanceTally& tally, double distance) const {
     if (distance > task_.reach) {
       ++tally.far;
@@ -171,7 +171,7 @@ class TileDistances {
     }
   }
 
-  /// near: the face nearest to the centroid.
+  /// Measures a triangle and, where needed, its halves.  near is the face nearest to the centroid.
   void look_around(const VoxelTriangle& t, Label label, const CloseFaces::Near& near,
                    DistanceTally& tally) {
     const double distance = std::sqrt(near.squared);
@@ -184,7 +184,7 @@ class TileDistances {
     }
   }
 
-  /// No point of the triangle is farther from the face, which is convex.
+  /// Bounds the distance of all points of the triangle from the face, as that is convex.
   static double farthest_corner(const VoxelTriangle& t, const Extent& face) {
     double squared = 0;
     for (const VoxelPoint& corner : t) squared = std::max(squared, squared_distance(corner, face));
@@ -206,7 +206,7 @@ class TileDistances {
     return near;
   }
 
-  /// Most tiles have a few samples that need it; some have none.
+  /// Called when a sample first needs it: most tiles have a few such samples, some have none.
   void make_face_finder() {
     faces_ = interface_faces(voxels());
     face_trees_.emplace(
@@ -254,8 +254,8 @@ class TileDistances {
     if (distance <= task_.reach) weigh(tally, distance, 1);
   }
 
-  /// Means are of some of the faces, spread evenly: of the others it is enough to know that they
-  /// are near.
+  /// Means are taken over some of the faces, spread evenly; of the others it is enough to know that
+  /// they are near.
   [[nodiscard]] bool is_weighed(const VoxelFace& face) const {
     const auto [x, y, z] = face.upper;
     const auto first = static_cast<std::uint32_t>(lo_.x + lo_.y + lo_.z);
@@ -277,7 +277,7 @@ class TileDistances {
     if (distance > near) look_around(square, label, distance, finder, tally);
   }
 
-  /// distance: of the centre.
+  /// Measures a square and, where needed, its quarters.  distance is that of its centre.
   void look_around(const Square& square, Label label, double distance, PieceFinder& finder,
                    DistanceTally& tally) {
     if (!take(tally, distance)) return;

@@ -27,7 +27,7 @@ struct DistanceTally {
   }
 };
 
-/// Both directions.
+/// Distances of one label in both directions.
 struct LabelDistances {
   DistanceTally to_input;
   DistanceTally to_mesh;
@@ -41,23 +41,23 @@ struct LabelDistances {
 /// first corner.
 struct DistanceTask {
   VoxelTile voxels;
-  /// Those whose centroid is in the box of `samples` are measured.
+  /// Pieces of interface triangles; those whose centroid is in the box `samples` are measured.
   std::span<const InterfaceTriangle> pieces;
   std::size_t label_count = 0;
   KeptLabels kept;
-  /// Voxels whose lower faces, and the pieces in which, are measured.
+  /// The voxels whose lower faces are measured, with the pieces in them.
   Box3 samples;
   /// All faces and pieces that are no farther than this from the samples are here.
   double reach = std::numeric_limits<double>::infinity();
-  /// Where distances are no larger than this, nobody asks how large they are.
+  /// Distances that are no larger than this need not be known any better.
   double limit = kDistanceLimit;
 };
 
-/// Rows are labels, then all that the volume does not have, then what was left out.
-/// First the centre of each voxel face and of each piece; then halves of it, as long as there may
-/// be distances on it that are larger than the limit and than any before, and it is larger than
-/// kCoveringRadius.  So the largest distance, if above the limit, is the same however the volume is
-/// cut into tiles.
+/// Returns a row for each label, then one for all labels that the volume does not have, then one
+/// for what was left out.  It measures the centre of each voxel face and of each piece, then of
+/// quarters of the face or halves of the piece, as long as these are larger than kCoveringRadius
+/// and may have distances above the limit and above the largest so far.  So the largest distance,
+/// if above the limit, is the same however the volume is cut into tiles.
 /// Cost: O(log) a sample, mostly one a face and a piece; some 40 bytes a face in the tile, 150 a
 /// piece.  Deterministic.
 [[nodiscard]] std::vector<LabelDistances> measure_distances(const DistanceTask& task);

@@ -36,8 +36,8 @@ class LabelTrees {
 
   [[nodiscard]] bool empty(Label label) const { return begin_[label] == begin_[label + 1]; }
 
-  /// The nearest item of the label that is nearer than `best`, else `best`.  One that is no farther
-  /// than enough (squared) will do.
+  /// Returns the nearest item of the label if it is nearer than `best`, else `best`.  The search
+  /// ends early with an item whose squared distance is at most `enough`.
   /// squared_distance_to(item) -> double.  The distance found does not depend on `best` as long as
   /// that is an item of the label.
   /// Cost: O(log items) for points near them, whatever the distance to the others.
@@ -49,7 +49,7 @@ class LabelTrees {
   static constexpr std::uint64_t kFan = 4;
   static constexpr std::size_t kMaxLevels = 33;
 
-  /// In single precision, widened by more than it rounds.
+  /// A box in single precision, widened by more than that rounds.
   struct Box {
     std::array<float, 3> lo;
     std::array<float, 3> hi;
@@ -82,11 +82,11 @@ class LabelTrees {
   void push_children(const Waiting& parent, std::span<const Level> levels, const VoxelPoint& p,
                      double limit, Stack& stack) const;
 
-  std::vector<std::uint64_t> begin_;  ///< of each label's items
+  std::vector<std::uint64_t> begin_;  ///< where each label's items begin
   std::vector<std::uint32_t> items_;
   std::vector<Box> boxes_;
   std::vector<Level> levels_;
-  std::vector<std::uint64_t> level_begin_;  ///< of each label's levels
+  std::vector<std::uint64_t> level_begin_;  ///< where each label's levels begin
 };
 
 inline double LabelTrees::squared_distance_to_box(const VoxelPoint& p, const Box& box) {

@@ -14,8 +14,8 @@
 
 namespace mw::audit {
 
-/// The six planes of [origin, origin + shape * spacing], as computed in double.  Points are on one
-/// within 1e-9 of the extent, or what rounding does to coordinates so far from 0 if that is more.
+/// The six planes of [origin, origin + shape * spacing], as computed in double.  A point is on one
+/// within 1e-9 of the extent, or within the rounding of coordinates so far from 0 if that is more.
 class BoxPlanes {
  public:
   BoxPlanes(const Frame& frame, Index3 shape) {
@@ -33,8 +33,8 @@ class BoxPlanes {
   }
 
   [[nodiscard]] double volume() const { return volume_; }
-  /// By how much volumes inside may sum up to something else because coordinates are rounded: all
-  /// points of each plane off by kUnitsInLastPlace.
+  /// How far off the sum of the volumes inside may be because coordinates are rounded, if all
+  /// points of each plane are off by kUnitsInLastPlace.
   [[nodiscard]] double volume_rounding() const { return volume_rounding_; }
 
   [[nodiscard]] bool contains(const Position& p) const {
@@ -58,7 +58,7 @@ class BoxPlanes {
     return false;
   }
 
-  /// Which corner the point is, bit k for the upper end of axis k.
+  /// Tells which corner of the box the point is; bit k stands for the upper end of axis k.
   [[nodiscard]] std::optional<std::size_t> corner_at(const Position& p) const {
     std::size_t corner = 0;
     for (std::size_t k = 0; k < 3; ++k) {

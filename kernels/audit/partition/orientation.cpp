@@ -21,7 +21,7 @@ constexpr int kMantissaBits = 53;
 
 using Rows = std::array<Position, 3>;
 
-/// Magnitudes of the differences are 0 or harmless.
+/// True if the magnitudes of all differences are 0 or in that range.
 bool in_range(const Rows& rows) {
   for (const Position& row : rows) {
     for (const double value : row) {
@@ -32,7 +32,7 @@ bool in_range(const Rows& rows) {
   return true;
 }
 
-/// Exponent of the last bit of the smallest non-zero coordinate.
+/// The exponent of the last bit of the smallest non-zero coordinate.
 int common_exponent(std::span<const Position* const> points) {
   int min = std::numeric_limits<int>::max();
   for (const Position* point : points) {

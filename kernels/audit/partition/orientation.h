@@ -27,13 +27,13 @@ namespace mw::audit {
 [[nodiscard]] int exact_orientation(const Position& a, const Position& b, const Position& c,
                                     const Position& d);
 
-/// Among the tets that a tile owns, those that have another sign in the file's coordinates than in
-/// the array's axes, exactly: rounding turned them over or made them flat.
-/// written: positions as the file has them; mirrored: the world sees the array in a mirror.
+/// Finds the tets that a tile owns whose exact sign in the file's coordinates is another one than
+/// in the array's axes, because rounding turned them over or made them flat.  written holds the
+/// positions in the file; mirrored says that the world sees the array in a mirror.
 /// REQUIRES: the tets name vertices of both lists, as many in each.
 [[nodiscard]] Offenders changed_orientations(const MeshTile& turned,
                                              std::span<const Position> written, bool mirrored);
-/// "P2 orientation in the world": there are none in any tile.
+/// Returns the check "P2 orientation in the world": no tile has such tets.
 [[nodiscard]] Check kept_orientation(const Offenders& changed);
 
 }  // namespace mw::audit

@@ -12,13 +12,13 @@
 namespace mw::audit {
 namespace {
 
-/// Where a line goes through a column: not on the lattice of 1/1024 voxel, nor on a simple slope.
+/// Where a line goes through a column: not on the lattice of 1/1024 voxel, and on no simple slope.
 constexpr double kAtX = 0.41421356237309503;
 constexpr double kAtY = 0.7320508075688772;
-/// Voxels; crossings that are nearer may be in the wrong order by rounding.
+/// In voxels; rounding may put crossings that are nearer in the wrong order.
 constexpr double kNear = 1e-6;
 
-/// Whether the line is in one tet at most, and in none at its end.
+/// True if the line is in one tet at most, and in none at its end.
 bool is_sound(std::span<const LineCrossing> line) {
   int inside = 0;
   for (std::size_t i = 0; i < line.size(); ++i) {
@@ -54,7 +54,7 @@ class LineFinder {
     return (q[0] - p[0]) * (y - p[1]) - (q[1] - p[1]) * (x - p[0]);
   }
 
-  /// 1 when the triangle's tet is on the side where z grows.
+  /// Returns 1 when the triangle's tet is on the side where z grows, -1 when it is on the other.
   [[nodiscard]] int side_of_tet(const MeshFace& face, double area) const {
     const auto& [a, b, c] = face.vertices;
     const auto& at = stars_.mesh().vertices;
@@ -80,7 +80,7 @@ class LineFinder {
     }
   }
 
-  /// Columns whose lines are between the least and the largest coordinate, and some more.
+  /// Finds the columns whose lines are between the least and largest coordinate, and some more.
   static std::pair<std::int64_t, std::int64_t> columns(const std::array<Position, 3>& p,
                                                        std::size_t axis, double at,
                                                        std::int64_t count) {

@@ -12,10 +12,10 @@
 
 namespace mw::audit {
 
-/// A line along z through a column of voxels, where it goes through a triangle of one tet.
+/// Where a line along z through a column of voxels goes through a triangle of one tet.
 struct LineCrossing {
   std::uint64_t column = 0;  ///< x + y times the volume's width
-  double z = 0;              ///< voxels
+  double z = 0;              ///< in voxels
   int enters = 0;            ///< tets that begin there, less those that end
 
   friend bool operator<(const LineCrossing& a, const LineCrossing& b) {
@@ -23,7 +23,7 @@ struct LineCrossing {
   }
 };
 
-/// All of the triangles that a tile owns.  REQUIRES: as check_overlap().
+/// Finds all crossings of the triangles that a tile owns.  REQUIRES: as check_overlap().
 [[nodiscard]] std::vector<LineCrossing> line_crossings(const MeshStars& stars, const Frame& frame,
                                                        Index3 shape);
 
@@ -31,7 +31,7 @@ struct LineCrossing {
 class OverlapCheck {
  public:
   explicit OverlapCheck(Index3 shape) : shape_(shape) {}
-  /// REQUIRES: ascending.
+  /// REQUIRES: crossings are added in ascending order.
   void add(const LineCrossing& crossing);
   /// Judges everything that was added.
   [[nodiscard]] Check verdict();
@@ -45,10 +45,10 @@ class OverlapCheck {
   std::vector<LineCrossing> line_;
 };
 
-/// "P2 overlap": along a line through every column of voxels along z, space is in no tet or in one.
-/// Where all other triangles have tets on both sides, only those of one tet tell how many there are
-/// on the way; what is between two of them that are less than 1e-6 voxel apart is not looked at.
-/// So tets that overlap in less than a voxel's width may go unseen: a sample, no proof.
+/// Returns the check "P2 overlap": on a line along z through each column of voxels, space is in no
+/// tet or in one.  As all other triangles have tets on both sides, those of one tet tell how many
+/// there are on the way; what is between two that are less than 1e-6 voxel apart is not looked at.
+/// This is a sample, no proof: tets that overlap in less than a voxel's width may go unseen.
 /// REQUIRES: finite vertices, positive spacing.  Cost: some 24 bytes a line and triangle that meet.
 [[nodiscard]] Check check_overlap(const MeshStars& stars, const Frame& frame, Index3 shape);
 

@@ -68,7 +68,7 @@ class TileAudit {
     return sign > 0 ? tally_.positive_tets : tally_.negative_tets;
   }
 
-  /// Vertices at one position are owned by one tile.
+  /// One tile owns all vertices at one position, so each tile compares only its own.
   void check_vertices() {
     struct Placed {
       Position at;
@@ -121,8 +121,8 @@ class TileAudit {
     });
   }
 
-  /// Where a tet lies is its orientation times the parity with which it names the triangle.  Flat
-  /// tets lie on no side; orientation has failed then.
+  /// The side of a tet is its orientation times the parity with which it names the triangle.  Flat
+  /// tets lie on no side, but with them the check of orientation fails.
   [[nodiscard]] bool on_opposite_sides(const MeshFace& face) const {
     const auto side = [&](const FaceSide& s) { return s.odd ? -sign_[s.tet] : +sign_[s.tet]; };
     const int product = side(face.sides[0]) * side(face.sides[1]);
@@ -271,7 +271,7 @@ class Judgement {
   ValidityReport report_;
 };
 
-/// Empty when the input is no mesh; the check tells.
+/// Returns nothing when the input is no mesh; the check tells why.
 std::optional<MeshStars> check_input(const AuditMesh& mesh, Check& check) {
   check.name = "P2 input";
   std::optional<MeshStars> stars;

@@ -19,8 +19,8 @@ namespace mw::audit {
 /// What check_validity found.  The counts are those that the checks' details name.
 struct ValidityReport {
   std::vector<Check> checks;
-  /// Sign that all tets share, which is to be 1; 0 when they do not, or when the input could not be
-  /// read as a mesh.
+  /// The sign that all tets share, which should be 1; it is 0 when they do not share one, or when
+  /// the input could not be read as a mesh.
   int orientation = 0;
   std::uint64_t positive_tets = 0;
   std::uint64_t negative_tets = 0;
@@ -46,7 +46,7 @@ struct ValidityTally {
   Offenders crowded{"triangles of three or more tets"};
   Offenders folded{"triangles with both tets on one side"};
   Offenders outside{"vertices outside the box"};
-  std::array<bool, 8> corners{};  ///< of the box: a vertex is there
+  std::array<bool, 8> corners{};  ///< whether a vertex is at each corner of the box
   std::uint64_t positive_tets = 0;
   std::uint64_t negative_tets = 0;
   std::uint64_t flat_tets = 0;
@@ -56,9 +56,9 @@ struct ValidityTally {
   CompensatedSum volume;
   Offenders strange{"tets whose label is not wanted"};
   std::vector<CompensatedSum> label_volumes;  ///< by label, then all tets of unknown label
-  std::vector<bool> in_mesh;                  ///< the same: there is such a tet
+  std::vector<bool> in_mesh;                  ///< in the same order: some tet has the label
 
-  /// labels: of the other's labels, here; the unknown ones are the last of both.
+  /// Adds another tally, whose label l is labels[l] here; unknown ones are the last of both.
   void add(const ValidityTally& other, std::span<const Label> labels);
 };
 
@@ -66,35 +66,37 @@ struct ValidityTally {
 struct ValidityTask {
   Frame frame;
   Index3 shape;
-  /// By label: tets may have it, and some do.
+  /// By label: whether tets may have the label and some must.
   std::vector<bool> wanted;
   bool has_gaps = false;  ///< labels were left out
   LabelText label_text = {};
 };
 
-/// All checks of a tile's own vertices, triangles and tets.  REQUIRES: finite vertices; wanted by
-/// the tile's labels.  Memory: 17 bytes a tet, 50 a vertex.  Deterministic.
+/// Checks the vertices, triangles and tets that a tile owns.  REQUIRES: finite vertices; `wanted`
+/// is by the tile's labels.  Memory: 17 bytes a tet, 50 a vertex.  Deterministic.
 [[nodiscard]] ValidityTally tally_validity(const MeshStars& stars, const ValidityTask& task);
 
-/// "P2 input".
+/// Returns the check "P2 input".
 [[nodiscard]] Check input_check(std::uint64_t vertices, std::uint64_t tets,
                                 const Offenders& endless);
 
-/// The verdict on all tiles; "P2 input" comes before, "P2 overlap" after.
+/// Judges all tiles.  The caller puts "P2 input" before these checks and "P2 overlap" after them.
 [[nodiscard]] ValidityReport judge_validity(const ValidityTally& tally, const ValidityTask& task);
 
-/// P2.  The checks, in order: "P2 input" (rows in range, finite numbers; if it fails, nothing else
-/// is looked at), "P2 orientation" (all strictly positive, exactly), "P2 vertices" (no two at one
-/// position, each in a tet), "P2 tets" (none twice), "P2 faces" (two tets on opposite sides, or one
-/// and on a plane of the box), "P2 box" (all vertices inside, all corners there), "P2 volume" (sum
-/// equals the box's to 1e-9, and the rounding of coordinates), "P2 labels" (the mesh's are the
-/// volume's).  Together they prove a partition: faces that pair up on opposite sides cover the
-/// inside of the box equally often everywhere, and the volume says once. Of a mesh from which
-/// labels were left out, triangles of one tet may be anywhere, corners may be missing, the volume
-/// is at most the box's, and the labels are those that are kept.  What the volume proves is then
-/// sampled: "P2 overlap" (check_overlap). Planes and corners are those of the frame in double, to
-/// 1e-9 of the box's extent, since other tools round (box_planes.h). REQUIRES: labels of the volume
-/// < label_count.  Memory: 17 bytes a tet, 50 a vertex. Deterministic.
+/// Checks P2.  The checks, in order: "P2 input" (rows in range, finite numbers; if it fails,
+/// nothing else is looked at), "P2 orientation" (all strictly positive, exactly), "P2 vertices" (no
+/// two at one position, each in a tet), "P2 tets" (none twice), "P2 faces" (two tets on opposite
+/// sides, or one and on a plane of the box), "P2 box" (all vertices inside, all corners there), "P2
+/// volume" (sum equals the box's to 1e-9, and the rounding of coordinates), "P2 labels" (the mesh's
+/// are the volume's).  Together they prove a partition: faces that pair up on opposite sides cover
+/// the inside of the box equally often everywhere, and the volume says once.
+/// In a mesh from which labels were left out, triangles of one tet may be anywhere, corners may be
+/// missing, the volume is at most the box's, and the labels are those that are kept.  What the
+/// volume proves is then sampled: "P2 overlap" (check_overlap).
+/// Planes and corners are those of the frame in double, to 1e-9 of the box's extent, since other
+/// tools round (box_planes.h).
+/// REQUIRES: labels of the volume < label_count.  Memory: 17 bytes a tet, 50 a vertex.
+/// Deterministic.
 [[nodiscard]] ValidityReport check_validity(const AuditMesh& mesh, const VoxelLabels& volume,
                                             const Frame& frame, std::size_t label_count,
                                             const KeptLabels& kept = {});

@@ -11,7 +11,7 @@
 namespace mw::audit {
 namespace {
 
-/// Angles from the first wing on: 0 for itself, then below, at and above half a turn.
+/// Orders wings by their angle from the first one: itself, then below, at and above half a turn.
 class Turn {
  public:
   Turn(const Position& a, const Position& b, const BoundaryWing& first)
@@ -57,8 +57,8 @@ class Way {
  public:
   Way(const Position& v, const Position& from, const Position& to) : v_(v), from_(from), to_(to) {}
 
-  /// False when the way touches an edge or vertex, or what it meets makes no sense: another one
-  /// should be tried.
+  /// Returns false when the way touches an edge or vertex, or does not leave and enter the region
+  /// in turn: another way should be tried.
   [[nodiscard]] bool cross_all(std::span<const BoundaryWing> wings) {
     for (const BoundaryWing& wing : wings) {
       if (!cross(wing)) return false;
@@ -96,9 +96,9 @@ class Way {
   std::vector<Crossing> crossings_;
 };
 
-/// A point inside of the tet, another one for each trial.
+/// Returns a point inside of the tet, which is another one for each trial.
 Position inside(const Position& v, const Cone& cone, std::uint32_t trial) {
-  // Multiples of irrational numbers: no pattern that a lattice could share.
+  // Multiples of irrational numbers make no pattern that a lattice could share.
   constexpr std::array<double, 3> kSteps{0.41421356237309503, 0.7320508075688772,
                                          0.23606797749978969};
   std::array<double, 3> weights{};
@@ -137,7 +137,7 @@ void unite_around_vertex(const Position& v, std::span<const BoundaryWing> wings,
   for (std::size_t i = 1; i < cones.size(); ++i) {
     for (std::uint32_t trial = 0; trial < kMaxTrials; ++trial) {
       const Position from = inside(v, cones[i], 2 * trial);
-      const Position to = inside(v, cones[0], 2 * trial + 1);  // not where a mirrored tet has it
+      const Position to = inside(v, cones[0], 2 * trial + 1);  // in another place than `from`
       Way way(v, from, to);
       if (!way.cross_all(wings)) continue;
       const std::span<const Crossing> crossings = way.crossings();

@@ -12,7 +12,7 @@ namespace {
 
 constexpr std::uint32_t kNone = std::numeric_limits<std::uint32_t>::max();
 
-// The sets that a tet is in; those of its four triangles by the vertex across.
+// Numbers of the sets that a tet is in; to those of its triangles the opposite vertex is added.
 constexpr unsigned kPartOfTet = 0, kRegionOfTet = 1, kInnerOfTet = 4, kOuterOfTet = 8,
                    kSetsOfTet = 16;
 
@@ -58,7 +58,7 @@ RegionSets::RegionSets(const MeshStars& stars, Label exterior)
   }
 }
 
-/// Whether another tile has the tet, and it counts for something.
+/// True if another tile has the tet too, and its label is looked at.
 bool RegionSets::is_shared(std::uint32_t tet) const {
   const TetRow& row = stars_.mesh().tets[tet];
   if (class_of(tet) >= exterior_ || MeshStars::repeats_vertex(row)) return false;
@@ -139,7 +139,7 @@ void RegionSets::share(std::uint32_t tet, unsigned which, std::uint32_t set) {
   out_.shared.push_back({stars_.tile().tet_id(tet) * kSetsOfTet + which, set});
 }
 
-/// Which of the tet's four vertices is not on the side.
+/// Returns which of the tet's four vertices is not on the side.
 unsigned RegionSets::apex_of(const RegionSide& side) const {
   const TetRow& tet = stars_.mesh().tets[side.tet];
   const auto apex = std::find_if(tet.begin(), tet.end(), [&](std::uint64_t v) {

@@ -9,16 +9,16 @@
 
 namespace mw::audit {
 
-/// A triangle of a label's boundary: one tet of the label on it.
+/// A triangle of a label's boundary, with the one tet of the label on it.
 struct RegionSide {
   std::array<std::uint32_t, 3> vertices{};
   std::uint32_t tet = 0;
 };
 
-/// Those with a vertex that the tile owns, and which of them are at each vertex.
+/// The boundary triangles with a vertex that the tile owns, and which of them are at each vertex.
 class RegionSides {
  public:
-  /// Labels below exterior are looked at.  Cost: one sort of the triangles at each vertex.
+  /// Only labels below `exterior` are looked at.  Cost: one sort of the triangles at each vertex.
   RegionSides(const MeshStars& stars, Label exterior);
 
   [[nodiscard]] std::uint32_t size() const { return static_cast<std::uint32_t>(all_.size()); }
@@ -51,16 +51,16 @@ class RegionSets {
   [[nodiscard]] std::uint32_t part_of_side(std::uint32_t side) const {
     return part_of(sides_[side].tet);
   }
-  /// Whether another tile has a tet of the part.
+  /// True if another tile has a tet of the part.
   [[nodiscard]] bool is_open(std::uint32_t part) const { return open_parts_[part]; }
 
-  /// Parts that meet in a vertex.
+  /// Unites two parts that meet in a vertex.
   void unite_parts(std::uint32_t a, std::uint32_t b) { touching_.unite(a, b); }
-  /// Boundary triangles of a part.
+  /// Unites two boundary triangles of a part, as the part sees them.
   void unite_within(std::uint32_t a, std::uint32_t b) { within_.unite(a, b); }
-  /// Boundary triangles of a label.
+  /// Unites two boundary triangles of a label, as they are seen from outside.
   void unite_without(std::uint32_t a, std::uint32_t b) { without_.unite(a, b); }
-  /// Side and its part are at the vertex, which the tile owns, as another part of the label is.
+  /// Notes a side and its part at a vertex that the tile owns, where the label has another part.
   void add_meeting(std::uint32_t vertex, std::uint32_t side) {
     meetings_.push_back({stars_.tile().vertex_id(vertex), part_of_side(side), side});
   }
@@ -69,7 +69,7 @@ class RegionSets {
   [[nodiscard]] RegionsPiece conclude(std::vector<RegionTally> tallies);
 
  private:
-  using Numbers = std::vector<std::uint32_t>;  ///< of open sets, by root
+  using Numbers = std::vector<std::uint32_t>;  ///< numbers of open sets, by root
 
   [[nodiscard]] bool is_shared(std::uint32_t tet) const;
   [[nodiscard]] bool is_shared_side(std::uint32_t side) const;
@@ -87,7 +87,7 @@ class RegionSets {
   RegionSides sides_;
   Parts parts_;
   std::vector<bool> open_parts_;
-  DisjointSets touching_;  ///< parts
+  DisjointSets touching_;  ///< sets of parts
   DisjointSets within_;    ///< boundary triangles of a part, seen from the part
   DisjointSets without_;   ///< boundary triangles of a label, seen from outside
   std::vector<RegionsPiece::Meeting> meetings_;

@@ -34,7 +34,7 @@ class RegionSweep {
   }
 
  private:
-  /// An edge from a vertex, as a label or one of its boundary triangles has it.
+  /// An edge from the current vertex, by its other end, and a label that has it.
   using LabelledEdge = std::pair<std::uint64_t, Label>;
   struct EdgeSide {
     LabelledEdge edge;
@@ -46,14 +46,14 @@ class RegionSweep {
   [[nodiscard]] const RegionSide& side(std::uint32_t id) const { return sets_.sides()[id]; }
   [[nodiscard]] const Position& at(std::uint64_t v) const { return stars_.mesh().vertices[v]; }
 
-  /// One cell in the closure of a label; inside: of its interior too.
+  /// Adds a cell in the closure of a label; inside says that it is in the interior too.
   void add(Label label, std::int64_t sign, bool inside) {
     if (label >= exterior_) return;
     tallies_[label].closed += sign;
     if (inside) tallies_[label].only += sign;
   }
 
-  /// Tets and boundary triangles at v, each by label.
+  /// Collects the tets and boundary triangles at v, each sorted by label.
   void take_labels(std::uint32_t v) {
     tets_.clear();
     for (const std::uint32_t tet : stars_.star(v)) {
@@ -84,7 +84,7 @@ class RegionSweep {
     each_label([&](Label label, const auto&, const auto& rims) { add(label, 1, rims.empty()); });
   }
 
-  /// Edges from v to a larger vertex, and the turns around those of boundaries.
+  /// Counts the edges from v to larger vertices, and takes the turns around those of boundaries.
   void count_edges(std::uint32_t v) {
     edges_.clear();
     for (const auto& [label, tet] : tets_) {
@@ -113,7 +113,7 @@ class RegionSweep {
     }
   }
 
-  /// other: v itself for all of the triangle but v.
+  /// Returns a triangle as seen from its edge (v, other), or from vertex v when other is v.
   [[nodiscard]] BoundaryWing wing(std::uint32_t id, std::uint64_t v, std::uint64_t other) const {
     const auto& corners = side(id).vertices;
     BoundaryWing out{.side = id};
@@ -129,7 +129,7 @@ class RegionSweep {
     return out;
   }
 
-  /// Closed regions meet in vertices.
+  /// Unites the parts of each label at the vertex, as closed regions meet in vertices.
   void join_parts() {
     each_label([&](Label, const auto& tets, const auto&) {
       const std::uint32_t first = sets_.part_of(tets.front().second);
@@ -137,7 +137,7 @@ class RegionSweep {
     });
   }
 
-  /// So do the boundaries of a part.
+  /// Unites the boundary triangles of each part at v, as these also meet in vertices.
   void join_boundaries(std::uint32_t v) {
     part_rims_.clear();
     for (const auto& [label, rim] : rims_) part_rims_.emplace_back(sets_.part_of_side(rim), rim);
@@ -164,7 +164,7 @@ class RegionSweep {
     }
   }
 
-  /// Gaps between clusters of a label's tets that share nothing but v.
+  /// Unites boundaries across gaps between clusters of a label's tets that share only v.
   void join_clusters(std::uint32_t v) {
     each_label([&](Label, const auto& tets, const auto& rims) {
       if (rims.empty()) return;
@@ -233,10 +233,10 @@ class RegionSweep {
   UniteSides unite_without_ = [this](std::uint32_t a, std::uint32_t b) {
     sets_.unite_without(a, b);
   };
-  std::vector<std::pair<Label, std::uint32_t>> tets_, rims_;  ///< at the vertex, as are the others
+  std::vector<std::pair<Label, std::uint32_t>> tets_, rims_;  ///< by label, at the current vertex
   std::vector<LabelledEdge> edges_;
   std::vector<EdgeSide> rim_edges_;
-  std::vector<std::pair<std::uint32_t, std::uint32_t>> part_rims_;  ///< of a part
+  std::vector<std::pair<std::uint32_t, std::uint32_t>> part_rims_;  ///< by part
   std::vector<std::uint32_t> met_;                                  ///< a rim of each open part
   std::vector<BoundaryWing> wings_;
   std::vector<std::pair<std::uint64_t, std::uint32_t>> corners_;

@@ -16,7 +16,7 @@
 
 namespace mw::audit {
 
-/// Connected sets that are counted of each label; see region_betti().
+/// Connected sets that are counted for each label; see region_betti().
 enum class RegionKind : std::uint8_t {
   kPart,    ///< tets that meet in triangles
   kRegion,  ///< parts that meet in vertices
@@ -25,12 +25,12 @@ enum class RegionKind : std::uint8_t {
 };
 inline constexpr std::size_t kRegionKinds = 4;
 
-/// Sets of each kind, and cells, of one label.
+/// Counts of the sets of each kind and of the cells of one label.
 struct RegionTally {
   Label label = 0;
   std::array<std::int64_t, kRegionKinds> sets{};
   std::int64_t closed = 0;  ///< sum over the cells in the label's closure, see EulerSums
-  std::int64_t only = 0;    ///< over those inside of it
+  std::int64_t only = 0;    ///< sum over the cells inside of it
 };
 
 /// A set that may go on in other tiles.
@@ -48,7 +48,7 @@ struct RegionsPiece {
   /// An inner boundary at a vertex where its part meets another of the same label: when it turns
   /// out that they are one part, their boundaries are one as well.
   struct Meeting {
-    std::uint64_t vertex = 0;  ///< of the whole mesh
+    std::uint64_t vertex = 0;  ///< its id in the whole mesh
     std::uint32_t part = 0;
     std::uint32_t inner = 0;
   };
@@ -67,17 +67,17 @@ class RegionsUnion {
  public:
   explicit RegionsUnion(std::size_t label_count) : tallies_(label_count) {}
 
-  /// Takes tallies and open sets, labels as in the whole; returns the number of its open set 0, the
-  /// others follow.  ERRORS: kResource above 2^32 open sets.
+  /// Takes tallies and open sets, whose labels are those of the whole.  Returns the number of the
+  /// piece's open set 0; the others follow.  ERRORS: kResource from 2^32 - 1 open sets on.
   std::uint32_t add(const RegionsPiece& piece);
-  /// These two, numbered through all pieces, are one.  REQUIRES: all pieces were added; they are of
-  /// one kind and label.
+  /// Makes two open sets, numbered through all pieces, one.  REQUIRES: all pieces were added; the
+  /// sets are of one kind and label.
   void unite(std::uint32_t a, std::uint32_t b);
-  /// All meetings at one vertex, numbered through all pieces; they are left in another order.
+  /// Takes all meetings at one vertex, numbered through all pieces; leaves them in another order.
   /// REQUIRES: all parts that have an item in common were united.
   void meet(std::span<RegionsPiece::Meeting> meetings);
 
-  /// By label.
+  /// Returns the Betti numbers by label.
   [[nodiscard]] std::vector<RegionBetti> betti() const;
 
  private:
@@ -90,12 +90,12 @@ class RegionsUnion {
 
 /// Counts what mesh_betti() does, without its last row (the exterior) and without asking what is
 /// outside of a label's tets: other labels, the exterior, or space without tets (labels that were
-/// left out). Components and Euler characteristics are counted.  Cavities follow from boundaries,
+/// left out).  Components and Euler characteristics are counted.  Cavities follow from boundaries,
 /// because in the 3-sphere
-///   of a part (open, connected), the complement has as many components as its boundary;
-///   of a connected closed region, it has as many as there are boundaries seen from outside, where
-///   triangles follow each other around an edge, and across a vertex in one gap between parts that
-///   meet there only.
+///   the complement of a part (open, connected) has as many components as the part's boundary;
+///   the complement of a connected closed region has as many as there are boundaries seen from
+///   outside, where triangles follow each other around an edge, and across a vertex in one gap
+///   between parts that meet there only.
 /// Which triangles follow each other where a label meets itself in an edge or a vertex only is
 /// decided by positions, with exact signs.
 /// REQUIRES and errors: as mesh_betti.  Indicative only when tets overlap.

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The mwmesh authors
 // SPDX-License-Identifier: Apache-2.0
-// Sets of all tiles counted, less one each time that two of them are one.
+// Counts the sets of all tiles, less one each time that two of them are one.
 #include "kernels/audit/regions/regions.h"
 
 #include <algorithm>
@@ -15,7 +15,7 @@ RegionBetti betti_of(const RegionTally& tally) {
   const auto& [parts, regions, inner, outer] = tally.sets;
   if (parts == 0) return {};
   const std::int64_t hollows = outer - regions, holes = inner - parts;
-  // The Euler characteristic of an open set in three dimensions is less the sum over its cells.
+  // The Euler characteristic of an open set in three dimensions is minus the sum over its cells.
   return {.closed = {regions, regions + hollows - tally.closed, hollows},
           .open = {parts, parts + holes + tally.only, holes}};
 }

@@ -20,7 +20,7 @@ double determinant(const std::array<Position, 3>& rows) {
 
 /// The derivative of the tet's map towards corner k, away from corner 0, at a point.
 Position slope_at(const TenNodes& nodes, const Barycentric& at, std::size_t k) {
-  // Of a corner's function l (2 l - 1) and an edge's 4 l m.
+  // Derivatives of a corner's function l (2 l - 1) and of an edge's 4 l m.
   const auto towards = [&](std::size_t corner) {
     Position out{};
     const auto add = [&](const Position& p, double factor) {
@@ -44,10 +44,10 @@ struct Coefficients {
 };
 
 Coefficients coefficients_of(const TenNodes& given) {
-  // Relative to a corner, so that only the size of the tet counts for rounding.
+  // Positions are relative to a corner, so that only the size of the tet counts for rounding.
   TenNodes nodes;
   for (std::size_t i = 0; i < nodes.size(); ++i) nodes[i] = minus(given[i], given[0]);
-  std::array<std::array<Position, 3>, 4> slopes;  // at each corner, where they are linear between
+  std::array<std::array<Position, 3>, 4> slopes;  // at each corner, linear in between
   double longest = 0;
   for (std::size_t corner = 0; corner < 4; ++corner) {
     Barycentric at{};

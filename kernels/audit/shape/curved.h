@@ -13,8 +13,8 @@ using TenNodes = std::array<Position, 10>;
 
 /// Returns a lower bound of the least Bernstein coefficient of the Jacobian over six times the
 /// volume of the straight tet between the corners.  The Jacobian is nowhere less than the least
-/// coefficient.  The bound allows for all rounding; not positive: the tet may be turned over
-/// somewhere.  REQUIRES: finite coordinates.
+/// coefficient.  The bound allows for all rounding; if it is not positive, the tet may be
+/// turned over somewhere.  REQUIRES: finite coordinates.
 [[nodiscard]] double jacobian_share(const TenNodes& nodes);
 
 /// Returns the volume of a tet less that of its straight parts (kTetParts), each by its absolute
@@ -29,9 +29,9 @@ class CurvedMeter {
  public:
   void add(std::uint64_t tet, const TenNodes& nodes);
 
-  /// Returns "P2 Jacobians": that of each tet is positive everywhere in it.
+  /// Returns the check "P2 Jacobians": each tet's Jacobian is positive everywhere in it.
   [[nodiscard]] Check jacobians() const;
-  /// Returns the shape of the straight tets between the corners, about which P3 is.
+  /// Returns the shape of the straight tets between the corners, which P3 judges.
   [[nodiscard]] const QualityMeter& corners() const { return corners_; }
 
  private:

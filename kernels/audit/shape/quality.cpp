@@ -47,8 +47,8 @@ double TetShape::radius_ratio() const {
   return below > 0 && ratio > 0 ? std::min(ratio, 1.0) : 0;  // 0 also where squares overflow
 }
 
-/// Bin of an angle by its cosine.  Lattices are full of right angles and the like, which rounding
-/// must not put on either side.
+/// Returns the bin of an angle by its cosine.  Lattices are full of right angles and the like,
+/// which rounding must not put on either side.
 std::size_t dihedral_bin(double cosine) {
   using Bins = decltype(QualityReport::dihedral_histogram);
   static const std::array<double, std::tuple_size_v<Bins> - 1> ends = [] {
@@ -63,7 +63,7 @@ std::size_t dihedral_bin(double cosine) {
       std::lower_bound(ends.begin(), ends.end(), cosine, std::greater<>()) - ends.begin());
 }
 
-/// For the report only, so a last bit that depends on the C library does no harm.
+/// Serves only the report, so a last bit that depends on the C library does no harm.
 double degrees_of_cosine(double cosine) {
   return std::acos(cosine) * 180 / std::numbers::pi;
 }

@@ -37,10 +37,9 @@ class QualityMeter {
  public:
   /// REQUIRES: finite coordinates.
   void add(const Position& a, const Position& b, const Position& c, const Position& d);
-  /// Adds a tet that has another number than that of the tets before it.
+  /// Adds a tet under a given number; without one, tets are numbered as they come.
   void add(std::uint64_t tet, const std::array<Position, 4>& corners);
-  /// Adds what another one has taken, whose tets have numbers of their own once these are `first`
-  /// higher.
+  /// Adds what another one has taken.  The numbers of its tets count from `first` here.
   void add(const QualityMeter& other, std::uint64_t first = 0);
   /// Sums up all tets so far.
   [[nodiscard]] QualityReport report() const;
@@ -54,15 +53,15 @@ class QualityMeter {
   std::uint64_t tets_ = 0;
   std::uint64_t slivers_ = 0;
   Int128 ratios_ = 0;           ///< sum in units of 1 / kUnits
-  double largest_cosine_ = -2;  ///< of the sharpest dihedral angle
-  double smallest_cosine_ = 2;  ///< of the bluntest
+  double largest_cosine_ = -2;  ///< cosine of the sharpest dihedral angle
+  double smallest_cosine_ = 2;  ///< cosine of the bluntest
 };
 
 /// Measures the tets that a tile owns, by their numbers in the whole mesh.
 [[nodiscard]] QualityMeter tally_quality(const MeshTile& tile);
 
-/// P3.  An empty mesh gives zeros.  Flat tets count as radius ratio 0; faces without area are left
-/// out of the dihedral angles.
+/// Measures P3.  An empty mesh gives zeros.  Flat tets count as radius ratio 0; faces without area
+/// are left out of the dihedral angles.
 /// REQUIRES: vertex rows in range, finite coordinates.  Cost: O(tets), no allocation.
 [[nodiscard]] QualityReport measure_quality(const AuditMesh& mesh);
 

@@ -15,7 +15,7 @@
 namespace mw::audit {
 namespace {
 
-/// Twice the triangle's area long, out of the lower label.
+/// The normal out of the lower label, as long as twice the triangle's area.
 Position normal(const Position& p, const Position& edge, const Wing& wing) {
   const Position n = cross(edge, minus(wing.apex, p));
   return wing.turned ? Position{-n[0], -n[1], -n[2]} : n;
@@ -56,7 +56,7 @@ class ShapeAudit {
   }
   [[nodiscard]] const Position& at(std::uint64_t vertex) const { return mesh_.vertices[vertex]; }
 
-  /// Whether (b - a) x (c - a) points out of the tet on triangle a, b, c.
+  /// True if (b - a) x (c - a) points out of the tet on triangle a, b, c.
   [[nodiscard]] bool points_out(const MeshFace& face, std::size_t side) const {
     const auto& [a, b, c] = face.vertices;
     const TetRow& tet = mesh_.tets[face.sides[side].tet];

@@ -16,10 +16,10 @@ namespace mw::audit {
 /// Edges that bend by more are sharp.
 inline constexpr double kSharpDegrees = 60;
 
-/// Figures of the triangles between two labels, the box left out.  The bend of an edge is the angle
-/// between the normals of its two triangles, both out of the lower label: 0 where the interface is
-/// flat.  It is that of edges at which exactly two triangles meet, of the same two labels.  An
-/// ideal mesh of a ball of radius r with edges of length e has about e / r radians.
+/// Figures of the triangles between two labels, without the sides of the box.  The bend of an edge
+/// is the angle between the normals of its two triangles, both out of the lower label: 0 where the
+/// interface is flat.  Only edges at which exactly two triangles of the same two labels meet count.
+/// An ideal mesh of a ball of radius r with edges of length e has about e / r radians.
 struct ShapeReport {
   std::uint64_t triangles = 0;
   double area = 0;  ///< square physical units
@@ -28,7 +28,7 @@ struct ShapeReport {
   double bend_p95_deg = 0;
   double bend_p99_deg = 0;
   double bend_max_deg = 0;
-  double sharp_share = 0;  ///< of that length, that bends by more than kSharpDegrees
+  double sharp_share = 0;  ///< share of that length that bends by more than kSharpDegrees
   /// Shares of that length, in bins of 5 degrees.
   std::array<double, 36> bend_histogram{};
 };
@@ -46,7 +46,7 @@ class ShapeMeter {
  public:
   /// REQUIRES (all members): finite coordinates, physical units.
   void add_triangle(const Position& a, const Position& b, const Position& c);
-  /// An edge with its two triangles.
+  /// Adds an edge with its two triangles.
   void add_edge(const Position& p, const Position& q, const Wing& one, const Wing& other);
   /// Adds what another one has taken.
   void add(const ShapeMeter& other);

@@ -16,7 +16,7 @@
 namespace mw::audit {
 namespace {
 
-/// Lattice units.  Differences of two fit 33 bits, so a determinant fits 102.
+/// A point in lattice units.  Differences of two fit 33 bits, so a determinant fits 102.
 using LatticePoint = std::array<std::int64_t, 3>;
 
 template <typename Number>
@@ -32,7 +32,7 @@ Number determinant(const Edges<Number>& e) {
 /// The coordinate in lattice units when it is what a multiple of the unit rounds to.
 std::optional<std::int64_t> lattice_coordinate(double x, double origin, double spacing) {
   constexpr double kMax = std::numeric_limits<std::int32_t>::max();
-  // Half a unit in the last place each for the product, the sum, and a decimal text read back.
+  // The product, the sum and a text read back each round by half a unit in the last place.
   constexpr double kRounding = 4 * std::numeric_limits<double>::epsilon();
   const double units = std::nearbyint((x - origin) / spacing * kUnitsPerVoxel);
   if (!(std::abs(units) <= kMax)) return std::nullopt;
@@ -41,7 +41,7 @@ std::optional<std::int64_t> lattice_coordinate(double x, double origin, double s
   return static_cast<std::int64_t>(units);
 }
 
-/// All vertices on the lattice; nothing when one is not.
+/// Returns all vertices in lattice units, or nothing when one is not on the lattice.
 std::optional<std::vector<LatticePoint>> lattice_points(const AuditMesh& mesh, const Frame& frame) {
   std::vector<LatticePoint> out;
   out.reserve(mesh.vertices.size());

@@ -21,18 +21,18 @@ inline constexpr std::uint64_t kMinJudgedVoxels = 1000;
 struct VolumeRow {
   Label label = 0;
   std::uint64_t voxels = 0;
-  double volume_voxels = 0;  ///< of the mesh
+  double volume_voxels = 0;  ///< volume in the mesh, in voxels
   double error = 0;          ///< mesh / voxels - 1
-  double faces_a_voxel = 0;  ///< between it and other labels, in voxels of the lattice
+  double faces_a_voxel = 0;  ///< faces to other labels per voxel, both of the lattice
 };
 
-/// volume6: six times the mesh's volume in cubic units of the lattice, which has 1024^3 * parts in
-/// a voxel.  The error is rounded once, from the exact difference.  REQUIRES: voxels > 0.
+/// volume6 is six times the mesh's volume in cubic units of the lattice, of which a voxel has
+/// 1024^3 * parts.  The error is rounded once, from the exact difference.  REQUIRES: voxels > 0.
 [[nodiscard]] VolumeRow volume_row(Label label, std::uint64_t voxels, Int128 volume6,
                                    std::int64_t parts = 1);
 
-/// How far a label may be off where `bound` is what is promised; of a rough one, with more than two
-/// faces for five voxels, more, by its faces: with a bound of 5 % an eighth of a voxel for each.
+/// How far a label may be off where `bound` is promised.  A rough label, with more than two faces
+/// for five voxels, may be off by more: with a bound of 5 %, an eighth of a voxel for each face.
 /// Dust, threads and plates leave no room for a smooth surface, and what they lose is what their
 /// surroundings gain.
 [[nodiscard]] double volume_bound(const VolumeRow& row, double bound);
@@ -43,19 +43,19 @@ struct VoxelCount {
   std::uint64_t faces = 0;
 };
 
-/// By label, of a box of voxels and the faces at its lower sides; labels outside of `box` are
-/// looked at only for these faces.  loaded: where the voxels lie, box and what is below it.  Faces
-/// are those of voxels cut into layers.  REQUIRES: labels < label_count.
+/// Counts by label the voxels of `box`, and the faces in it and at its lower sides; voxels outside
+/// of it are looked at only for these faces.  loaded is the box that `voxels` holds: `box` and what
+/// is below it.  Faces are those of voxels cut into layers.  REQUIRES: labels < label_count.
 [[nodiscard]] std::vector<VoxelCount> count_voxels(const VoxelLabels& voxels, const Box3& loaded,
                                                    const Box3& box, std::size_t label_count,
                                                    Index3 layers);
 
-/// Over the labels of at least kMinJudgedVoxels.
+/// Figures over the labels of at least kMinJudgedVoxels.
 struct VolumeSummary {
   std::uint64_t labels_measured = 0;
   double error_mean_abs = 0;
   double error_max_abs = 0;
-  std::optional<VolumeRow> worst;  ///< the first with the largest error; none: no label measured
+  std::optional<VolumeRow> worst;  ///< the first with the largest error, if any was measured
 };
 
 /// Takes labels one after the other.
@@ -81,23 +81,24 @@ struct VolumeTally {
   std::vector<CompensatedSum> rounded;  ///< voxels; by label
   bool is_exact = true;
 
-  /// labels: of the other's labels, here.
+  /// Adds another tally, whose label l is labels[l] here.
   void add(const VolumeTally& other, std::span<const Label> labels);
 };
 
-/// Measures the tets that a tile owns.  REQUIRES: as measure_volumes; frame: that of the layers.
+/// Measures the tets that a tile owns.  frame is that of the layers.
+/// REQUIRES: as measure_volumes.
 [[nodiscard]] VolumeTally tally_volumes(const MeshTile& tile, std::size_t label_count,
                                         const Frame& frame);
 
-/// voxels: of each label; parts: layers in a voxel.
+/// Compares with the voxels of each label; `parts` is the number of layers in a voxel.
 [[nodiscard]] VolumeReport compare_volumes(std::span<const VoxelCount> voxels,
                                            const VolumeTally& mesh, std::int64_t parts);
 
-/// P8.  A tet counts with its absolute volume, and to no label when its own is none of the volume.
-/// Exact when every vertex lies on the 1/1024-voxel lattice of the frame, its voxels cut into
-/// layers, up to the rounding of
-/// `origin + spacing * corner` in double: volumes are then sums of integers.  Other meshes are
-/// summed in double as they are, which is right to some 1e-12 of a volume.
+/// Measures P8.  A tet counts with its absolute volume, unless its label is none of the volume's.
+/// The result is exact when every vertex lies, up to the rounding of `origin + spacing * corner` in
+/// double, on the 1/1024-voxel lattice of the frame with its voxels cut into layers: volumes are
+/// then sums of integers.  Other meshes are summed in double as they are, which is right to some
+/// 1e-12 of a volume.
 /// REQUIRES: vertex rows in range, finite coordinates, positive spacing; labels of the volume <
 /// label_count.  Memory: 24 bytes a vertex.  Deterministic.
 [[nodiscard]] VolumeReport measure_volumes(const VoxelLabels& volume, std::size_t label_count,

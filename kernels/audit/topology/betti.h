@@ -20,8 +20,8 @@ struct Betti {
   friend bool operator==(const Betti&, const Betti&) = default;
 };
 
-/// closed: closure of the label's cells, which meet through vertices, edges and faces.
-/// open: interior of the union of the label's cells, which meet through faces only.
+/// closed is about the closure of the label's cells, which meet through vertices, edges and faces.
+/// open is about the interior of the union of the label's cells, which meet through faces only.
 struct RegionBetti {
   Betti closed;
   Betti open;
@@ -44,8 +44,8 @@ struct RegionBetti {
 /// Betti numbers of every label of a mesh.  Triangles with one tet bound the exterior, which is one
 /// cell.  Tets with a repeated vertex are left out.  Where the mesh is not a partition of a box
 /// (check_validity), the numbers are indicative only.
-/// REQUIRES: labels parallel to tets, vertex rows in range; at most 2^31 tets, 2^32 - 1 vertices.
-/// Errors: kInput when these fail.
+/// REQUIRES: labels parallel to tets, vertex rows in range.
+/// Errors: kInput when these fail, kResource above 2^31 tets or from 2^32 - 1 vertices on.
 /// Cost: O(T) plus small sorts a vertex star, and the graph as above; 20 bytes a tet, 30 a vertex.
 [[nodiscard]] std::vector<RegionBetti> mesh_betti(const AuditMesh& mesh, std::size_t label_count);
 

@@ -17,8 +17,8 @@ namespace mw::audit {
 /// The vertices that a tile has to do with, by row.
 struct JunctionVertices {
   std::vector<bool> owned;
-  std::vector<bool> shared;        ///< other tiles have to do with it; all that are not owned
-  std::vector<std::uint64_t> ids;  ///< in the whole; ascending
+  std::vector<bool> shared;        ///< other tiles have it too; true for all not owned
+  std::vector<std::uint64_t> ids;  ///< ids in the whole, ascending
 
   [[nodiscard]] std::size_t count() const { return ids.size(); }
 };
@@ -32,7 +32,7 @@ class DistinctList {
     if (values_.size() == limit_) compact();
     values_.push_back(value);
   }
-  /// Ascending.
+  /// Returns the distinct values, ascending.
   [[nodiscard]] const std::vector<T>& sorted() {
     compact();
     return values_;
@@ -54,11 +54,11 @@ class DistinctList {
 /// Collects the cells of the junctions of one kind.  Labels are ascending and distinct.
 class JunctionCounter {
  public:
-  /// vertices outlive this.
+  /// REQUIRES: vertices outlive this.
   explicit JunctionCounter(const JunctionVertices& vertices) : vertices_(vertices) {}
 
-  /// Vertices and edges may come again; faces, of two labels, may not.
-  /// REQUIRES: v, and the face, are owned; v < w.
+  /// Vertices and edges may be added again; faces, which have two labels, may not.
+  /// REQUIRES: the tile owns v, and the face; v < w.
   void add_vertex(const JunctionLabels& junction, std::uint64_t v);
   void add_edge(const JunctionLabels& junction, std::uint64_t v, std::uint64_t w);
   void add_face(const JunctionLabels& pair);
@@ -77,14 +77,14 @@ class JunctionCounter {
   [[nodiscard]] std::uint64_t node(const JunctionLabels& junction, std::uint64_t v) {
     return id(junction) * vertices_.count() + v;
   }
-  /// Connected sets of all nodes, ascending; counts vertices and edges.
+  /// Finds the connected sets of all nodes, which ascend, and counts vertices and edges.
   [[nodiscard]] DisjointSets link(const std::vector<std::uint64_t>& nodes);
 
   const JunctionVertices& vertices_;
   std::map<JunctionLabels, std::uint64_t> ids_;
   JunctionLabels last_junction_{};  ///< what id() was asked for last
   std::uint64_t last_id_ = 0;
-  DistinctList<std::uint64_t> nodes_;  ///< a vertex in a junction
+  DistinctList<std::uint64_t> nodes_;  ///< vertices in junctions
   DistinctList<Link> links_;
   std::vector<std::int64_t> euler_;  ///< by id
 };
@@ -98,11 +98,11 @@ class JunctionSweep {
 
   [[nodiscard]] bool owns(std::uint64_t v) const { return vertices_.owned[v]; }
 
-  /// Vertices and edges whose smaller vertex the tile owns.
-  /// Labels ascending, distinct; nothing happens for a single one.
+  /// Adds a vertex or an edge.  All whose smaller vertex the tile owns must be added.
+  /// REQUIRES: labels are ascending and distinct; a single one adds nothing.
   void add_vertex(std::span<const Label> labels, std::uint64_t v);
   void add_edge(std::span<const Label> labels, std::uint64_t v, std::uint64_t w);
-  /// All faces with a vertex that the tile owns; vertices in cyclic order.
+  /// Adds a face, by vertices in cyclic order.  All with a vertex that the tile owns must be added.
   void add_face(std::span<const Label> labels, std::span<const std::uint64_t> vertices);
 
   [[nodiscard]] JunctionsPiece take();

@@ -14,7 +14,7 @@
 
 namespace mw::audit {
 
-/// Largest set of labels whose meeting is looked at.
+/// The most labels whose meeting is looked at.
 inline constexpr std::size_t kMaxLabelsOfJunction = 4;
 
 /// Labels of a junction, ascending; unused entries are kNoLabel.  Label label_count is the
@@ -36,7 +36,7 @@ struct JunctionTally {
   JunctionLabels labels{};
   JunctionKind kind = JunctionKind::kInterface;
   std::int64_t components = 0;
-  std::int64_t euler = 0;  ///< of the cells that the tile owns
+  std::int64_t euler = 0;  ///< Euler number of the cells that the tile owns
 };
 
 /// What one tile tells, its open sets (those that go on in other tiles) numbered from 0.
@@ -44,7 +44,7 @@ struct JunctionsPiece {
   /// Sets with the same vertex in the same junction are one.
   struct Node {
     std::uint32_t tally = 0;
-    std::uint64_t vertex = 0;  ///< of the whole mesh, or of the volume's lattice
+    std::uint64_t vertex = 0;  ///< id in the whole mesh, or in the volume's lattice
     std::uint32_t set = 0;
   };
   std::vector<JunctionTally> tallies;  ///< open sets are counted too
@@ -52,12 +52,13 @@ struct JunctionsPiece {
   std::vector<Node> shared;
 };
 
-/// REQUIRES and errors: as voxel_betti; kResource also from 2^32 pairs of junction and vertex on.
+/// REQUIRES and errors: as voxel_betti; kResource also from 2^32 - 1 pairs of a junction
+/// and a vertex on.
 /// Cost: one pass over the voxels, then sorts of the vertices and edges on interfaces, 8 and 16
 /// bytes each and junction.  Deterministic.
 [[nodiscard]] JunctionsPiece voxel_junctions(const VoxelTile& tile, std::size_t label_count);
 
-/// Counts those of a mesh; see mesh_betti.
+/// Counts the junctions of a mesh; see mesh_betti.
 [[nodiscard]] JunctionsPiece mesh_junctions(const MeshStars& stars, std::size_t label_count);
 
 /// A junction that differs; all zeros where it is absent.
@@ -69,7 +70,7 @@ struct JunctionChange {
 
 /// A mesh's junctions held against its volume's.
 struct JunctionReport {
-  std::size_t interfaces = 0;  ///< of the volume
+  std::size_t interfaces = 0;  ///< how many the volume has
   std::size_t meetings = 0;
   std::vector<JunctionChange> interfaces_changed;  ///< ascending
   std::vector<JunctionChange> meetings_changed;

@@ -58,7 +58,7 @@ class MeshSweep {
     add_cell(1);
   }
 
-  /// Edges from v to a larger vertex; box_.edges is read along, as v ascends.
+  /// Counts the edges from v to larger vertices; box_.edges is read along, as v ascends.
   void count_edges(std::uint32_t v) {
     edges_.clear();
     for (const std::uint32_t tet : stars_.star(v)) {
@@ -103,7 +103,7 @@ class MeshSweep {
     }
   }
 
-  /// The cell has classes_, ascending, around it.
+  /// Adds a cell that has classes_, which ascend, around it.
   void add_cell(std::int64_t sign) {
     classes_.erase(std::unique(classes_.begin(), classes_.end()), classes_.end());
     euler_.add(sign, classes_);

@@ -10,7 +10,7 @@
 namespace mw::audit {
 namespace {
 
-/// Other tiles have to do with the vertices of tets that they have too.
+/// A vertex is shared with other tiles if one of them owns it, or a vertex of one of its tets.
 JunctionVertices vertices_of(const MeshStars& stars) {
   JunctionVertices out;
   for (std::uint32_t v = 0; v < stars.vertex_count(); ++v) {
@@ -60,7 +60,7 @@ class MeshJunctionSweep {
     sweep_.add_vertex(distinct_labels(), v);
   }
 
-  /// Edges from v to a larger vertex; those of the box are read along, as v ascends.
+  /// Adds the edges from v to larger vertices; those of the box are read along, as v ascends.
   void add_edges(std::uint32_t v) {
     edges_.clear();
     for (const std::uint32_t tet : stars_.star(v)) {

@@ -19,7 +19,7 @@ namespace mw::audit {
 /// twice are counted to it.  Cost: one sort of the triangles at each vertex.
 [[nodiscard]] Parts parts_of_mesh(const MeshStars& stars, Label exterior);
 
-/// Vertices and edges on the exterior: those of triangles with one tet, and an owned vertex.
+/// Vertices and edges on the exterior: those of triangles that have one tet and an owned vertex.
 struct BoxCells {
   std::vector<bool> vertices;
   std::vector<std::uint64_t> edges;  ///< ascending, smaller vertex in the high half

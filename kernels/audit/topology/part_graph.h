@@ -46,10 +46,10 @@ class PairSet {
 /// Which parts touch.  Two closed parts meet iff they share a vertex of the complex.
 class PartGraph {
  public:
-  /// The parts meet in a face.
+  /// Notes that two parts meet in a face.
   void add_face(std::uint32_t a, std::uint32_t b) { by_face_.add(a, b); }
-  /// All these parts meet in a vertex.  REQUIRES: ascending, distinct; part_class ascending.
-  /// Adds few pairs that connect the parts left over whichever single class is taken away.
+  /// Notes that all these parts meet in a vertex, by few pairs that still connect the other parts
+  /// when any one class is taken away.  REQUIRES: parts ascending, distinct; part_class ascending.
   void add_vertex(std::span<const std::uint32_t> parts, std::span<const Label> part_class);
 
   [[nodiscard]] std::vector<PartPair> take_face_pairs() { return by_face_.take(); }
@@ -80,7 +80,7 @@ struct PartsPiece {
 struct EulerSums {
   explicit EulerSums(std::size_t class_count) : closed(class_count), only(class_count) {}
 
-  /// One cell, sign (-1)^dimension, with the distinct classes of the 3-cells around it.
+  /// Adds a cell with sign (-1)^dimension and the distinct classes of the 3-cells around it.
   void add(std::int64_t sign, std::span<const Label> classes);
   void add(const ClassCells& cells);
   /// Classes with a cell, ascending.
@@ -127,8 +127,8 @@ struct GroupedPair {
 /// Cavities (b2) by pair of labels, for all pairs with an interface.
 using Cavities = std::map<JunctionLabels, std::int64_t>;
 
-/// By Alexander duality in the 3-sphere: the components of the part graph without the pairs of
-/// parts that bear these two labels, less one.  Cost: as components_leaving_out().
+/// By Alexander duality in the 3-sphere they are the components of the part graph without the pairs
+/// of parts that have these two labels, less one.  Cost: as components_leaving_out().
 [[nodiscard]] Cavities cavities_of_interfaces(std::span<const Label> part_class,
                                               const std::vector<PartPair>& face_pairs);
 

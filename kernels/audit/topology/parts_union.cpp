@@ -11,7 +11,7 @@
 namespace mw::audit {
 namespace {
 
-/// Both ends under new numbers; those that became one are gone.
+/// Returns the pairs under new numbers, without those whose parts became one.
 std::vector<PartPair> renumbered(const std::vector<PartPair>& pairs,
                                  const std::vector<std::uint32_t>& number) {
   PairSet out;

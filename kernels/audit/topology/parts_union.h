@@ -15,25 +15,25 @@
 
 namespace mw::audit {
 
-/// A tile of a mesh.
+/// The parts of a tile of a mesh.
 struct MeshParts {
   PartsPiece piece;
   std::vector<std::uint32_t> part_of_tet;  ///< by row, and one more for the exterior
 };
 
-/// Parts, their pairs and the cells of a tile.  A tet that another tile has as well, in which it is
-/// in another part, says that the two are one.
+/// Finds the parts of a tile, their pairs, and its cells.  If two tiles have a tet, its part in
+/// one tile and its part in the other are one.
 /// REQUIRES, errors and cost: as mesh_betti.
 [[nodiscard]] MeshParts mesh_parts(const MeshStars& stars, std::size_t label_count);
 
 /// Voxels along x that several tiles have loaded, in one part.
 struct SharedRun {
-  std::uint64_t first = 0;  ///< x fastest in the whole volume
+  std::uint64_t first = 0;  ///< its first voxel, x fastest in the whole volume
   std::uint32_t count = 0;
   std::uint32_t part = 0;
 };
 
-/// A tile of a volume.  shared: all voxels that another tile has loaded, and perhaps more.
+/// The parts of a tile of a volume.  shared has all voxels that another tile loads, at least.
 struct VoxelParts {
   PartsPiece piece;
   std::vector<SharedRun> shared;
@@ -49,17 +49,17 @@ class PartsUnion {
 
   /// Returns the number of its part 0; the others follow.  Labels are those of the whole.
   std::uint32_t add(PartsPiece piece);
-  /// These two, numbered through all pieces, are one.  REQUIRES: all pieces were added.
+  /// Makes two parts, numbered through all pieces, one.  REQUIRES: all pieces were added.
   void unite(std::uint32_t a, std::uint32_t b);
 
-  /// label_count + 1 rows; the last is the exterior.  Nothing is united afterwards.
+  /// Returns label_count + 1 rows; the last is the exterior.  Nothing may be united afterwards.
   [[nodiscard]] std::vector<RegionBetti> betti_of_volume();
   [[nodiscard]] std::vector<RegionBetti> betti_of_mesh();
-  /// Returns those of all interfaces.  Nothing is united afterwards.
+  /// Returns the cavities of all interfaces.  Nothing may be united afterwards.
   [[nodiscard]] Cavities cavities();
 
  private:
-  /// Numbers parts that are one by one number.
+  /// Gives parts that were united one number.
   void join();
   /// The exterior is one cell that no tile has counted.
   [[nodiscard]] std::vector<RegionBetti> betti(const EulerSums& euler);

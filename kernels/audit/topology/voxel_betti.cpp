@@ -48,7 +48,7 @@ class RowCursor {
   RowCursor(RunRow row, std::uint32_t exterior, std::uint32_t length)
       : row_(row), exterior_(exterior), length_(length), after_(exterior) {}
 
-  /// Next position where the part changes; past the row's end, or outside the box, none.
+  /// The next position where the part changes; kNone past the row's end, or outside the box.
   [[nodiscard]] std::uint32_t next() const {
     if (next_run_ < row_.starts.size()) return row_.starts[next_run_];
     return next_run_ == row_.starts.size() && next_run_ > 0 ? length_ : kNone;
@@ -78,7 +78,7 @@ class RowCursor {
 /// nothing touches that did not touch at the last change: only changes need a look.
 class VoxelSweep {
  public:
-  /// owned: vertices, from the first voxel of the runs.
+  /// owned is a box of vertices, relative to the first voxel of the runs.
   VoxelSweep(const VoxelRuns& runs, const Box3& owned, std::size_t label_count)
       : runs_(runs), owned_(owned), euler_(label_count + 1) {}
 
@@ -94,7 +94,7 @@ class VoxelSweep {
   }
 
  private:
-  /// Vertices (.., y, z); those that are not owned only move the cursors.
+  /// Visits the vertices (.., y, z); those that are not owned only move the cursors.
   void sweep_line(std::int64_t y, std::int64_t z) {
     const auto cursor = [&](std::int64_t dy, std::int64_t dz) {
       return RowCursor(runs_.row(y + dy, z + dz), runs_.exterior_part(),
@@ -115,7 +115,7 @@ class VoxelSweep {
     }
   }
 
-  /// One vertex with the parts of its eight voxels.
+  /// Takes one vertex, by the parts of its eight voxels.
   void look_at(const std::array<std::uint32_t, 8>& around) {
     std::array<std::uint32_t, 8> parts{};
     std::array<std::uint8_t, 8> masks{};
@@ -159,8 +159,8 @@ class VoxelSweep {
   EulerSums euler_;
 };
 
-/// Calls visit(SharedRun) for the voxels of a row (y, z, from the first voxel loaded) that other
-/// tiles load too: those of the tile's outer layers, except the volume's.
+/// Lists the voxels of a row (y, z, from the first voxel loaded) that other tiles load too: those
+/// of the tile's outer layers, except at the volume's sides.
 class SharedRow {
  public:
   SharedRow(const VoxelTile& tile, const VoxelRuns& runs)

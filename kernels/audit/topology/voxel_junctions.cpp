@@ -26,7 +26,7 @@ class FewLabels {
   std::size_t count_ = 0;
 };
 
-/// The lattice vertices of the cells around those that a tile owns, and one row more on each side.
+/// The lattice vertices that a tile owns, and one more row of vertices on each side.
 class TileLattice {
  public:
   explicit TileLattice(const VoxelTile& tile)
@@ -56,7 +56,7 @@ class TileLattice {
   }
 
  private:
-  /// Edges that other tiles own end here.
+  /// True where edges that other tiles own end.
   [[nodiscard]] bool is_on_lower_side(Index3 v) const {
     const Index3 lo = tile_.owned.lo;
     return (lo.x > 0 && v.x == lo.x) || (lo.y > 0 && v.y == lo.y) || (lo.z > 0 && v.z == lo.z);
@@ -67,7 +67,7 @@ class TileLattice {
   Box3 box_;
 };
 
-/// Cells by their smallest vertices.
+/// Visits cells by their smallest vertices.
 class LatticeSweep {
  public:
   LatticeSweep(const VoxelTile& tile, std::size_t label_count)
@@ -89,7 +89,7 @@ class LatticeSweep {
  private:
   static constexpr std::array<unsigned, 3> kUpper{0b10101010, 0b11001100, 0b11110000};
 
-  /// Voxels that are not loaded are asked for, but count only where the exterior is.
+  /// Callers ask for voxels that are not loaded too, but these count only where the exterior is.
   [[nodiscard]] Label label_at(Index3 v) const {
     if (!tile_.loaded.contains(v)) return exterior_;
     return tile_.voxels.labels[static_cast<std::size_t>(tile_.loaded.offset(v))];
@@ -122,7 +122,7 @@ class LatticeSweep {
     }
   }
 
-  /// axis: across the face.
+  /// Adds the face across an axis.
   void add_face(unsigned axis, std::uint64_t here) {
     const unsigned u = (axis + 1) % 3, w = (axis + 2) % 3;
     const FewLabels face = labels_in(kUpper[u] & kUpper[w]);

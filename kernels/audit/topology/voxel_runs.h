@@ -19,7 +19,7 @@ struct RunRow {
   std::span<const std::uint32_t> parts;
 };
 
-/// All runs.  The exterior is one more part, the last, of class label_count.
+/// All runs of a volume.  The exterior is one more part, the last, of class label_count.
 /// Memory: 8 bytes a run and 8 a row.
 class VoxelRuns {
  public:

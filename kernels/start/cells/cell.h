@@ -29,17 +29,17 @@ using CellNode = unsigned;
 
 inline constexpr CellNode kCellCentre = 13;
 
-/// How far along an axis: 0, 1 or 2 half edges.
+/// How far a node is along an axis: 0, 1 or 2 half edges.
 [[nodiscard]] constexpr unsigned node_along(CellNode node, unsigned axis) {
   return (axis == 0 ? node : axis == 1 ? node / 3 : node / 9) % 3;
 }
 
-/// The node one half edge further along an axis.
+/// How much a node's number grows with one half edge along an axis.
 [[nodiscard]] constexpr CellNode node_step(unsigned axis) {
   return axis == 0 ? 1U : axis == 1 ? 3U : 9U;
 }
 
-/// The corner of voxels where the node is.  REQUIRES: of a single voxel, a corner of it.
+/// The voxel corner where the node is.  REQUIRES: the node of a single voxel is a corner of it.
 [[nodiscard]] inline Index3 position_of(const Cell& cell, CellNode node) {
   const std::int64_t s = cell.size();
   return cell.lo + Index3{node_along(node, 0) * s / 2, node_along(node, 1) * s / 2,

@@ -81,7 +81,7 @@ CellLevels::Level CellLevels::cells_of(int level) const {
 bool CellLevels::is_uniform(Index3 cell, int level) const {
   const Box3 voxels = voxels_of(cell, level);
   if (!inside(voxels, known_)) return false;
-  // Whether the children are uniform, finer_allowed() tells; one voxel of each decides.
+  // finer_allowed() tells whether each child is uniform, so one voxel of each is enough.
   const std::int64_t half = std::int64_t{1} << (level - 1);
   const Label first = labels_.at(voxels.lo);
   for (std::int64_t i = 1; i < 8; ++i) {
@@ -103,7 +103,7 @@ bool CellLevels::finer_allowed(Index3 cell, int level) const {
   for (std::int64_t z = 2 * cell.z - 1; z < 2 * cell.z + 3; ++z) {
     for (std::int64_t y = 2 * cell.y - 1; y < 2 * cell.y + 3; ++y) {
       for (std::int64_t x = 2 * cell.x - 1; x < 2 * cell.x + 3; ++x) {
-        // What is not listed lies outside the volume, or too far away to matter.
+        // A cell that is not listed lies outside the volume, or too far away to matter.
         if (!finer.cells.contains({x, y, z})) continue;
         if (finer.allowed[static_cast<std::size_t>(finer.cells.offset({x, y, z}))] == 0) {
           return false;

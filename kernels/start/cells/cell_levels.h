@@ -22,15 +22,14 @@ namespace mw {
 class CellLevels {
  public:
   /// Leaves have at most 2^max_level voxels an axis; all levels are found from the labels.
-  /// `asked`: where level_at() will be asked.
+  /// level_at() may be called for the voxels of `asked`.  Null sizes set no limits.
   /// REQUIRES: asked is at least 2^(max_level+1) - 2 voxels inside labels.box, or nearer to its
   ///           sides where they are those of the volume.
-  /// sizes: null: no limits.
   CellLevels(const LabelBox& labels, Index3 volume, const Box3& asked, int max_level,
              const SizeField* sizes = nullptr);
 
-  /// The same, with levels above 2 taken from `large`, so that 6 voxels around are enough.
-  /// REQUIRES: max_level <= 4; large is of this volume, and of the same sizes.
+  /// Takes levels above 2 from `large`, so that labels of 6 voxels around `asked` are enough.
+  /// REQUIRES: max_level <= 4; large was made for this volume and these sizes.
   CellLevels(const LabelBox& labels, Index3 volume, const Box3& asked, int max_level,
              const LevelMap& large, const SizeField* sizes = nullptr);
 
@@ -61,7 +60,7 @@ class CellLevels {
   const SizeField* sizes_;
   std::vector<Level> levels_;         ///< levels_[k - 1] holds level k
   Box3 pairs_;                        ///< cells of 2 voxels that meet `asked`
-  std::vector<std::uint8_t> leaves_;  ///< level of the leaf there
+  std::vector<std::uint8_t> leaves_;  ///< level of the leaf at each of these
 };
 
 }  // namespace mw

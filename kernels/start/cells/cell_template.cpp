@@ -57,7 +57,8 @@ void cut_corners(std::vector<CellNode>& rim, std::vector<NodeTriangle>& triangle
   rim = std::move(rest);
 }
 
-/// Where the triangles of a face without a node in its middle meet.  rim: after cut_corners().
+/// Returns the node from which the rest of a face without a node in its middle is a fan.
+/// REQUIRES: rim is what cut_corners() left.
 CellNode hub_of(const std::vector<CellNode>& rim, bool odd, CellFace face) {
   const auto has = [&](CellNode n) { return std::find(rim.begin(), rim.end(), n) != rim.end(); };
   const auto middles = std::count_if(rim.begin(), rim.end(), is_middle);
@@ -106,8 +107,8 @@ constexpr std::array<unsigned, 27> faces_by_node() {
 }
 constexpr std::array<unsigned, 27> kFacesAt = faces_by_node();
 
-/// Finds the tets between an apex and the triangles of the faces that it is not on.  False when a
-/// triangle of its own faces does not have it for a corner.
+/// Finds the tets between an apex and the triangles of the faces that it is not on.  Returns false
+/// when a triangle of its own faces does not have it as a corner.
 bool find_cone(CellNode apex, const std::vector<NodeTriangle>& surface,
                std::vector<NodeTet>& tets) {
   tets.clear();
@@ -131,7 +132,8 @@ std::vector<CellNode> middles_on(CellFace face) {
   return out;
 }
 
-/// Tets between the centre of a cell and a face, whatever hangs on that.
+/// Returns the least radius ratio of tets between a cell's centre and a face, over all sets of
+/// hanging nodes that the face can have.
 double min_behind(CellFace face, bool odd, const Metric& metric) {
   const std::vector<CellNode> middles = middles_on(face);
   double min = 1.0;

@@ -16,14 +16,13 @@ namespace mw {
 using NodeTriangle = std::array<CellNode, 3>;
 using NodeTet = std::array<CellNode, 4>;
 
-/// Triangles of a face with the given nodes; their turning is not defined.
+/// Cuts a face with the given nodes into triangles, whose orientation is not defined.
 ///
-/// A face with a node in its middle is a fan from there.  Without, corners between two middles of
-/// edges are cut off first; the rest is a fan from the lowest middle that is the only one or has
-/// one across the face, from the far corner when two middles were neighbours, or, if the face has
-/// none, two triangles joined along the diagonal of its even corners: those of even coordinate
-/// sum, counted in cells (Sec 5.1).
-/// odd: is_odd() of the cell.
+/// A face with a node in its middle is a fan from there.  From other faces, corners between two
+/// middles of edges are cut off first.  The rest is a fan from the lowest middle of an edge that is
+/// the only one or has one across the face; from the far corner, when the only two middles are on
+/// neighbouring edges; or, without middles, two triangles joined along the diagonal of the face's
+/// even corners: those of even coordinate sum, counted in cells (Sec 5.1).  odd is is_odd().
 /// ENSURES: the cell on the other side of the face finds the same triangles.
 [[nodiscard]] std::vector<NodeTriangle> face_triangles(CellNodes nodes, bool odd, CellFace face);
 
@@ -31,7 +30,7 @@ struct CellTemplate {
   /// face_triangles() of all faces, one face after the other.
   std::vector<NodeTriangle> surface;
   std::array<std::size_t, 6> ends{};  ///< where each face's triangles end
-  /// The tets of a cell of one label; their turning is not defined.
+  /// The tets of a cell of one label; their orientation is not defined.
   std::vector<NodeTet> tets;
 
   /// Triangles of one face.
@@ -40,15 +39,16 @@ struct CellTemplate {
 
 /// Cuts a cell of one label.
 ///
-/// Without hanging nodes: the five tets of Sec 5.1.  With them, all triangles of the surface are
-/// joined to an apex.  That is the node of the surface for which the worst radius ratio is best
-/// (the lowest of equals), if all triangles of its own faces meet there, and if that worst is at
-/// least 0.25, the quality floor, or what the centre gives; else the centre.  An apex on the
-/// surface spares a vertex, and with it a contraction, in 97 of 100 such cells of dense EM.
+/// A cell without hanging nodes is cut into the five tets of Sec 5.1.  In others all triangles of
+/// the surface are joined to an apex.  Candidates are the nodes of the surface at which all
+/// triangles of their own faces meet; the one with the best worst radius ratio (the lowest of
+/// equals) is the apex if that ratio is at least the larger of 0.25 and the quality floor, or at
+/// least what the centre gives.  Otherwise the centre is the apex.  An apex on the surface spares a
+/// vertex, and with it a contraction, in 97 of 100 such cells of dense EM.
 [[nodiscard]] CellTemplate cut_cell(CellNodes nodes, bool odd, const Metric& metric,
                                     double quality_floor = 0.0);
 
-/// The worst radius ratio of tets of a cell, or any lower one than `enough`.
+/// Returns the worst radius ratio of a cell's tets, or the first one below `enough`.
 [[nodiscard]] double worst_ratio(std::span<const NodeTet> tets, const Metric& metric,
                                  double enough = 0.0);
 
@@ -67,13 +67,13 @@ class CellTemplates {
 };
 
 /// The quality floor that start meshes keep, whatever the labels: the least radius ratio of the
-/// tets that they consist of.
+/// tets that they can consist of.
 ///
 /// These are finitely many up to their size: the five tets of Sec 5.1 in both patterns, and, when
 /// cells may be larger than a voxel, those between a cell's centre and a triangle of one of its
 /// faces, for every set of hanging nodes that a face can have.  Cells with an apex on their surface
 /// do not matter: cut_cell() takes one only when its tets reach the floor or those of the centre.
-/// max_level: as in StartOptions.
+/// max_level is that of StartOptions.
 /// ENSURES: no tet of graded_start() is below the floor asked of it, if that is at most the result.
 /// Cost: some 2,000 tets.
 [[nodiscard]] double min_start_ratio(const Metric& metric, int max_level);

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The mwmesh authors
 // SPDX-License-Identifier: Apache-2.0
-// Cubes by colour; candidates by count; flips until none is left; undo when the guard says no.
+// Visits cubes by colour, flips all voxels of a cube to one label, and undoes what is refused.
 #include "kernels/start/coarsen/coarsen.h"
 
 #include <algorithm>
@@ -17,7 +17,7 @@ namespace {
 
 constexpr std::int64_t kReachPerColour = 2;
 
-/// A label with fewer voxels in a cube is a thread there, which does not take the cube.
+/// A label with fewer voxels in a cube is a thread there and may not take the cube.
 constexpr std::ptrdiff_t kLeastVoxels = 3;
 
 constexpr unsigned kColours = 8;
@@ -41,7 +41,7 @@ std::vector<FaceStep> steps_to(const std::vector<VoxelFace>& faces, const Box3& 
   return out;
 }
 
-/// REQUIRES: the labels before and after cover one box.
+/// REQUIRES: `original` and `labels` cover the same box.
 class Coarsener {
  public:
   Coarsener(const LabelBox& original, LabelBox& labels, double max_distance, const SizeField* sizes)
@@ -141,8 +141,8 @@ class Coarsener {
     return is_other(v - step) && is_other(v + step);
   }
 
-  /// True for a voxel of a sheet of one voxel, which would have a notch without it: three of its
-  /// neighbours at least are as thin as it is.
+  /// True for a voxel of a sheet that is one voxel thick and would get a notch without it: at least
+  /// three of its neighbours in the sheet are as thin as it is.
   [[nodiscard]] bool is_in_sheet(Index3 v) const {
     constexpr int kInSheet = 3;
     const std::array<Index3, 3> steps{axis_vector(0), axis_vector(1), axis_vector(2)};
@@ -208,7 +208,7 @@ class Coarsener {
     return true;
   }
 
-  /// Whether a face of the input, between these labels, has a carrier (may_carry()).  Faces farther
+  /// True if a face of the input, between these labels, has a carrier (may_carry()).  Faces farther
   /// from the cube than its colour may see do not count.
   [[nodiscard]] bool has_carrier(const VoxelFace& face, Label lower, Label upper,
                                  Index3 cube) const {
@@ -234,7 +234,8 @@ class Coarsener {
   std::vector<Index3> displacements_;
 };
 
-/// The cubes whose visit can matter for the tile: what a colour sees shrinks with each colour.
+/// The box of the cubes of a colour that can matter for the tile.  It shrinks with each colour by
+/// what one visit sees.
 Box3 box_of_colour(const Box3& tile, Index3 volume, unsigned colour) {
   return intersection(grown(tile, kReachPerColour * (7 - static_cast<std::int64_t>(colour))),
                       {{0, 0, 0}, volume});
@@ -244,7 +245,7 @@ unsigned colour_of(Index3 cube) {
   return static_cast<unsigned>((cube.x >> 1 & 1) + 2 * (cube.y >> 1 & 1) + 4 * (cube.z >> 1 & 1));
 }
 
-/// Calls use(x) for the even x at which a row of cubes, from `row` on, is not of one label.
+/// Calls use(x) for each even x at which a cube has several labels, in the row of cubes from `row`.
 template <typename Use>
 void each_mixed_in_row(const Label* row, Index3 shape, std::int64_t cubes, const Use& use) {
   const Label *const y = row + shape.x, *const z = row + shape.x * shape.y, *const yz = z + shape.x;

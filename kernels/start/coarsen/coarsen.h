@@ -32,8 +32,8 @@ struct CoarsenStats {
 ///  - each of its voxels lies within D of an input voxel of that label (output to input), and
 ///  - each input face between two labels that loses its carrier finds another (input to output,
 ///    carrier_faces.h).
-/// A label of two voxels would be a thread that becomes four times as thick and touches labels that
-/// it is not near in the input; no face would draw it back from there.
+/// A label with only two voxels of the cube would be a thread that becomes four times as thick and
+/// touches labels that it is not near in the input; no face would draw it back from there.
 /// Otherwise the cube stays as it was, and so does a cube where sizes do not allow cells of twice
 /// its edge: vertices could not go back from there to where the input has the interface, as edges
 /// may not become longer on the way.
@@ -42,12 +42,11 @@ struct CoarsenStats {
 /// see each other, so the result is a local function: it depends on labels nearer than
 /// kCoarsenHalo.
 ///
-/// `labels` holds the input's labels on entry, the coarsened ones of `tile` on return; the halo is
-/// scratch.
+/// `labels` holds the input's labels on entry and the coarsened ones of `tile` on return; the halo
+/// is scratch.  sizes limit edges; null sets no limits.
 /// REQUIRES: original and labels are equal and cover the tile with its halo; tile inside the volume
 ///           with even low corner, and even high corner where that is not the volume's side.
-/// sizes: limits on edges; null: none.
-/// ENSURES: topology of every label kept; tiles fit together; statistics count cubes in the tile.
+/// ENSURES: every label keeps its topology; tiles fit together; statistics count cubes in the tile.
 CoarsenStats coarsen(const LabelBox& original, LabelBox& labels, const Box3& tile, Index3 volume,
                      double max_distance, const SizeField* sizes = nullptr);
 

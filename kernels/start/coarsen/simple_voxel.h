@@ -19,11 +19,11 @@ inline constexpr NeighbourSet kAllNeighbours =
     ((NeighbourSet{1} << 27) - 1) & ~(NeighbourSet{1} << kSelf);
 
 /// The closed cells of the voxel's surface (8 corners, 12 edges, 6 faces) that closed neighbour
-/// voxels share with it, in the same numbering: the cell towards (dx, dy, dz).
+/// voxels share with it.  The cell towards (dx, dy, dz) has the bit of that neighbour.
 [[nodiscard]] NeighbourSet covered_cells(NeighbourSet neighbours);
 
 /// True when the union of the cells is contractible: not empty, connected, Euler number 1.  A
-/// closed part of a sphere with these has no hole, and is not the sphere.
+/// closed part of a sphere with these properties has no hole, and is not the sphere.
 /// REQUIRES: cells closed (with every cell its boundary), as covered_cells() makes them.
 [[nodiscard]] bool is_contractible(NeighbourSet cells);
 
