@@ -9,6 +9,7 @@
 
 #include "engine/keep/drop_order.h"
 #include "engine/store/journal/mapped_file.h"
+#include "io/file/sink/partial_file.h"
 
 namespace mw::engine {
 namespace {
@@ -241,6 +242,7 @@ void KeptFacts::compact_log() {
     }
     compacted->sync();
     std::filesystem::rename(file, folder_.path() / kWindowsFile);
+    io::sync_folder(folder_.path());  // before places that only the old log names are used again
     log_ = std::move(compacted);
     records_ = live_;
   }

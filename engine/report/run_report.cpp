@@ -226,9 +226,13 @@ Json topology_json(const FinishedRun& run) {
 }
 
 Json certificate_json(const FinishedRun& run) {
-  if (!run.certificate) return {{"made", false}, {"why", run.why_no_certificate}};
+  const Json why_no_volumes = run.why_no_volumes.empty() ? Json() : Json(run.why_no_volumes);
+  if (!run.certificate) {
+    return {
+        {"made", false}, {"why", run.why_no_certificate}, {"volumes_not_promised", why_no_volumes}};
+  }
   return {{"made", true},
-          {"volumes_not_promised", run.why_no_volumes.empty() ? Json() : Json(run.why_no_volumes)},
+          {"volumes_not_promised", why_no_volumes},
           {"label_fingerprint", run.fingerprint},
           {"volume", run.certificate->validity.volume},
           {"box_volume", run.certificate->validity.box_volume},

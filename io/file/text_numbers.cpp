@@ -15,7 +15,7 @@ constexpr std::string_view kBlanks = " \t\r\n";
 
 template <class T>
 std::optional<T> parse(std::string_view word) {
-  if (word.starts_with('+')) word.remove_prefix(1);
+  if (word.starts_with('+') && !word.starts_with("+-")) word.remove_prefix(1);
   T number{};
   const auto [stop, verdict] = std::from_chars(word.data(), word.data() + word.size(), number);
   if (verdict != std::errc{} || stop != word.data() + word.size()) return std::nullopt;

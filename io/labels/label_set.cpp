@@ -62,12 +62,6 @@ std::vector<RawLabel> LabelSet::values() const {
   return out;
 }
 
-namespace {
-
-/// 512 KiB of raw labels: stays in a second-level cache.
-
-}  // namespace
-
 std::vector<RawLabel> labels_in(const LabelVolume& volume, const Box3& box) {
   if (box.voxels() == 0) return {};
   LabelSet set;

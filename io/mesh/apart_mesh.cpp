@@ -14,7 +14,6 @@ namespace {
 
 constexpr std::uint64_t kMaxNameBytes = 1 << 16;  ///< of one name
 constexpr std::uint64_t kMaxNames = 1 << 24;
-constexpr std::uint64_t kMaxRecordBytes = 1 << 16;
 constexpr std::uint64_t kMaxValueBytes = 1 << 12;  ///< of all names of values
 
 enum class Message : std::uint64_t { kBegin, kVertices, kTets, kValues, kFinish };

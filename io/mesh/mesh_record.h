@@ -79,6 +79,9 @@ struct MeshRecord {
   friend bool operator==(const MeshRecord&, const MeshRecord&) = default;
 };
 
+/// The most bytes of a record's text that readers take.
+inline constexpr std::size_t kMaxRecordBytes = std::size_t{1} << 24U;
+
 /// {"box": {"origin": [...], "x": [...], "y": [...], "z": [...]}, "promises": {"max_distance": 1.5,
 /// "quality_floor": 0.2, "topology": "labels", "surface": "smooth", "optimizer": "none",
 /// "periodic": "xy", "halvings": 1},

@@ -23,7 +23,7 @@ std::optional<T> parsed(std::string_view text) {
 }
 
 std::string_view without_plus(std::string_view text) {
-  return text.starts_with('+') ? text.substr(1) : text;
+  return text.starts_with('+') && !text.starts_with("+-") ? text.substr(1) : text;
 }
 
 }  // namespace

@@ -238,10 +238,11 @@ void DiskCache::keep(const ContentDigest& key, const CachedAnswer& answer) {
     if (!can_write_) return;
     unfinished += text(".", static_cast<std::int64_t>(::getpid()), "-", ++written_, kUnfinished);
   }
-  const bool is_kept = write(unfinished, answer);
   std::error_code error;
+  bool is_kept = write(unfinished, answer);
   if (is_kept) fs::rename(unfinished, path_of(key), error);
-  if (!is_kept || error) fs::remove(unfinished, error);
+  is_kept = is_kept && !error;
+  if (!is_kept) fs::remove(unfinished, error);
   const std::lock_guard lock(mutex_);
   can_write_ = can_write_ && is_kept;
   if (is_kept) count(bytes + sizeof(Tail::Bytes) + answer.version.size());

@@ -9,7 +9,6 @@
 #include <array>
 #include <charconv>
 #include <cstdlib>
-#include <cstring>
 #include <exception>
 #include <filesystem>
 #include <mutex>
@@ -18,6 +17,7 @@
 #include <vector>
 
 #include "io/file/errors.h"
+#include "io/file/text_numbers.h"
 #include "io/remote/address.h"
 
 namespace mw::io {
@@ -53,12 +53,6 @@ bool is_same_letters(std::string_view a, std::string_view b) {
   const auto small = [](char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c + 32) : c; };
   return std::equal(a.begin(), a.end(), b.begin(), b.end(),
                     [&](char x, char y) { return small(x) == small(y); });
-}
-
-std::string_view trimmed(std::string_view text) {
-  while (!text.empty() && std::strchr(" \t\r\n", text.front()) != nullptr) text.remove_prefix(1);
-  while (!text.empty() && std::strchr(" \t\r\n", text.back()) != nullptr) text.remove_suffix(1);
-  return text;
 }
 
 /// Takes a number off the front of text; false when there is none.
@@ -387,7 +381,7 @@ HttpClient::Verdict HttpClient::Exchange::judge_status() const {
   const long status = headers.status;
   const std::string reason = text("the server answers with status ", status);
   if (status == 404 || status == 410) return {};
-  if (status == 401 || status == 403 || status == 407) {
+  if (status == 401 || status == 403) {
     return Verdict::failure(
         reason + (status == 401 ? " (unauthorized)" : " (forbidden)"),
         text("let ", kAuthorizationVariable,

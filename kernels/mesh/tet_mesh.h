@@ -97,6 +97,7 @@ class TetMesh {
   [[nodiscard]] const Quadric& quadric(LocalVertex v) const { return quadrics_[v]; }
   [[nodiscard]] BoxPlanes planes(LocalVertex v) const { return planes_[v]; }
   [[nodiscard]] bool is_free(LocalVertex v) const { return free_[v] != 0; }
+  [[nodiscard]] BoxPlanes kept_planes() const { return kept_; }
   /// Is the edge in a triangle of a plane that is kept?
   [[nodiscard]] bool is_kept(LocalVertex v, LocalVertex w) const {
     return (planes_[v] & planes_[w] & kept_) != 0;

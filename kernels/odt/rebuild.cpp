@@ -74,7 +74,7 @@ void rebuild(TetMesh& mesh, CarriedSamples& samples, std::span<const LocalTet> t
     sorted.push_back(tet);
   }
   std::sort(sorted.begin(), sorted.end());
-  mesh = TetMesh(rows.vertices, sorted, box);
+  mesh = TetMesh(rows.vertices, sorted, box, mesh.kept_planes());
 }
 
 }  // namespace mw

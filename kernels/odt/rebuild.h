@@ -14,7 +14,7 @@ namespace mw {
 /// Vertices that no tet uses are dropped; samples move to the new rows.
 /// REQUIRES: box as the mesh was made with; ids of `added` are new; triangles that carry samples
 ///           still have their tet on the samples' side.
-/// ENSURES: canonical order, whatever the order of tets; no plane is kept (TetMesh).
+/// ENSURES: canonical order, whatever the order of tets; the same planes are kept (TetMesh).
 void rebuild(TetMesh& mesh, CarriedSamples& samples, std::span<const LocalTet> tets,
              std::span<const BlockVertex> added, Point box);
 

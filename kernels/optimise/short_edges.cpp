@@ -6,7 +6,7 @@ namespace mw {
 namespace {
 
 /// So heavy that shapes and surface leave no edge far below (bench/parameters.md, "Constants").
-constexpr double kWeight = 30.0;
+constexpr double kWeight = 15.0;
 /// Neighbours beyond this distance are not reckoned with: a move seldom goes that far.
 constexpr double kReach = 2.0 * kShortEdge;
 

@@ -11,10 +11,10 @@ namespace mw {
 
 /// Edges below this length are lengthened where their stars allow it; the unit is the shortest edge
 /// of a voxel (bench/parameters.md, "Constants").
-inline constexpr double kShortEdge = 0.8;
+inline constexpr double kShortEdge = 0.85;
 
 /// The cost of short edges at a vertex v, as a share of the shape energy of its star: an edge of
-/// length d below kShortEdge costs 30 (1 - d / kShortEdge)^2, and a longer one nothing.
+/// length d below kShortEdge costs 15 (1 - d / kShortEdge)^2, and a longer one nothing.
 /// Positions are offsets from where v was when its star was collected, in metric units.
 class ShortEdges {
  public:

@@ -35,18 +35,23 @@ constexpr int kHalvingsToPlane = 4;
 /// What a move of one vertex has to respect, and what it costs.
 class Mover {
  public:
-  /// surface is null where none is fitted.
-  Mover(const TetMesh& mesh, const Metric& metric, StarBatch& star, SurfaceEnergy* surface,
-        LocalVertex v, const StarShape& present, double min)
+  /// What the cost of a place is made of; surface is null where none is fitted.
+  struct Costs {
+    StarBatch& star;
+    const ShortEdges& short_edges;
+    SurfaceEnergy* surface;
+  };
+
+  Mover(const TetMesh& mesh, const Metric& metric, const Costs& costs, LocalVertex v,
+        const StarShape& present, double min)
       : mesh_(mesh),
         metric_(metric),
-        star_(star),
-        surface_(surface),
+        costs_(costs),
         v_(v),
         fixed_(fixed_axes(mesh.planes(v))),
         present_(present.energy),
         min_(min) {
-    if (surface == nullptr && mesh.on_interface(v)) {
+    if (costs.surface == nullptr && mesh.on_interface(v)) {
       const Quadric& q = mesh.quadric(v);
       quadric_limit_ = std::max(q.c, kInterfaceSlack * q.trace());
     }
@@ -80,18 +85,21 @@ class Mover {
 
   [[nodiscard]] double energy(Point x, double enough) const {
     const Vec3 at = from_start(x);
-    const double of_surface = surface_ == nullptr ? 0.0 : present_ * surface_->value_at(at);
-    return of_surface + star_.energy_at(at, min_, enough - of_surface);
+    const double of_surface = costs_.surface == nullptr ? 0.0 : costs_.surface->value_at(at);
+    const double beside = present_ * (of_surface + costs_.short_edges.value_at(at));
+    return beside + costs_.star.energy_at(at, min_, enough - beside);
   }
 
-  /// Newton's step for StarBatch::terms_at and the surface energy.  At interface vertices without a
-  /// surface energy the quadric is added instead.
+  /// Newton's step for StarBatch::terms_at, short edges and the surface energy.  At interface
+  /// vertices without a surface energy the quadric is added instead.
   [[nodiscard]] Vec3 newton_step(Point x) const {
     const Vec3 at = from_start(x);
-    StarTerms terms = star_.terms_at(at);
-    if (surface_ != nullptr) surface_->add_derivatives(at, terms.value, terms);
+    StarTerms terms = costs_.star.terms_at(at);
+    const double of_shape = terms.value;
+    if (costs_.surface != nullptr) costs_.surface->add_derivatives(at, of_shape, terms);
+    costs_.short_edges.add_derivatives(at, of_shape, terms);
     if (quadric_limit_ < kNoLimit) {
-      const double weight = kQuadricShare * terms.value / quadric_limit_;
+      const double weight = kQuadricShare * of_shape / quadric_limit_;
       const Quadric q = mesh_.quadric(v_).shifted(at);
       terms.gradient += 2.0 * weight * q.linear();
       terms.hessian += 2.0 * weight * q.matrix();
@@ -116,8 +124,7 @@ class Mover {
 
   const TetMesh& mesh_;
   const Metric& metric_;
-  StarBatch& star_;
-  SurfaceEnergy* surface_;
+  Costs costs_;
   LocalVertex v_;
   unsigned fixed_;
   double present_;
@@ -259,12 +266,15 @@ bool Smoother::smooth(LocalVertex v) {
   if (fitted) collect_surface(v);
   const double min =
       min_allowed(present.worst, fitted ? kFloorOnSurface : kDecentRatio, options_.quality_floor);
-  Mover mover(mesh_, metric_, star_, fitted ? &surface_energy_ : nullptr, v, present, min);
+  short_edges_.collect(star_);
+  Mover mover(mesh_, metric_, {star_, short_edges_, fitted ? &surface_energy_ : nullptr}, v,
+              present, min);
   const Point start = mesh_.position(v);
-  Best best{start, present.energy};
+  const double present_energy = present.energy * (1.0 + short_edges_.value_at(Vec3::Zero()));
+  Best best{start, present_energy};
   const std::optional<FlatPlane> plane = fitted ? plane_to_keep(v) : std::nullopt;
   if (plane) begin_in(*plane, mover, best);
-  const double enough = best.position == start ? (1.0 - kMinGain) * present.energy : best.energy;
+  const double enough = best.position == start ? (1.0 - kMinGain) * present_energy : best.energy;
   search(mover, best, options_.newton_steps);
   const bool folded =
       fitted && options_.surface->bend > 0.0 && surface_energy_.min_cosine() < kSharpCosine;

@@ -7,6 +7,7 @@
 
 #include "kernels/distance/distance_guard.h"
 #include "kernels/mesh/tet_mesh.h"
+#include "kernels/optimise/short_edges.h"
 #include "kernels/quality/star_batch.h"
 #include "kernels/size/edge_limits.h"
 #include "kernels/surface/flat_plane.h"
@@ -60,6 +61,7 @@ class Smoother {
   DistanceGuard* guard_;
   VolumeDebts* debts_;
   StarBatch star_;
+  ShortEdges short_edges_;
   InterfaceFan fan_;
   std::vector<FanTriangle> triangles_;  ///< at an interface vertex that is not fitted
   SurfaceStar surface_;                 ///< star of an interface vertex that is fitted

@@ -97,6 +97,12 @@ MW_WIDE void sum_terms(const std::vector<Group>& groups, std::size_t last, const
       sum(sums.xz), sum(sums.yz), sum(sums.zz);
 }
 
+/// Whether a corner of the tets is nearer than the root of `square`.
+MW_WIDE bool has_near(const Group& g, const Vec3& unit, double square) {
+  const auto [a, b, c] = corners_from(g, unit, lanes(Vec3(Vec3::Zero())));
+  return any((dot(a, a) < square) | (dot(b, b) < square) | (dot(c, c) < square));
+}
+
 /// The sum A of the four |n| lies between the root of their sum of squares and twice that, which
 /// decides most cases without a square root (reaches_ratio()).
 MW_WIDE StarVerdict judge(const Group& g, const Vec3& unit, const Vec3& x, std::int32_t without,
@@ -206,6 +212,21 @@ StarTerms StarBatch::terms_at(const Vec3& x) {
   if (groups_.empty()) return out;
   sum_terms(groups_, used_lanes(groups_.size() - 1), unit_, x, out);
   return out;
+}
+
+void StarBatch::find_near(double radius, std::vector<Vec3>& out) {
+  gather_all();
+  out.clear();
+  for (const Group& g : groups_) {
+    if (!has_near(g, unit_, radius * radius)) continue;
+    for (std::size_t i = 0; i < 3 * kLanes; ++i) {
+      const std::size_t corner = i % 3 * 3, lane = i / 3;
+      const Vec3 at = unit_.cwiseProduct(
+          Vec3(g.corners[corner][lane], g.corners[corner + 1][lane], g.corners[corner + 2][lane]));
+      if (at.squaredNorm() >= radius * radius) continue;
+      if (std::find(out.begin(), out.end(), at) == out.end()) out.push_back(at);
+    }
+  }
 }
 
 StarVerdict StarBatch::judge_at(const Vec3& x, LocalVertex without, double floor) {

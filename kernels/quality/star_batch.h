@@ -50,6 +50,10 @@ class StarBatch {
   /// free of square roots.
   [[nodiscard]] StarTerms terms_at(const Vec3& x);
 
+  /// Sets `out` to where the neighbours of v lie that are nearer to it than `radius`: each once, in
+  /// the order of the tets.
+  void find_near(double radius, std::vector<Vec3>& out);
+
   /// Whether all tets without the vertex `without` reach radius ratio `floor`, up to rounding in
   /// the last digits; inverted ones are found only up to rounding.  The tets that failed last are
   /// looked at first, because they are likely to fail again, and the first fault found is returned.

@@ -35,12 +35,12 @@ void require_output_apart(const MeshRequest& request) {
   for (const fs::path& output : outputs_of(request)) {
     if (is_same_file(request.volume.path, output)) refuse("-o", output, "this is the input");
     if (is_same_file(request.volume.names, output)) refuse("-o", output, "this is --names");
-  }
-  for (const std::string& table : request.size_tables) {
-    if (is_same_file(table, request.output)) refuse("-o", request.output, "this is --size");
-  }
-  for (const engine::SampleImage& sample : request.job.samples) {
-    if (is_same_file(sample.file, request.output)) refuse("-o", request.output, "this is --sample");
+    for (const std::string& table : request.size_tables) {
+      if (is_same_file(table, output)) refuse("-o", output, "this is --size");
+    }
+    for (const engine::SampleImage& sample : request.job.samples) {
+      if (is_same_file(sample.file, output)) refuse("-o", output, "this is --sample");
+    }
   }
 }
 
@@ -83,7 +83,8 @@ using Named = std::pair<std::string, fs::path>;
 std::vector<Named> files_of(const MeshRequest& request) {
   std::vector<Named> out{{"the input", request.volume.path}, {"--names", request.volume.names},
                          {"--report", request.report},       {"--html", request.html},
-                         {"--trace", request.trace},         {"--pairs", request.extras.pairs}};
+                         {"--trace", request.trace},         {"--delta", request.delta},
+                         {"--pairs", request.extras.pairs}};
   for (const std::string& table : request.size_tables) out.emplace_back("--size", table);
   for (const engine::SampleImage& sample : request.job.samples) {
     out.emplace_back("--sample", sample.file);

@@ -88,8 +88,9 @@ Verdict volume_verdict(const Json& report) {
   const double worst = shape["volume_error_max_abs"].number();
   const std::string evidence = "off by " + percent(worst, 2) + " at most (label " +
                                shape["volume_error_worst_label"].dump() + "), 5 % allowed";
-  if (report["settings"]["surface"] != "smooth") {
-    return unchecked("P8", kPromise, evidence + "; not promised with --surface voxel");
+  const Json& why_not = report["certificate"]["volumes_not_promised"];
+  if (!why_not.is_null()) {
+    return unchecked("P8", kPromise, evidence + "; not promised with " + why_not.text());
   }
   return judged("P8", kPromise, worst <= kAllowed, evidence);
 }
@@ -171,9 +172,9 @@ std::vector<BarRow> memory_rows(const Json& purposes) {
 }
 
 /// Returns whether an option of the input is not given, or is given as its default.
-bool is_fallback(const Json& value) {
-  return value.is_null() || (value.is_boolean() && !value.boolean()) || value == "file" ||
-         value == "labels";
+bool is_fallback(const std::string& key, const Json& value) {
+  return value.is_null() || (value.is_boolean() && !value.boolean()) ||
+         (key == "frame" && value == "file") || (key == "values" && value == "labels");
 }
 
 std::string facts_table(const std::vector<std::array<std::string, 2>>& rows) {
@@ -195,7 +196,7 @@ std::string verify_command(const Json& report) {
   std::string out = "mwmesh verify " + quoted(flag_text(settings["input"])) + " " +
                     quoted(flag_text(settings["output"]));
   for (const std::string key : kNeeded) {
-    if (!settings.contains(key) || is_fallback(settings[key])) continue;
+    if (!settings.contains(key) || is_fallback(key, settings[key])) continue;
     std::string flag = key;
     std::replace(flag.begin(), flag.end(), '_', '-');
     out += " --" + flag;

@@ -191,6 +191,7 @@ void AtomicFolder::commit() {
   if (std::rename(partial_.c_str(), target_.c_str()) != 0) {
     fail_output(target_.string(), "rename to", errno);
   }
+  sync_folder(folder_of(target_));
   committed_ = true;
   lock_ = FileDescriptor();
 }

@@ -41,12 +41,14 @@ bool ByteCursor::read(std::span<std::byte> out) {
 bool ByteCursor::read_line(std::string& out, std::size_t max) {
   out.clear();
   if (peek() < 0) return false;
-  for (int c = peek(); c >= 0 && out.size() < max; c = peek()) {
+  bool is_whole = false;
+  for (int c = peek(); c >= 0 && !is_whole && out.size() < max; c = peek()) {
     take();
-    if (c == '\n') break;
-    out.push_back(static_cast<char>(c));
+    is_whole = c == '\n';
+    if (!is_whole) out.push_back(static_cast<char>(c));
   }
-  if (out.ends_with('\r')) out.pop_back();
+  is_whole = is_whole || peek() < 0;
+  if (is_whole && out.ends_with('\r')) out.pop_back();
   return true;
 }
 

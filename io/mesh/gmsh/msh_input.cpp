@@ -8,13 +8,13 @@
 
 #include "io/file/errors.h"
 #include "io/file/text_numbers.h"
+#include "io/mesh/mesh_record.h"
 
 namespace mw::io {
 namespace {
 
-/// No number and no line is that long; the bounds keep memory small on other files.
+/// No number is that long; the bound keeps memory small on other files.
 constexpr std::size_t kMaxWordBytes = 256;
-constexpr std::size_t kMaxLineBytes = 1 << 13;
 
 bool is_blank(int c) {
   return c == ' ' || (c >= '\t' && c <= '\r');
@@ -30,7 +30,7 @@ void MshInput::set_binary(ByteOrder order) {
 std::string_view MshInput::next_line(std::string_view expected) {
   do {
     line_ = cursor_.line();
-    if (!cursor_.read_line(text_, kMaxLineBytes)) {
+    if (!cursor_.read_line(text_, kMaxRecordBytes)) {
       text_.clear();
       fail_word(expected);
     }

@@ -8,6 +8,7 @@
 #include <cstdio>
 #include <string>
 
+#include "io/file/errors.h"
 #include "kernels/core/assert.h"
 
 namespace mw::io {
@@ -30,6 +31,16 @@ namespace mw::io {
   const std::size_t sign = out.find('E') + 1;
   if (out.size() - sign - 1 < exponent) out.insert(sign + 1, "0");
   return std::string(columns > out.size() ? columns - out.size() : 0, ' ') + out;
+}
+
+/// Returns a coordinate like fixed_real(), which needs no more than these columns.
+/// ERRORS: mw::Error(kUsage) naming the file where the exponent is too large for them.
+[[nodiscard]] inline std::string fixed_coordinate(std::string_view file, double value,
+                                                  std::size_t columns, int digits) {
+  std::string out = fixed_real(value, columns, digits);
+  if (out.size() <= columns) return out;
+  throw Error(ErrorKind::kUsage, text(file, ": ", value, " has too large an exponent for ", columns,
+                                      " columns; choose another unit or format"));
 }
 
 }  // namespace mw::io

@@ -61,10 +61,11 @@ std::vector<std::uint64_t> face_rows(GroupedMesh& mesh, unsigned axes) {
   return rows;
 }
 
-/// The places of nodes along an axis in ascending order, each once.
+/// The low face and the places of nodes along an axis in ascending order, each once.
 class PlaceList {
  public:
   explicit PlaceList(std::vector<double> shares) {
+    shares.push_back(0.0);
     std::sort(shares.begin(), shares.end());
     for (const double share : shares) {
       if (places_.empty() || share - last_ > kSame) places_.push_back(share);

@@ -65,14 +65,7 @@ void LsdynaWriter::write_nodes(GroupedMesh& mesh) {
   line("*NODE");
   for (std::uint64_t row = 0; row < mesh.node_count(); ++row) {
     std::string out = fixed_integer(row + 1, kShort);
-    for (const double x : mesh.node(row)) {
-      const std::string number = fixed_real(x, kColumns, kDigits);
-      if (number.size() > kColumns) {
-        throw Error(ErrorKind::kUsage, text(name_, ": ", x, " has too large an exponent for 16 ",
-                                            "columns; choose another unit or format"));
-      }
-      out += number;
-    }
+    for (const double x : mesh.node(row)) out += fixed_coordinate(name_, x, kColumns, kDigits);
     line(out);
   }
 }

@@ -13,6 +13,7 @@
 #include "io/file/errors.h"
 #include "io/file/source/byte_source.h"
 #include "io/mesh/medit/medit.h"
+#include "io/mesh/mesh_record.h"
 
 namespace mw::io {
 namespace {
@@ -20,14 +21,13 @@ namespace {
 constexpr std::uint64_t kBufferBytes = 1 << 20;
 /// No number or keyword is that long; the bound keeps memory small on binary files.
 constexpr std::size_t kMaxWordBytes = 256;
-constexpr std::size_t kMaxCommentBytes = 1 << 13;
 
 bool is_blank(int c) {
   return c == ' ' || (c >= '\t' && c <= '\r');
 }
 
 std::string_view without_plus(std::string_view word) {
-  return word.starts_with('+') ? word.substr(1) : word;
+  return word.starts_with('+') && !word.starts_with("+-") ? word.substr(1) : word;
 }
 
 template <class T>
@@ -95,7 +95,7 @@ void TokenScanner::skip_comment() {
   std::string comment;
   ++at_;
   for (int c = peek(); c >= 0 && c != '\n'; c = peek()) {
-    if (comment.size() < kMaxCommentBytes) comment.push_back(static_cast<char>(c));
+    if (comment.size() < kMaxRecordBytes) comment.push_back(static_cast<char>(c));
     ++at_;
   }
   if (take_comment_) take_comment_(comment);

@@ -3,10 +3,8 @@
 // Cards are those of the MSC Nastran Quick Reference Guide.
 #include "io/mesh/nastran/bdf_writer.h"
 
-#include <array>
-#include <cstdio>
-
 #include "io/file/errors.h"
+#include "io/mesh/grouped/fixed_fields.h"
 #include "io/mesh/grouped/group_names.h"
 #include "kernels/core/error.h"
 
@@ -16,6 +14,7 @@ namespace {
 constexpr std::int64_t kMaxNumber = 99'999'999;
 constexpr std::size_t kColumns = 72;      // in a line of the case control
 constexpr std::size_t kFieldColumns = 8;  // in a small field
+constexpr int kDigits = 9;                // behind the point of a coordinate
 
 /// Returns the text at the left of a field, which has room for it.
 std::string field(std::string text, std::size_t columns = kFieldColumns) {
@@ -25,13 +24,6 @@ std::string field(std::string text, std::size_t columns = kFieldColumns) {
 
 std::string number_field(std::uint64_t number, std::size_t columns = kFieldColumns) {
   return field(std::to_string(number), columns);
-}
-
-/// Returns a number in 16 columns, or in 17 where it is negative with three digits of exponent.
-std::string real_field(double value) {
-  std::array<char, 32> out{};
-  std::snprintf(out.data(), out.size(), "%16.9E", value);
-  return out.data();
 }
 
 }  // namespace
@@ -79,9 +71,12 @@ void BdfWriter::write_set(GroupedMesh& mesh, std::size_t number, const NamedFace
 void BdfWriter::write_nodes(GroupedMesh& mesh) {
   for (std::uint64_t row = 0; row < mesh.node_count(); ++row) {
     const Position p = mesh.node(row);
+    const auto coordinate = [&](std::size_t axis) {
+      return fixed_coordinate(name_, p[axis], 2 * kFieldColumns, kDigits);
+    };
     line(field("GRID*") + number_field(row + 1, 2 * kFieldColumns) + field("", 2 * kFieldColumns) +
-         real_field(p[0]) + real_field(p[1]) + "*");
-    line(field("*") + real_field(p[2]));
+         coordinate(0) + coordinate(1) + "*");
+    line(field("*") + coordinate(2));
   }
 }
 

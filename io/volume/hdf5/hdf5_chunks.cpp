@@ -201,7 +201,7 @@ std::uint64_t max_unfilter_scratch(const std::vector<Hdf5Filter>& filters, std::
 
 namespace {
 
-constexpr std::uint64_t kMaxChunkBytes = UINT32_MAX;
+constexpr std::uint64_t kMaxHdf5ChunkBytes = UINT32_MAX;
 
 /// Returns how many elements apart neighbours along an axis of the array are in a chunk.
 std::int64_t stride_of(const Hdf5Description& description, std::optional<std::size_t> axis) {
@@ -214,10 +214,10 @@ std::int64_t stride_of(const Hdf5Description& description, std::optional<std::si
 }
 
 /// Returns the bytes of the voxels of a chunk.
-std::size_t checked_chunk_bytes(const Hdf5Description& description, std::string_view file) {
+std::size_t bytes_of_chunk(const Hdf5Description& description, std::string_view file) {
   auto bytes = static_cast<std::uint64_t>(byte_size(description.type));
   for (const std::uint64_t extent : description.chunk_shape) {
-    if (__builtin_mul_overflow(bytes, extent, &bytes) || bytes > kMaxChunkBytes) {
+    if (__builtin_mul_overflow(bytes, extent, &bytes) || bytes > kMaxHdf5ChunkBytes) {
       fail_input(file, text("data set ", description.path),
                  text("a chunk of ", shape_text(description.chunk_shape), " of ",
                       name(description.type), " is above 4 GiB, the most of HDF5"),
@@ -236,7 +236,7 @@ Hdf5Chunks::Hdf5Chunks(std::unique_ptr<ByteSource> source, Hdf5Description descr
       axes_(axes),
       strides_{stride_of(description_, axes[0]), stride_of(description_, axes[1]),
                stride_of(description_, axes[2])},
-      chunk_bytes_(checked_chunk_bytes(description_, source_->name())) {}
+      chunk_bytes_(bytes_of_chunk(description_, source_->name())) {}
 
 std::string Hdf5Chunks::name_of(Index3 chunk) const {
   return text(source_->name(), ": data set ", description_.path, ": chunk (", chunk.x, ", ",

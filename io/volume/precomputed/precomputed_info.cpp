@@ -73,7 +73,7 @@ VoxelType type_of(const JsonFields& info) {
   const auto known = parse_store_type(type);
   if (known) return *known;
   info.fail("data_type", text("unsupported type '", type, "'"),
-            "supported are uint8 to uint64, int8 to int64 and float32");
+            "supported are uint8 to uint64, int8 to int64, float32 and float64");
 }
 
 Index3 offset_of(const JsonFields& fields) {

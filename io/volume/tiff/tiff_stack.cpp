@@ -60,8 +60,9 @@ TiffStack::TiffStack(std::vector<std::filesystem::path> files)
     : files_(std::move(files)), name_(files_.front().parent_path().string()) {
   for (const std::filesystem::path& path : files_) {
     const TiffHandle handle(open_file(path));
+    const std::size_t before = positions_.size();
     add_page(handle, "page 1");
-    if (TIFFLastDirectory(handle.get()) == 0 || positions_.empty()) {
+    if (TIFFLastDirectory(handle.get()) == 0 || positions_.size() == before) {
       fail_input(path.string(), "pages", "it has several, or none that is a slice",
                  "a folder's files are one slice each: give a file of many pages by its name");
     }

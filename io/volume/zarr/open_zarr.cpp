@@ -198,8 +198,13 @@ std::unique_ptr<LabelVolume> open_zarr(const Place& folder, const OpenOptions& o
 
 std::size_t count_zarr_scales(const Place& folder, const OpenOptions& options) {
   const auto path = path_in_store(folder, options.dataset);
-  const auto node = path ? read_zarr_node(*path) : std::nullopt;
-  if (!node || node->is_array || !has_multiscale(node->attributes)) return 1;
+  auto node = path ? read_zarr_node(*path) : std::nullopt;
+  while (node && !node->is_array && !has_multiscale(node->attributes)) {
+    const std::vector<std::string> volumes = volumes_below(node->folder);
+    if (volumes.size() != 1) return 1;
+    node = read_zarr_node(node->folder / volumes[0]);
+  }
+  if (!node || node->is_array) return 1;
   return parse_multiscale(node->attributes, node->attributes_file).levels.size();
 }
 

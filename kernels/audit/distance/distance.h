@@ -66,7 +66,7 @@ struct DistanceReport {
 /// of the boundaries of kept labels too.  They are also samples of kLeftOut, whose distances to the
 /// faces of labels that were left out are measured.  In the other direction nothing is measured.
 /// REQUIRES: as voxel_betti and mesh_betti; finite vertices; positive spacing.
-/// Errors: kInput when the mesh is none, kResource from 2^20 voxels along an axis on.
+/// Errors: kInput when the mesh is none, kResource for more than 2^20 voxels along an axis.
 /// Cost: see measure_distances().  Deterministic, one thread.
 [[nodiscard]] DistanceReport measure_distance(const VoxelLabels& volume, std::size_t label_count,
                                               const AuditMesh& mesh, const Frame& frame,

@@ -12,12 +12,10 @@
 namespace mw::audit {
 namespace {
 
-constexpr std::int64_t kLongestAxis = std::int64_t{1} << 20;
-
 void require_countable(Index3 shape) {
-  if (std::max({shape.x, shape.y, shape.z}) < kLongestAxis) return;
+  if (std::max({shape.x, shape.y, shape.z}) <= kMaxAxisVoxels) return;
   throw Error(ErrorKind::kResource,
-              "audit: 2^20 voxels or more along an axis; audit parts, or without the distance");
+              "audit: more than 2^20 voxels along an axis; audit parts, or without the distance");
 }
 
 bool is_interface(Label a, Label b) {

@@ -28,7 +28,7 @@ struct VoxelFace {
 [[nodiscard]] LabelPair labels_of(const VoxelFace& face, const VoxelLabels& volume);
 
 /// Every face between two labels, in the order of a space-filling curve.
-/// Errors: kResource from 2^20 voxels along an axis on, or from 2^32 - 1 faces on.
+/// Errors: kResource for more than 2^20 voxels along an axis, or from 2^32 - 1 faces on.
 [[nodiscard]] std::vector<VoxelFace> interface_faces(const VoxelLabels& volume);
 
 /// A corner of voxels where labels meet, with the labels of the eight voxels around it: bit k of an

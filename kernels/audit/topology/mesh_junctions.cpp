@@ -97,7 +97,6 @@ class MeshJunctionSweep {
   BoxCells box_;
   JunctionSweep sweep_;
   std::size_t next_box_edge_ = 0;
-  std::vector<FaceSide> sides_;
   std::vector<Label> labels_;
   std::vector<std::pair<std::uint64_t, Label>> edges_;
 };

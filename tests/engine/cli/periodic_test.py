@@ -86,6 +86,12 @@ class Periodic(unittest.TestCase):
         self.mesh("large.npy", "xyz")
         self.check("m.vtu", "xyz")
 
+    def test_inner_vertices(self):
+        for axes in ("x", "xyz"):
+            with self.subTest(axes):
+                self.mesh("grains.npy", axes, "m.vtu", "--inner-vertices")
+                self.check("m.vtu", axes)
+
     def test_noise(self):
         np.save("noise.npy", np.random.default_rng(3).integers(0, 3, (12, 16, 10)).astype(np.uint8))
         self.mesh("noise.npy", "xyz")
