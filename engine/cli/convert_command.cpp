@@ -62,10 +62,10 @@ std::unique_ptr<io::MeshSink> open_output(const ConvertJob& job) {
                 job.to.string() + ": a mesh in pieces; say how many with --pieces N");
   }
   if (job.extras.encoding == io::Encoding::kText || job.extras.materials || job.extras.deck ||
-      job.element != io::Element::kTet4) {
-    throw Error(ErrorKind::kUsage,
-                job.to.string() +
-                    ": pieces are written with tet4 only, in one way, without materials and deck");
+      job.element != io::Element::kTet4 || !job.extras.pairs.empty()) {
+    throw Error(ErrorKind::kUsage, job.to.string() +
+                                       ": pieces are written with tet4 only, in one way, without "
+                                       "--materials, --deck and --pairs");
   }
   return io::open_mesh_pieces(job.to, job.pieces);
 }

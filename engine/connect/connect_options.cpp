@@ -56,6 +56,7 @@ SplitRule ConnectOptions::all_split() const {
   out.all = out.all || cohesive.all;
   for (const auto& [bottom, top] : cohesive.pairs) out.pairs.emplace_back(std::minmax(bottom, top));
   std::sort(out.pairs.begin(), out.pairs.end());
+  out.pairs.erase(std::unique(out.pairs.begin(), out.pairs.end()), out.pairs.end());
   return out;
 }
 

@@ -9,6 +9,7 @@
 #include "engine/report/mesh_facts.h"
 #include "engine/settings/promises.h"
 #include "engine/verify/verify_mesh.h"
+#include "io/file/text_numbers.h"
 #include "kernels/core/error.h"
 
 namespace mw::engine {
@@ -39,7 +40,7 @@ std::string obstacle(const MeshJob& job) {
            "verify the file";
   }
   if (job.run.store.memory / 4 < kShared + kPerThread) {
-    return "needs --memory " + report::format_bytes(4 * (kShared + kPerThread)) + " or more";
+    return "needs --memory " + io::mebibytes(4 * (kShared + kPerThread)) + " or more";
   }
   return "";
 }

@@ -63,6 +63,18 @@ class CountedVolume : public io::VolumeView {
   mutable std::atomic<std::uint64_t> voxels_ = 0;
 };
 
+/// Throws if a box has no voxel of the volume: what it was to say is not known then.
+void check_changed(const std::vector<Box3>& changed, Index3 shape) {
+  for (const Box3& box : changed) {
+    if (!is_empty(intersection(box, {{0, 0, 0}, shape}))) continue;
+    throw Error(ErrorKind::kUsage,
+                io::text("--changed: the box from ", box.lo.x, ",", box.lo.y, ",", box.lo.z, " to ",
+                         box.hi.x, ",", box.hi.y, ",", box.hi.z, " has no voxel of the ", shape.x,
+                         " x ", shape.y, " x ", shape.z,
+                         " that are meshed: give the first voxel, and the one behind the last"));
+  }
+}
+
 /// The labels of a run that keeps something, and those that it leaves for the next one.  With
 /// several processes the one that speaks leaves them.
 class KeptInput {
@@ -73,10 +85,12 @@ class KeptInput {
     const KeepOptions& options = job.run.keep;
     const bool speaks = job.run.processes == nullptr || job.run.processes->speaks();
     if (options.folder.empty() || !speaks) return;
+    check_changed(options.changed, opened.info().shape);
     folder_ = std::make_shared<KeepFolder>(options.folder, options.use);
     open_before(job);
     std::vector<Box3> changed{{{0, 0, 0}, opened.info().shape}};
-    const bool is_patched = before_ && !options.changed.empty();
+    const bool reads_all = job.certify == Certify::kOn;  // it vouches for the whole input
+    const bool is_patched = before_ && !options.changed.empty() && !reads_all;
     if (is_patched) changed = options.changed;
     changed = folder_->begin_change(changed);
     if (is_patched) patched_.emplace(counted_, *before_, std::move(changed));
@@ -208,6 +222,14 @@ std::optional<SizeImage> size_image(const io::VolumeInfo& labels, const MeshJob&
   throw Error(ErrorKind::kUsage, "size: the image " + file + " was not opened");
 }
 
+/// Returns the smallest size of an image.  ERRORS: mw::Error(kInput) if it asks for none.
+double least_size_of(const SizeImage& image, const MeshJob& job) {
+  const double least = image.least();
+  if (std::isfinite(least)) return least;
+  io::fail_input(job.settings.sizes.rules.image, {}, "has no positive number, so no size is asked",
+                 "give edge lengths where they matter, and 0 elsewhere");
+}
+
 /// Returns the room to read the volume, beside the program and the preparation of labels.
 ReadingRoom reading_room(const MeshJob& job, bool has_scores = false) {
   const Processes* const processes = job.run.processes;
@@ -283,8 +305,9 @@ report::FinishedRun mesh(const io::LabelVolume& opened, const MeshJob& asked, io
   const CertificatePlan plan = plan_certificate(job);
   const report::ResourceMeter meter;
   std::optional<SizeImage> sizes = size_image(opened.info(), job);
-  const int halvings = halvings_of(
-      opened.info(), asked, sizes ? sizes->least() : std::numeric_limits<double>::infinity());
+  const int halvings =
+      halvings_of(opened.info(), asked,
+                  sizes ? least_size_of(*sizes, job) : std::numeric_limits<double>::infinity());
   job.settings.sizes = before_halvings(asked.settings.sizes, halvings);
   check(opened.info(), job.settings);
   check_keep(job.run, job.settings);

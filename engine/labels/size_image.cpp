@@ -13,18 +13,33 @@
 
 namespace mw::engine {
 
+namespace {
+
+/// Returns whether both files say where they lie in the world, and not in the same place.
+bool is_elsewhere(const io::VolumeSpace& image, const io::VolumeSpace& labels) {
+  const bool both_tell =
+      image.frame != io::WorldFrame::kOwn && labels.frame != io::WorldFrame::kOwn;
+  return both_tell && !is_same_place(in_frame(image, labels.frame), labels);
+}
+
+}  // namespace
+
 SizeImage::SizeImage(const io::LabelVolume& image, const io::VolumeInfo& labels, std::string file)
     : numbers_(dynamic_cast<const io::NumberVolume*>(&image)), shape_(image.info().shape) {
   if (numbers_ == nullptr) {
     io::fail_input(file, {}, "numbers of a " + image.info().format + " file are not read here",
                    "give sizes as .npy, NIfTI, NRRD or MetaImage, and the whole grid");
   }
-  if (shape_ == labels.shape) return;
   const Index3 &a = shape_, &b = labels.shape;
-  io::fail_input(file, {},
-                 io::text("has ", a.x, " x ", a.y, " x ", a.z, " voxels, the labels have ", b.x,
-                          " x ", b.y, " x ", b.z),
-                 "give a size for each voxel of the labels");
+  if (a != b) {
+    io::fail_input(file, {},
+                   io::text("has ", a.x, " x ", a.y, " x ", a.z, " voxels, the labels have ", b.x,
+                            " x ", b.y, " x ", b.z),
+                   "give a size for each voxel of the labels");
+  }
+  if (!is_elsewhere(image.info().space, labels.space)) return;
+  io::fail_input(file, {}, "lies elsewhere in the world than the labels, by what the files say",
+                 "resample it onto the grid of the labels, or save it as .npy if it is on it");
 }
 
 SizeImage SizeImage::scaled(double factor) const {

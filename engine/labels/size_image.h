@@ -17,7 +17,8 @@ namespace mw::engine {
 class SizeImage {
  public:
   /// labels describes the volume that is meshed.
-  /// ERRORS: mw::Error(kInput) when the image has another shape, or is of a format whose numbers
+  /// ERRORS: mw::Error(kInput) when the image has another shape or lies elsewhere in the world, or
+  /// is of a format whose numbers
   ///         are not read here.
   SizeImage(const io::LabelVolume& image, const io::VolumeInfo& labels, std::string file);
   /// Returns the image with each size multiplied.

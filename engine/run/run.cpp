@@ -191,16 +191,26 @@ ProcessFacts facts_of(const MemoryBudget& budget, std::uint64_t windows) {
   return out;
 }
 
+/// Settles what is kept for later runs.
+void finish_keep(RunContext& run) {
+  if (run.keep == nullptr) return;
+  try {
+    run.part->finish_keep(*run.keep);
+  } catch (const DamagedWork&) {
+    throw;
+  } catch (const Error& error) {
+    throw Error(error.kind(), std::string(error.what()) + "; the mesh is complete all the same");
+  }
+  run.report.keep = run.keep->facts();
+}
+
 void go(RunContext& run) {
   ReadyLabels labels;
   prepare(run, labels);
   RunForecast forecast(labels.counts().faces, run.layout, run.settings, run.hooks.threads);
   const std::uint64_t windows = march(run, labels, forecast);
   write(run, labels.counts(), forecast);
-  if (run.keep != nullptr) {
-    run.part->finish_keep(*run.keep);
-    run.report.keep = run.keep->facts();
-  }
+  finish_keep(run);
   if (run.hooks.store.stays) run.report.work = run.part->keep_for_rest(run.store);
   run.report.processes = run.part->end(facts_of(run.budget, windows));
   run.report.memory_budget_bytes = run.budget.limit();

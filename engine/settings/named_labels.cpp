@@ -28,11 +28,18 @@ bool is_name(std::string_view token) {
          !(begins_like_a_number(token) && read_all(token, number));
 }
 
-/// Returns where the part of the text that begins at `at` ends.
+/// Returns where the part of the text that begins at `at` ends.  Names in quotes, which may follow
+/// '|', can have separators in them.
 std::size_t end_of(std::string_view text, std::size_t at) {
-  const char* const separators = text[at] == '@' ? "," : ",;=";
-  if (text[at] == '"') at = std::min(text.find('"', at + 1), text.size());
-  return std::min(text.find_first_of(separators, at), text.size());
+  const bool is_file = text[at] == '@';
+  const std::string_view separators = is_file ? "," : ",;=";
+  bool may_quote = !is_file;
+  for (; at < text.size(); ++at) {
+    if (may_quote && text[at] == '"') at = std::min(text.find('"', at + 1), text.size() - 1);
+    if (separators.find(text[at]) != separators.npos) return at;
+    may_quote = !is_file && (text[at] == '|' || (may_quote && text[at] == ' '));
+  }
+  return at;
 }
 
 /// Returns the text with what `number` returns in the place of each name.
@@ -100,7 +107,12 @@ std::vector<RawLabel> labels_called(const std::string& name, const io::LabelName
 }
 
 bool is_quoted(std::string_view token) {
-  return token.size() >= 2 && token.starts_with('"') && token.ends_with('"');
+  return token.size() >= 2 && token.starts_with('"') && token.find('"', 1) == token.size() - 1;
+}
+
+/// Returns where the '|' of a pair is, behind a first name that may be in quotes.
+std::size_t bar_of(std::string_view token) {
+  return token.find('|', token.starts_with('"') ? std::min(token.find('"', 1), token.size()) : 0);
 }
 
 std::string name_in(std::string_view token) {
@@ -117,9 +129,10 @@ RawLabel label_called(std::string_view token, const io::LabelNames& names, bool 
 }
 
 /// Returns text that parse_label() reads, with a sign where the number has one.
-std::string number_of(std::string_view token, const io::LabelNames& names) {
+std::string number_of(std::string_view text, const io::LabelNames& names) {
+  const std::string_view token = io::trimmed(text);
   const bool is_known = !labels_called(name_in(token), names).empty();
-  const std::size_t bar = token.find('|');
+  const std::size_t bar = bar_of(token);
   if (!is_known && !is_quoted(token) && bar != token.npos) {
     return number_of(token.substr(0, bar), names) + "|" + number_of(token.substr(bar + 1), names);
   }

@@ -92,8 +92,8 @@ struct MeshFiles {
 std::unique_ptr<io::LabelVolume> open_sizes(const MeshRequest& request) {
   const std::string& image = request.job.settings.sizes.rules.image;
   if (image.empty()) return nullptr;
-  // The image is on the grid of the labels, wherever its own file says that it lies.
-  return io::open_volume(image, {.spacing = open_options(request.volume).spacing});
+  const io::OpenOptions labels = open_options(request.volume);
+  return io::open_volume(image, {.spacing = labels.spacing, .origin = labels.origin});
 }
 
 /// Opens the images that tets get values from.
@@ -205,6 +205,17 @@ int threads_at_hand(int asked) {
   return given;
 }
 
+void write_delta(const MeshRequest& request, const report::FinishedRun& run, io::AtomicFile& file) {
+  try {
+    file.append(run.delta.value().dump_indented() + "\n");
+    file.commit();
+  } catch (const Error& error) {
+    throw Error(error.kind(), io::text(error.what(), "; ", request.from.string(),
+                                       " has the new labels now, so what changed cannot be told "
+                                       "again"));
+  }
+}
+
 /// Writes what follows once the mesh is complete; each file adds its name to `complete`.
 void write_side_files(const MeshRequest& request, report::FinishedRun& run, MeshFiles& files,
                       const OptionSet& options, std::vector<std::string>& complete) {
@@ -223,8 +234,7 @@ void write_side_files(const MeshRequest& request, report::FinishedRun& run, Mesh
     complete.push_back(request.report.string());
   }
   if (files.delta) {
-    files.delta->append(run.delta.value().dump_indented() + "\n");
-    files.delta->commit();
+    write_delta(request, run, *files.delta);
     complete.push_back(request.delta.string());
   }
   if (!files.html) return;

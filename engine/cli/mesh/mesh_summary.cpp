@@ -61,12 +61,15 @@ void print_count(const report::FinishedRun& run) {
   std::cout << "\n";
   if (count.is_least) {
     log_warning(io::text("--count ", count.asked, ": fewer tets than ", run.engine.tets,
-                         " cannot be had within the bounds on distance, topology and shapes; raise "
-                         "--max-distance, or lower --quality-floor"));
+                         " cannot be had within the bounds on distance, topology and shapes",
+                         run.sizes.across > 0
+                             ? " with this --across; lower it"
+                             : "; raise --max-distance, or lower --quality-floor"));
   }
   if (count.is_most) {
-    log_warning(io::text("--count ", count.asked, ": more tets than ", run.engine.tets,
-                         " cannot be had from voxels of this size"));
+    log_warning(
+        io::text("--count ", count.asked, ": more tets than ", run.engine.tets,
+                 " cannot be had without cutting tets, which only --size does; ask for a size"));
   }
 }
 

@@ -63,7 +63,9 @@ class InpWriter::NumberRows {
 
 void InpWriter::write(GroupedMesh& mesh) {
   check_counts(mesh);
-  PlainNames names(mesh);
+  if (rule_) materials_.emplace(mesh, *rule_);
+  PlainNames names(mesh,
+                   {.reserved = materials_ ? materials_->names() : std::vector<std::string>{}});
   write_head(mesh, names);
   write_nodes(mesh);
   for (Label rank = 0; rank < mesh.table().size(); ++rank) {
@@ -78,7 +80,6 @@ void InpWriter::write(GroupedMesh& mesh) {
     write_surface(mesh, set.name, set.group.facets, false);
     if (!set.other.empty()) write_surface(mesh, set.other, set.group.facets, true);
   }
-  if (rule_) materials_.emplace(mesh, *rule_);
   if (rule_) write_materials();
   if (has_deck_ && mesh.tet_count() > 0) write_deck(mesh, names);
   line(kInpEnds);

@@ -95,6 +95,7 @@ PlainNames::PlainNames(const GroupedMesh& mesh, const NameRule& rule) : rule_(ru
   for (std::size_t side = 0; side < kSides; ++side) {
     taken_.insert(in_capitals(side_name(static_cast<Side>(side))));
   }
+  for (const std::string& name : rule.reserved) taken_.insert(in_capitals(name));
   name_volumes(mesh);
   for (const FacetGroup& group : mesh.facet_groups()) {
     if (group.side != Side::kInterface) continue;

@@ -48,6 +48,7 @@ inline constexpr std::string_view kWedgeNames = "COHESIVE_";
 struct NameRule {
   std::size_t max_bytes = 80;
   bool allows_dash = true;
+  std::vector<std::string> reserved{};  ///< names of something else
 };
 
 /// Names for programs that allow only letters, digits, '_' and perhaps '-', a letter first, up to

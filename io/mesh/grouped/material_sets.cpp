@@ -80,6 +80,12 @@ std::string MaterialSets::name(std::uint32_t material) const {
   return text(rule_.values, "_", material);
 }
 
+std::vector<std::string> MaterialSets::names() const {
+  std::vector<std::string> out;
+  for (std::uint32_t m = 1; m <= count(); ++m) out.push_back(name(m));
+  return out;
+}
+
 void MaterialSets::append_table(AtomicFile& file) const {
   file.append(std::string_view("material,set,from,to,mean,tets,volume\n"));
   for (std::uint32_t m = 1; m <= count(); ++m) {

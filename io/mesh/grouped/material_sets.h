@@ -45,6 +45,7 @@ class MaterialSets {
   [[nodiscard]] std::uint32_t material_of(std::uint64_t tet);
   /// Returns "NAME_7", for programs that allow letters, digits and '_' alone.
   [[nodiscard]] std::string name(std::uint32_t material) const;
+  [[nodiscard]] std::vector<std::string> names() const;
   [[nodiscard]] const Material& facts(std::uint32_t material) const {
     return materials_[material - 1];
   }

@@ -168,7 +168,10 @@ class PairsWriter : public GroupedWriter {
     const MeshRecord& record = mesh.header().record;
     const unsigned axes = record.promises ? record.promises->periodic : 0;
     if (axes == 0) {
-      throw Error(ErrorKind::kUsage, name_ + ": the mesh was not made with --periodic");
+      const char* const why = record.promises ? ": the mesh was not made with --periodic"
+                                              : ": the mesh's file does not tell whether it was "
+                                                "made with --periodic; take the run's own file";
+      throw Error(ErrorKind::kUsage, name_ + why);
     }
     if (record.has_doubles) {
       throw Error(ErrorKind::kUsage, name_ +

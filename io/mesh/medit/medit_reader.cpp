@@ -21,6 +21,8 @@ namespace {
 constexpr std::uint64_t kBufferBytes = 1 << 20;
 /// No number or keyword is that long; the bound keeps memory small on binary files.
 constexpr std::size_t kMaxWordBytes = 256;
+/// No comment with a name is that long.
+constexpr std::size_t kMaxNameCommentBytes = 1 << 13;
 
 bool is_blank(int c) {
   return c == ' ' || (c >= '\t' && c <= '\r');
@@ -41,7 +43,8 @@ bool parse_all(std::string_view word, T& number) {
 class TokenScanner {
  public:
   explicit TokenScanner(const ByteSource& source) : source_(source) {}
-  /// Makes take get each comment that follows, without its '#' and line end, cut at 8 KiB.
+  /// Makes take get each comment that follows, without its '#' and line end, cut at
+  /// kMaxRecordBytes.
   void on_comment(std::function<void(std::string_view)> take) { take_comment_ = std::move(take); }
 
   /// Returns the next word, or nothing at the end.  It is valid until the next call.
@@ -198,7 +201,10 @@ MeshData read_medit(const ByteSource& source) {
   MeshData mesh;
   std::vector<LabelName> names;
   scanner.on_comment([&](std::string_view comment) {
-    if (auto row = parse_medit_comment(comment)) names.push_back(std::move(*row));
+    const bool may_be_name = comment.size() < kMaxNameCommentBytes;
+    if (auto row = may_be_name ? parse_medit_comment(comment) : std::nullopt) {
+      names.push_back(std::move(*row));
+    }
     if (comment.starts_with(kRecord)) {
       mesh.record = parse_record(comment.substr(kRecord.size()), source.name());
     }

@@ -108,7 +108,7 @@ TEST_F(ChooseLabelsTest, WeldedBlocksAreOnePart) {
   EXPECT_EQ(report["parts"]["hinge_edges"], 0);
   EXPECT_EQ(report["welds"], (json{{"rounds", 1}, {"voxels", 8}}));
   expect_done("verify" + in + "m.vtu --weld 0 --report v.json");
-  EXPECT_EQ(json::parse(read("v.json"))["shape"]["per_label"][0]["voxels"], 136);
+  EXPECT_EQ(json::parse(read("v.json"))["volume"]["per_label"][0]["voxels"], 136);
   EXPECT_EQ(info(in + "--weld 0")["welds"]["voxels"], 8);
   expect_failure(2, "info" + in + "--weld 9", "the volume has no label 9");
 }

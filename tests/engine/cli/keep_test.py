@@ -121,10 +121,24 @@ class Keep(unittest.TestCase):
         before = content_of("m.vtu")
         self.volume[10:14, 10:14, 10:14] = 5
         self.save()
-        self.mesh("--from", "k", "--changed", "0,0,0,0,0,0")
+        self.mesh("--from", "k", "--changed", "0,0,0,1,1,1")
         self.assertEqual(content_of("m.vtu"), before)
         with self.assertRaises(AssertionError):
             self.expect_fresh()
+
+    def test_boxes_without_a_voxel_are_refused(self):
+        self.mesh("--keep", "k")
+        for box in ("5,5,5,5,5,5", "9,9,9,5,5,5", "30,0,0,40,26,22", "-9,0,0,0,5,5"):
+            with self.subTest(box):
+                self.refused(2, "has no voxel of the 30 x 26 x 22", "mesh", "v.npy", "-o", "m.vtu",
+                             *SETTINGS, "--from", "k", "--changed", box)
+
+    def test_a_certificate_is_about_the_whole_input(self):
+        self.mesh("--keep", "k")
+        self.volume[4:8, 4:8, 4:8] = 10
+        self.save()
+        self.mesh("--from", "k", "--changed", "20,20,20,21,21,21", "--certify", "on")
+        self.expect_fresh()
 
     def test_delta(self):
         self.mesh("--keep", "k")

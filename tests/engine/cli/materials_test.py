@@ -125,6 +125,17 @@ class Materials(unittest.TestCase):
             back = meshio.read("back.vtu").cell_data_dict["hu_material"]["tetra"]
             np.testing.assert_array_equal(np.sort(back), np.sort(wanted))
 
+    def test_labels_with_the_names_of_sets_get_others(self):
+        with open("n.csv", "w", encoding="utf-8") as file:
+            file.write("id,name\n1,HU_2\n2,hu_1\n")
+        run("mesh", "v.npy", "-o", "n.inp", "--sample", "hu=image.npy", "--materials", "hu=2",
+            "--names", "n.csv", "--deck", "static")
+        with open("n.inp", encoding="utf-8") as file:
+            names = [line.split("ELSET=")[1].strip().upper() for line in file
+                     if line.startswith(("*ELEMENT", "*ELSET"))]
+        self.assertEqual(len(names), len(set(names)), names)
+        self.assertTrue({"HU_1", "HU_2"} <= set(names), names)
+
     def test_convert_makes_the_same_sets(self):
         run("mesh", "v.npy", "-o", "a.inp", "--sample", "hu=image.npy", "--materials", "hu=9")
         for ending in ("vtkhdf", "msh"):

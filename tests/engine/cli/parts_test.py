@@ -137,6 +137,10 @@ class Parts(unittest.TestCase):
         self.assertIn("2|4, 3|4: these labels share no face", out)
         self.assertEqual(report("apart.json")["parts"]["doubled"]["labels_that_do_not_meet"],
                          [[2, 4], [3, 4]])
+        code, out = fails("mesh", "v.npy", "-o", "twice.vtu", "--split", "1|2,2|1", "--cohesive",
+                          "1|2")
+        self.assertEqual(code, 0, out)
+        self.assertNotIn("share no face", out)
 
     def test_the_same_bytes_for_any_threads(self):
         for threads in (1, 3):

@@ -126,6 +126,25 @@ class Periodic(unittest.TestCase):
         with open("first.csv", encoding="utf-8") as first, open("second.csv", encoding="utf-8") as second:
             self.assertEqual(first.read(), second.read())
 
+    def test_pairs_of_what_is_left(self):
+        """Where only one face has nodes, none of them is its own image."""
+        labels = np.ones((16, 16, 16), np.uint8)
+        labels[:, :, 12:] = 2
+        np.save("half.npy", labels)
+        self.mesh("half.npy", "x", "half.vtu", "--labels", "2", "--pairs", "half.csv")
+        with open("half.csv", encoding="utf-8") as file:
+            rows = list(csv.DictReader(file))
+        self.assertEqual([row for row in rows if row["node"] == row["image_of"]], [])
+
+    def test_what_is_not_known_is_said(self):
+        self.mesh("grains.npy", "x", "k.vtu")
+        run("convert", "k.vtu", "k.msh")
+        for names, words in ((("k.msh", "l.vtu"), "does not tell"), (("k.vtu", "l.pvtu", "--pieces", "2"),
+                                                                      "--pairs")):
+            done = start("convert", *names, "--pairs", "k.csv")
+            self.assertEqual(done.returncode, 2, done.stderr)
+            self.assertIn(words, done.stderr)
+
     def test_faces_that_do_not_match(self):
         """A vertex on a face is moved by one unit of the lattice."""
         self.mesh("grains.npy", "x", "m.mesh")

@@ -169,6 +169,33 @@ class Sizes(unittest.TestCase):
         self.assertEqual(done.returncode, 3)
         self.assertIn("h.npy: has 32 x 32 x 31 voxels", done.stderr)
 
+    def test_an_image_lies_where_the_labels_do(self):
+        try:
+            import nibabel
+        except ImportError:
+            self.skipTest("needs nibabel")
+        affine = np.array([[-.5, 0, 0, 9], [0, .5, 0, 2], [0, 0, .5, 3], [0, 0, 0, 1]])
+        z, y, x = np.mgrid[:16, :16, :16]
+        nibabel.save(nibabel.Nifti1Image((1 + (y > 7)).astype(np.uint8), affine), "l.nii")
+        sizes = np.where(x < 8, 1.5, 4).astype(np.float32)
+        image = nibabel.Nifti1Image(sizes, affine)
+        nibabel.save(image, "h.nii")
+        run("mesh", "l.nii", "-o", "l.vtu", "--size", "h.nii")
+        np.save("h.npy", sizes.T)
+        run("mesh", "l.nii", "-o", "n.vtu", "--size", "h.npy")
+        self.assertEqual(run("digest", "l.vtu"), run("digest", "n.vtu"))
+        nibabel.save(nibabel.as_closest_canonical(image), "turned.nii")
+        affine[0, 3] += 1
+        nibabel.save(nibabel.Nifti1Image(sizes, affine), "moved.nii")
+        for name in ("turned.nii", "moved.nii"):
+            done = start("mesh", "l.nii", "-o", "x.vtu", "--size", name)
+            self.assertEqual(done.returncode, 3)
+            self.assertIn(f"{name}: lies elsewhere in the world", done.stderr)
+        np.save("none.npy", -np.abs(sizes.T))
+        done = start("mesh", "l.nii", "-o", "x.vtu", "--size", "none.npy")
+        self.assertEqual(done.returncode, 3)
+        self.assertIn("none.npy: has no positive number", done.stderr)
+
     def test_threads_and_resume_change_nothing(self):
         options = ("--size", f"{self.labels[1]}=2", "--inner-vertices")
         self.mesh("a.vtu", *options, "--threads", "1")

@@ -66,6 +66,12 @@ TEST(WithNumbers, FollowsTheRuleOfOneLabel) {
     EXPECT_THROW((void)find_label(text, kNames, false), Error) << text;
   }
   EXPECT_EQ(with_numbers("lesion|2=1,*=4", kNames), "1|2=1,*=4");
+  const io::LabelNames odd({{1, "a|b", {}}, {2, "c,d=e", {}}});
+  for (const char* const pair : {"\"a|b\"|\"c,d=e\"", "1|\"c,d=e\"", "\"a|b\"|2", "\"a|b\" | 2"}) {
+    EXPECT_EQ(with_numbers(pair, odd), "1|2") << pair;
+    EXPECT_EQ(with_numbers(std::string(pair) + "=3,\"c,d=e\"=1", odd), "1|2=3,2=1") << pair;
+  }
+  EXPECT_THROW((void)with_numbers("\"a|b\"|\"c", odd), Error);
 }
 
 }  // namespace

@@ -185,5 +185,16 @@ TEST(ByteCursor, LinesOfBothKindsAreCounted) {
   EXPECT_EQ(cursor.line(), 3U);
 }
 
+TEST(ByteCursor, ReturnsWithinALineAreKept) {
+  const TempDir dir;
+  const auto source = open_bytes(dir.file("a", "on\re\r\n"));
+  ByteCursor cursor(*source);
+  std::string line;
+  for (const char* expected : {"on\r", "e"}) {
+    ASSERT_TRUE(cursor.read_line(line, 3));
+    EXPECT_EQ(line, expected);
+  }
+}
+
 }  // namespace
 }  // namespace mw::io
