@@ -41,7 +41,10 @@ Json quality_json(const audit::QualityReport& quality) {
           {"dihedral_histogram", quality.dihedral_histogram},
           {"sliver_fraction", quality.sliver_fraction},
           {"dihedral_min_deg", quality.dihedral_min_deg},
-          {"dihedral_max_deg", quality.dihedral_max_deg}};
+          {"dihedral_max_deg", quality.dihedral_max_deg},
+          {"edge_min", quality.edge_min},
+          {"edge_max", quality.edge_max},
+          {"height_min", quality.height_min}};
 }
 
 void print_quality(const audit::QualityReport& quality) {
@@ -49,7 +52,10 @@ void print_quality(const audit::QualityReport& quality) {
             << format_fixed(quality.radius_ratio_mean, 4) << " mean, "
             << format_fixed(100 * quality.sliver_fraction, 3) << " % of tets below 0.1\n"
             << "dihedral      " << format_fixed(quality.dihedral_min_deg, 2) << " to "
-            << format_fixed(quality.dihedral_max_deg, 2) << " degrees\n";
+            << format_fixed(quality.dihedral_max_deg, 2) << " degrees\n"
+            << "edges         " << format_figure(quality.edge_min) << " to "
+            << format_figure(quality.edge_max) << " long; the least height of a tet is "
+            << format_figure(quality.height_min) << "\n";
 }
 
 Json label_json(RawLabel label, bool is_signed) {

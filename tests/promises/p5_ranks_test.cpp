@@ -134,6 +134,9 @@ void expect_same_figures(const RunReport& shared, const RunReport& alone) {
   EXPECT_EQ(shared.quality->dihedral_histogram, alone.quality->dihedral_histogram);
   EXPECT_EQ(shared.quality->dihedral_min_deg, alone.quality->dihedral_min_deg);
   EXPECT_EQ(shared.quality->dihedral_max_deg, alone.quality->dihedral_max_deg);
+  EXPECT_EQ(shared.quality->edge_min, alone.quality->edge_min);
+  EXPECT_EQ(shared.quality->edge_max, alone.quality->edge_max);
+  EXPECT_EQ(shared.quality->height_min, alone.quality->height_min);
   EXPECT_FALSE(shared.shape);
 }
 

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <limits>
 #include <numbers>
 
 #include "kernels/audit/subject.h"
@@ -26,6 +27,8 @@ struct TetShape {
   }
 
   [[nodiscard]] double radius_ratio() const;
+  /// Returns the least of the four heights, or 0 where a face has no area.
+  [[nodiscard]] double least_height() const;
 
   std::array<Position, 3> edges;
   std::array<Position, 4> normals;
@@ -45,6 +48,23 @@ double TetShape::radius_ratio() const {
   const double below = area * norm(n);
   const double ratio = 3 * det * det / below;
   return below > 0 && ratio > 0 ? std::min(ratio, 1.0) : 0;  // 0 also where squares overflow
+}
+
+double TetShape::least_height() const {
+  const double largest = *std::max_element(lengths.begin(), lengths.end());
+  return largest > 0 ? std::abs(dot(edges[0], normals[1])) / largest : 0;
+}
+
+/// Returns the squares of the shortest and the longest edge.
+std::array<double, 2> edge_squares(const std::array<Position, 4>& corners) {
+  std::array<double, 2> out{std::numeric_limits<double>::infinity(), 0.0};
+  for (std::size_t i = 0; i < 4; ++i) {
+    for (std::size_t k = i + 1; k < 4; ++k) {
+      const Position edge = minus(corners[k], corners[i]);
+      out = {std::min(out[0], dot(edge, edge)), std::max(out[1], dot(edge, edge))};
+    }
+  }
+  return out;
 }
 
 /// Returns the bin of an angle by its cosine.  Lattices are full of right angles and the like,
@@ -85,8 +105,18 @@ void QualityMeter::take_worst(std::uint64_t tet, double ratio) {
   report_.worst_tet = tet;
 }
 
+/// REQUIRES: called before the tets with these lengths are counted.
+void QualityMeter::take_lengths(double shortest, double longest, double height) {
+  const bool is_first = tets_ == 0;
+  report_.edge_min = is_first ? shortest : std::min(report_.edge_min, shortest);
+  report_.edge_max = is_first ? longest : std::max(report_.edge_max, longest);
+  report_.height_min = is_first ? height : std::min(report_.height_min, height);
+}
+
 void QualityMeter::add(const QualityMeter& other, std::uint64_t first) {
   if (other.tets_ == 0) return;
+  const QualityReport& lengths = other.report_;
+  take_lengths(lengths.edge_min, lengths.edge_max, lengths.height_min);
   take_worst(first + other.report_.worst_tet, other.report_.radius_ratio_min);
   tets_ += other.tets_;
   slivers_ += other.slivers_;
@@ -103,6 +133,8 @@ void QualityMeter::add(const QualityMeter& other, std::uint64_t first) {
 void QualityMeter::add(std::uint64_t number, const std::array<Position, 4>& corners) {
   const TetShape tet(corners[0], corners[1], corners[2], corners[3]);
   const double ratio = tet.radius_ratio();
+  const auto [shortest, longest] = edge_squares(corners);
+  take_lengths(std::sqrt(shortest), std::sqrt(longest), tet.least_height());
   take_worst(number, ratio);
   ++tets_;
   ratios_ += static_cast<Int128>(std::round(ratio * kUnits));

@@ -25,6 +25,10 @@ struct QualityReport {
   double sliver_fraction = 0;
   double dihedral_min_deg = 0;
   double dihedral_max_deg = 0;
+  double edge_min = 0;
+  double edge_max = 0;
+  /// The least distance of a corner from the opposite face, by which explicit solvers step.
+  double height_min = 0;
 };
 
 /// 3 r_in / r_circ: 1 for a regular tet, 0 for a flat one, whatever its orientation.
@@ -48,6 +52,7 @@ class QualityMeter {
   static constexpr double kUnits = 1099511627776.0;
 
   void take_worst(std::uint64_t tet, double ratio);
+  void take_lengths(double shortest, double longest, double height);
 
   QualityReport report_;  ///< without the figures that need the number of tets
   std::uint64_t tets_ = 0;

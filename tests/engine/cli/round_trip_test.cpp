@@ -104,6 +104,18 @@ TEST_F(RoundTripTest, SelectedLabelsOnlyAreWritten) {
   EXPECT_EQ(report("r.json")["digest"], some["digest"]);
 }
 
+TEST_F(RoundTripTest, GrainsHaveNoShortEdges) {
+  for (const char* const seed : {"1", "2", "3"}) {
+    const std::string volume = std::string("g") + seed + ".npy";
+    expect_done("synth voronoi --shape 40,40,40 --labels 12 --seed " + std::string(seed) + " -o " +
+                volume);
+    expect_done("mesh " + volume + " -o g.vtu --force --report r.json");
+    EXPECT_GE(report("r.json")["quality"]["edge_min"].get<double>(), 0.7);
+  }
+  expect_done("mesh g1.npy -o g.vtu --force --report r.json --optimizer none");
+  EXPECT_LT(report("r.json")["quality"]["edge_min"].get<double>(), 0.7);
+}
+
 TEST_F(RoundTripTest, ReportHasEveryDocumentedKey) {
   make_volume();
   expect_done("mesh v.npy -o v.vtu --report r.json --window 8 --edge-variance 0.5");
@@ -123,6 +135,9 @@ TEST_F(RoundTripTest, ReportHasEveryDocumentedKey) {
                         "/quality/sliver_fraction",
                         "/quality/dihedral_min_deg",
                         "/quality/dihedral_max_deg",
+                        "/quality/edge_min",
+                        "/quality/edge_max",
+                        "/quality/height_min",
                         "/shape/volume_error_mean_abs",
                         "/shape/volume_error_max_abs",
                         "/shape/volume_error_worst_label",

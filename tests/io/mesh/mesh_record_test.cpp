@@ -74,7 +74,8 @@ TEST(MeshRecord, ComesBackThroughFilesAndIsNoPartOfTheDigest) {
 TEST(MeshRecord, LongOnesComeBackThroughFiles) {
   const TempDir dir;
   MeshData mesh = sample_mesh(20, false);
-  for (RawLabel label = 0; label < 10'000; ++label) mesh.record.without_labels.push_back(label << 9U);
+  for (RawLabel label = 0; label < 10'000; ++label)
+    mesh.record.without_labels.push_back(label << 9U);
   for (const char* name : {"m.vtkhdf", "m.vtu", "m.mesh"}) {
     write_mesh(mesh, *open_mesh_sink(dir.path() / name));
     EXPECT_EQ(read_mesh(dir.path() / name).record, mesh.record) << name;

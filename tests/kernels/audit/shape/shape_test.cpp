@@ -178,6 +178,36 @@ TEST(Quality, DihedralHistogramIsThatOfTheAngles) {
   EXPECT_EQ(meter.report().dihedral_histogram, expected);
 }
 
+TEST(Quality, LengthsAreThoseOfAllTets) {
+  std::mt19937 random(2);
+  std::uniform_real_distribution<double> number(-1, 1);
+  double shortest = 9, longest = 0, least = 9;
+  QualityMeter whole, parts[2];
+  for (int round = 0; round < 500; ++round) {
+    std::array<Eigen::Vector3d, 4> p;
+    for (Eigen::Vector3d& corner : p) corner = {number(random), number(random), number(random)};
+    const auto position = [&](std::size_t i) { return Position{p[i][0], p[i][1], p[i][2]}; };
+    whole.add(position(0), position(1), position(2), position(3));
+    parts[round % 2].add(position(0), position(1), position(2), position(3));
+    for (std::size_t i = 0; i < 4; ++i) {
+      const Eigen::Vector3d &a = p[(i + 1) % 4], &b = p[(i + 2) % 4], &c = p[(i + 3) % 4];
+      shortest = std::min(shortest, (p[i] - a).norm());
+      longest = std::max(longest, (p[i] - a).norm());
+      least = std::min(least, std::abs((p[i] - a).dot((b - a).cross(c - a).normalized())));
+      for (const Eigen::Vector3d& other : {b, c}) {
+        shortest = std::min(shortest, (p[i] - other).norm());
+        longest = std::max(longest, (p[i] - other).norm());
+      }
+    }
+  }
+  parts[0].add(parts[1]);
+  for (const QualityReport& report : {whole.report(), parts[0].report()}) {
+    EXPECT_NEAR(report.edge_min, shortest, 1e-12);
+    EXPECT_NEAR(report.edge_max, longest, 1e-12);
+    EXPECT_NEAR(report.height_min, least, 1e-12);
+  }
+}
+
 TEST(Quality, IsMeasuredInPhysicalUnits) {
   const Frame thin{{1, 1, 100}, {0, 0, 0}};
   const QualityReport report = measure_quality(five_tet_mesh(box({1, 1, 1}), thin).view());
@@ -198,6 +228,8 @@ TEST(Quality, NamesTheWorstTet) {
 TEST(Quality, EmptyMeshIsZeros) {
   EXPECT_EQ(measure_quality({}).radius_ratio_min, 0);
   EXPECT_EQ(measure_quality({}).dihedral_max_deg, 0);
+  EXPECT_EQ(measure_quality({}).edge_min, 0);
+  EXPECT_EQ(measure_quality({}).height_min, 0);
 }
 
 // The layered input: the same solid, measured in finer voxels.
