@@ -190,6 +190,7 @@ audit::AuditOptions audit_options(const io::MeshPromises& promises, const io::Vo
   options.radius_ratio_floor = floor_of(promises);
   options.count_junctions = promises.interfaces;
   options.max_distance = promises.max_distance;
+  options.periodic = promises.periodic;
   options.layers = layers_of(space.spacing);
   return options;
 }

@@ -35,6 +35,7 @@ struct TileFindings {
   audit::ShapeMeter shape;
   audit::VolumeTally volumes;
   audit::PlaceTally places;
+  audit::FaceTally faces;
   std::vector<audit::InterfaceTriangle> triangles;
   std::vector<audit::LineCrossing> crossings;
 };
@@ -108,6 +109,7 @@ class MeshStage {
     out.shape = audit::measure_shape(stars);
     out.volumes = audit::tally_volumes(view, loaded.names.size(), lattice_);
     out.places = audit::places_of_mesh(view, loaded.names.size(), validity_.frame, validity_.shape);
+    out.faces = audit::tally_faces(view, validity_.frame, validity_.shape, task_.options.periodic);
     if (pieces_ != nullptr) take_triangles(stars, out);
     if (junctions_ != nullptr) {
       out.junctions = audit::mesh_junctions(stars, loaded.names.size());
@@ -148,6 +150,7 @@ class MeshStage {
     found_.shape.add(found.shape);
     found_.volumes.add(found.volumes, found.names.whole());
     found_.places.add(found.places, found.names.whole());
+    found_.faces.add(found.faces);
     const std::uint32_t first = parts_.add(std::move(found.parts));
     for (const SharedTet& tet : found.shared) links_.add(tet.id, 1, first + tet.part);
     regions_.add(found.regions);

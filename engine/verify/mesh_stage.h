@@ -7,6 +7,7 @@
 #include "engine/verify/mesh_tiles.h"
 #include "engine/verify/piece_buckets.h"
 #include "engine/verify/verify_mesh.h"
+#include "kernels/audit/partition/periodic_faces.h"
 
 namespace mw::engine {
 
@@ -20,6 +21,7 @@ struct MeshFindings {
   audit::ShapeMeter shape;
   audit::VolumeTally volumes;
   audit::PlaceTally places;
+  audit::FaceTally faces;  ///< of sides that are to be alike
 };
 
 /// Where interfaces go, if they are asked for.

@@ -47,6 +47,9 @@ audit::AuditReport verify_mesh(const io::DenseVolume& volume, const MeshTiles& m
   findings.validity.checks.insert(findings.validity.checks.begin(), input);
   if (mesh.curved()) findings.validity.checks.push_back(mesh.curved()->jacobians());
   if (found.overlap) findings.validity.checks.push_back(*found.overlap);
+  if (task.options.periodic != 0 && !validity.has_gaps) {
+    findings.validity.checks.push_back(audit::periodic_check(found.faces, task.options.periodic));
+  }
   findings.voxels = std::move(voxels.betti);
   findings.mesh = std::move(found.betti);
   if (junctions) findings.junctions = junctions->compare();

@@ -25,6 +25,7 @@ struct AuditOptions {
   bool count_junctions = false;                    ///< P1 also for interfaces and meetings
   bool measure_distance = true;                    ///< if false, only with max_distance
   std::optional<double> max_distance;              ///< in voxels; if set, P4 fails above this
+  unsigned periodic = 0;   ///< axes along which P2 wants opposite sides alike, a bit for each
   Index3 layers{1, 1, 1};  ///< distances are in voxels cut into these layers along each axis
   /// The labels that the mesh is to hold; empty for all.  If some are left out, P1, P4 and P8 are
   /// about the others, and P2 as check_validity() says.  REQUIRES: empty, or !count_junctions.

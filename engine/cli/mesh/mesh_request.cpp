@@ -213,7 +213,7 @@ void add_output_options(OptionSet& options, MeshRequest& request) {
                .group = kOutputGroup,
                .assign = into(request.html)});
   options.add({.name = "certify",
-               .help = "mesh passes P1 to P4 and P8 or exit code 5; auto: where cheap",
+               .help = "checks P1 to P4 and P8, or exit code 5; auto: where cheap",
                .group = kOutputGroup,
                .fallback = "auto",
                .choices = {"auto", "on", "off"},

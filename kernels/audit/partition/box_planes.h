@@ -71,14 +71,15 @@ class BoxPlanes {
     return corner;
   }
 
+  /// Is the point on the low (0) or the high (1) plane of an axis?
+  [[nodiscard]] bool is_on(const Position& p, std::size_t axis, std::size_t end) const {
+    return std::abs(p[axis] - planes_[axis][end]) <= tolerance_[axis];
+  }
+
  private:
   static constexpr double kTolerance = 1e-9;
   /// Three products and sums make a coordinate; other tools have some of their own.
   static constexpr double kUnitsInLastPlace = 8;
-
-  [[nodiscard]] bool is_on(const Position& p, std::size_t axis, std::size_t end) const {
-    return std::abs(p[axis] - planes_[axis][end]) <= tolerance_[axis];
-  }
 
   std::array<std::array<double, 2>, 3> planes_{};
   std::array<double, 3> tolerance_{};

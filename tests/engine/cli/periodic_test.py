@@ -161,6 +161,10 @@ class Periodic(unittest.TestCase):
         done = start("convert", "n.mesh", "n.vtu", "--pairs", "p.csv")
         self.assertNotEqual(done.returncode, 0)
         self.assertIn("have no partner", done.stderr)
+        self.assertIn("ok    P2 periodic      x: ", run("verify", "grains.npy", "m.mesh"))
+        judged = start("verify", "grains.npy", "n.mesh")
+        self.assertEqual(judged.returncode, 5)
+        self.assertRegex(judged.stdout, "FAILS? +P2 periodic +x: .* which differ")
 
     def test_refused(self):
         np.save("uneven.npy", np.ones((8, 8, 7), np.uint8))
