@@ -135,6 +135,7 @@ class Simplifier {
         limits_(mesh, metric, options.demands.sizes),
         inner_(mesh, options.demands.inner),
         topology_(mesh, options.topology),
+        topology_on_box_(mesh, KeptTopology::kInterfaces),
         bends_(mesh, metric) {}
 
   SimplifyStats run() {
@@ -229,6 +230,13 @@ class Simplifier {
                                       bends_.fan(c.drop));
   }
 
+  /// On the box interfaces are kept in any case: a thin layer that ends there would else be pinched
+  /// off at its end, which the topology of its label allows.
+  bool keeps_topology(const Contraction& c) {
+    const bool on_box = (mesh_.planes(c.keep) | mesh_.planes(c.drop)) != 0;
+    return (on_box ? topology_on_box_ : topology_).keeps_topology(mesh_, c.keep, c.drop);
+  }
+
   bool try_contraction(Contraction c) {
     ++stats_.tried;
     if (options_.only_short && !limits_.is_short(c.keep, c.drop)) return false;
@@ -250,7 +258,7 @@ class Simplifier {
         break;
     }
     const bool both_on_boundaries = mesh_.order(c.keep) > 1 && mesh_.order(c.drop) > 1;
-    if (both_on_boundaries && !topology_.keeps_topology(mesh_, c.keep, c.drop)) {
+    if (both_on_boundaries && !keeps_topology(c)) {
       ++stats_.topology;
       return false;
     }
@@ -280,6 +288,7 @@ class Simplifier {
   EdgeLimits limits_;
   InnerFilter inner_;
   LinkCondition topology_;
+  LinkCondition topology_on_box_;
   BendFilter bends_;
   SimplifyStats stats_;
 };

@@ -131,14 +131,18 @@ class Coarsener {
                        [&](Index3 o) { return original_.at(v + o) == label; });
   }
 
-  /// True if other labels are on both sides of a voxel along an axis.
+  /// True if along an axis one or two voxels of the label, this one among them, have other labels on
+  /// both sides.
   [[nodiscard]] bool is_thin(Index3 v, Index3 step) const {
     const Label label = original_.at(v);
     const auto is_other = [&](Index3 w) {
       const Label l = original_.at(w);
       return l != label && l != kExterior;
     };
-    return is_other(v - step) && is_other(v + step);
+    const bool below = is_other(v - step), above = is_other(v + step);
+    if (below && above) return true;
+    if (below) return original_.at(v + step) == label && is_other(v + step + step);
+    return above && original_.at(v - step) == label && is_other(v - step - step);
   }
 
   /// True for a voxel of a sheet that is one voxel thick and would get a notch without it: at least
