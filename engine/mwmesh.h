@@ -77,9 +77,11 @@ struct Space {
 
 /// Returns the space of an array whose indices of voxels `affine` (three rows of a 4 x 4 matrix)
 /// takes to the world; as in NIfTI, they stand for centres.  frame is "own", "ras" or "lps".
+/// spacing has the edges of a voxel where a file states them beside the matrix.
 /// ERRORS: kInput for axes that are not at right angles.
 [[nodiscard]] Space space_of_affine(const std::array<std::array<double, 4>, 3>& affine,
-                                    const std::string& frame = "own");
+                                    const std::string& frame = "own",
+                                    const std::optional<Vector>& spacing = {});
 
 struct LabelName {
   std::uint64_t label = 0;

@@ -29,7 +29,7 @@ auto guarded(const Work& work) {
     throw library_error(error);
   } catch (const std::bad_alloc&) {
     throw mwmesh::Error(mwmesh::ErrorKind::kResource,
-                        "memory is out: give less to Options::memory, or free some");
+                        "memory is out: give a smaller budget or a smaller volume, or free some");
   }
 }
 

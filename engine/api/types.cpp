@@ -141,7 +141,7 @@ void deliver(const mwmesh::Mesh& mesh, io::MeshSink& sink, bool values) {
 namespace mwmesh {
 
 Space space_of_affine(const std::array<std::array<double, 4>, 3>& affine,
-                      const std::string& frame) {
+                      const std::string& frame, const std::optional<Vector>& spacing) {
   return mw::api::guarded([&] {
     mw::io::FileSpace told{.first = mw::io::Vector3{affine[0][3], affine[1][3], affine[2][3]},
                            .frame = mw::api::frame_of(frame),
@@ -150,6 +150,7 @@ Space space_of_affine(const std::array<std::array<double, 4>, 3>& affine,
     for (std::size_t i = 0; i < 3; ++i) {
       for (std::size_t k = 0; k < 3; ++k) told.steps[i][k] = affine[k][i];
     }
+    if (spacing) told.lengths = *spacing;
     return mw::api::library_space(mw::io::placed(mw::api::kArray, told, {}));
   });
 }

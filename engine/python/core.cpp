@@ -52,7 +52,9 @@ HeldVolume volume_of_array(const py::array& array, const Space& space,
   for (std::size_t i = 0; i < 3; ++i) {
     told.shape[i] = array.shape(static_cast<py::ssize_t>(i));
     told.strides[i] = array.strides(static_cast<py::ssize_t>(i));
-    if (told.strides[i] == 0) told.strides[i] = array.itemsize();  // an axis of one voxel
+    if (told.strides[i] != 0) continue;
+    if (told.shape[i] > 1) throw Error(ErrorKind::kUsage, "array: repeats itself along an axis");
+    told.strides[i] = array.itemsize();  // no step is ever taken along an axis of one voxel
   }
   return {Volume::of(told), shared(array)};
 }
@@ -140,7 +142,8 @@ void add_space(py::module_& module) {
       .def_readwrite("axes", &Space::axes)
       .def_readwrite("unit", &Space::unit)
       .def_readwrite("frame", &Space::frame);
-  module.def("space_of_affine", &space_of_affine, py::arg("affine"), py::arg("frame"));
+  module.def("space_of_affine", &space_of_affine, py::arg("affine"), py::arg("frame"),
+             py::arg("spacing"));
   py::class_<LabelName>(module, "LabelName")
       .def(py::init([](std::uint64_t label, std::string name,
                        std::optional<std::array<std::uint8_t, 4>> colour) {

@@ -181,7 +181,7 @@ def _progress(wanted):
     or a function."""
     if callable(wanted):
         return wanted
-    if wanted is False or (wanted is None and not sys.stderr.isatty()):
+    if not (sys.stderr.isatty() if wanted is None else wanted):
         return None
     try:
         from tqdm.auto import tqdm

@@ -39,6 +39,7 @@ class _Facets(NamedTuple):
     """Triangles between two labels, or between one and the outside of the box."""
 
     triangles: np.ndarray  # rows of points, counterclockwise from the side of `other`
+    others: np.ndarray  # the same as `other` has them, counterclockwise from the side of `label`
     label: np.ndarray  # index of the label inside
     other: np.ndarray  # index of the label outside; -1: none
 
@@ -267,7 +268,10 @@ class Mesh:
         ranks = self._ranks()[1].astype(np.int64)
         triangles = self.tets[:, _FACES].reshape(-1, 3)
         inside = np.repeat(ranks, 4)
-        keys = np.sort(triangles, axis=1)
+        places = triangles
+        if '"doubled_vertices"' in self._core.record:  # the two sides of an interface are apart
+            places = np.unique(self.points, axis=0, return_inverse=True)[1].ravel()[triangles]
+        keys = np.sort(places, axis=1)
         order = np.lexsort(keys.T[::-1])
         keys = keys[order]
         twin = np.flatnonzero((keys[1:] == keys[:-1]).all(axis=1))
@@ -280,7 +284,11 @@ class Mesh:
         # Each interface is told once, outside the smaller label.
         swap = inside[first] > inside[second]
         first, second = np.where(swap, second, first), np.where(swap, first, second)
+        # Corners of the other side in the order of this one, backwards.
+        match = places[second][:, None, :] == places[first][:, ::-1, None]
+        others = np.take_along_axis(triangles[second], match.argmax(axis=2), axis=1)
         facets = _Facets(np.concatenate([triangles[first], triangles[single]]),
+                         np.concatenate([others, triangles[single]]),
                          np.concatenate([inside[first], inside[single]]),
                          np.concatenate([inside[second], np.full(len(single), -1)]))
         self._known["facets"] = facets
@@ -294,13 +302,13 @@ class Mesh:
         return int(found[0])
 
     def facets(self, a, b):
-        """Returns the triangles where labels a and b meet, (k, 3) rows of points, counterclockwise
-        seen from b."""
+        """Returns the triangles where labels a and b meet, (k, 3) rows of points of a,
+        counterclockwise seen from b.  Where vertices were doubled b has others in the same places."""
         rank_a, rank_b = self._rank(a), self._rank(b)
         facets = self._facets()
         here = (facets.label == min(rank_a, rank_b)) & (facets.other == max(rank_a, rank_b))
         triangles = facets.triangles[here]
-        return triangles if rank_a < rank_b else triangles[:, ::-1]
+        return triangles if rank_a < rank_b else facets.others[here]
 
     def surface(self, label, closed=True):
         """Returns the surface of a label; closed: with its facets on the sides of the box.
@@ -315,7 +323,7 @@ class Mesh:
         facets = self._facets()
         out = (facets.label == rank) & (closed | (facets.other >= 0))
         back = facets.other == rank
-        triangles = np.concatenate([facets.triangles[out], facets.triangles[back][:, ::-1]])
+        triangles = np.concatenate([facets.triangles[out], facets.others[back]])
         rows, corners = np.unique(triangles, return_inverse=True)
         return Surface(self.points[rows], corners.reshape(-1, 3))
 

@@ -86,7 +86,7 @@ class Session:
         before = self._array
         after = self._edited(*edit)
         spans = _extent(before != after)
-        box = [(0, 0), (0, 0), (0, 0)] if spans is None else spans
+        box = [(0, 1), (0, 1), (0, 1)] if spans is None else spans
         if self._is_zyx:
             box = box[::-1]
         changed = (tuple(lo for lo, _ in box), tuple(hi for _, hi in box))

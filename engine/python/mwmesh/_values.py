@@ -130,6 +130,8 @@ def name_rows(of, names):
         return []
     if isinstance(names, (str, bytes, os.PathLike)):
         return _core.read_names(path_bytes(names, "names"))
+    if isinstance(names, (set, frozenset)):
+        raise unexpected("names", "{label: name}, a list, or a file", names)
     try:
         rows = names.items() if hasattr(names, "items") else enumerate(names)
     except TypeError:

@@ -41,6 +41,13 @@ def _image_affine(image, frame):
     return np.diag([-1.0, -1.0, 1.0, 1.0]) @ affine if frame == "lps" else affine
 
 
+def _image_spacing(image):
+    """Returns the edges of a voxel where the header states them beside the affine, as in NIfTI."""
+    if "pixdim" not in getattr(image, "header", ()):
+        return None
+    return [abs(float(str(np.float32(edge)))) for edge in image.header["pixdim"][1:4]]
+
+
 def _image_unit(image):
     units = getattr(image.header, "get_xyzt_units", None)
     return {"mm": "mm", "meter": "m", "micron": "um"}.get(units()[0], "") if units else ""
@@ -54,13 +61,15 @@ def _affine_rows(affine):
     return matrix[:3]
 
 
-def _space(spacing, origin, affine, frame, unit):
+def _space(spacing, origin, affine, frame, unit, stated=None):
+    """Returns where a volume lies; stated are edges of a voxel that replace the affine's."""
     if affine is not None and (spacing is not None or origin is not None):
         raise UsageError("affine: spacing and origin follow from it, leave them out")
     if affine is not None and frame == "voxel":
-        spacing = np.linalg.norm(_affine_rows(affine)[:, :3], axis=0)
+        norms = np.linalg.norm(_affine_rows(affine)[:, :3], axis=0)
+        spacing = norms if stated is None else stated
     elif affine is not None:
-        space = _core.space_of_affine(_affine_rows(affine).tolist(), frame or "own")
+        space = _core.space_of_affine(_affine_rows(affine).tolist(), frame or "own", stated)
         space.unit = unit
         return space
     space = _core.Space()
@@ -88,15 +97,24 @@ def _region_volume(array, axes, space):
 
     def fetch(x0, y0, z0, x1, y1, z1):
         if axes == "zyx":
-            values = np.asarray(array[z0:z1, y0:y1, x0:x1])
+            values = np.asarray(_unmasked(array[z0:z1, y0:y1, x0:x1]))
         else:
-            values = np.asarray(array[x0:x1, y0:y1, z0:z1]).T
+            values = np.asarray(_unmasked(array[x0:x1, y0:y1, z0:z1])).T
         return np.ascontiguousarray(whole_numbers(values, "array"))
 
     return _core.volume_of_region(fetch, np.dtype(array.dtype), shape, chunk, space, [])
 
 
+def _unmasked(array):
+    """Returns the array.  Refuses a masked one, as nothing says what its masked voxels are."""
+    if isinstance(array, np.ma.MaskedArray):
+        raise UsageError("array: is masked; fill it with a label: array.filled(0)")
+    return array
+
+
 def _array_volume(array, axes, space):
+    if any(stride == 0 and count > 1 for stride, count in zip(array.strides, array.shape)):
+        array = np.ascontiguousarray(array)
     if array.dtype.byteorder not in "=|" and not array.dtype.isnative:
         array = array.astype(array.dtype.newbyteorder("="))
     return _core.volume_of_array(array.T if axes == "zyx" else array, space, [])
@@ -134,10 +152,14 @@ def _volume(source, spacing, origin, affine, frame, unit, axes, dataset, scale, 
     if given:
         raise UsageError(f"{', '.join(given)}: for files only, and this is an array"
                          + ("; slice it" if "crop" in given else ""))
+    stated = None
     if _is_image(source):
         if spacing is not None or origin is not None:
             raise UsageError("spacing, origin: an image tells where it lies; give affine instead")
+        if affine is None and source.affine is None:
+            raise UsageError("affine: the image has none, give one")
         if affine is None:
+            stated = _image_spacing(source)
             affine, frame = _image_affine(source, frame), frame or "ras"
         unit_text = _image_unit(source) if unit is None else unit_text
         source, axes = _image_array(source), axes or "xyz"
@@ -148,9 +170,9 @@ def _volume(source, spacing, origin, affine, frame, unit, axes, dataset, scale, 
         source = np.asarray(source)
     if len(source.shape) != 3:
         raise UsageError(f"array: has {len(source.shape)} axes, expected 3; take one volume of it")
-    space = _space(spacing, origin, affine, frame, unit_text)
+    space = _space(spacing, origin, affine, frame, unit_text, stated)
     make = _array_volume if isinstance(source, np.ndarray) else _region_volume
-    return make(source, axes, space)
+    return make(_unmasked(source), axes, space)
 
 
 def as_volume(source, *, names=None, **place):

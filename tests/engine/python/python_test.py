@@ -179,7 +179,10 @@ class SameMesh(InFolder):
         import nibabel
         data = grains().astype(np.uint8)
         turn = np.array([[.6, -.8, 0, 3], [.8, .6, 0, -7.3], [0, 0, 1.1, .4], [0, 0, 0, 1]])
-        for affine in (np.diag([.7, .7, 1.1, 1]), np.diag([-.7, .9, 3, 1]), turn):
+        rotations = np.linalg.qr(np.random.default_rng(3).normal(size=(3, 3, 3)))[0]
+        oblique = [np.vstack([np.hstack([r * (.8, .9, 1.2), [[3.3], [-2], [.7]]]), [[0, 0, 0, 1]]])
+                   for r in rotations]
+        for affine in (np.diag([.7, .7, 1.1, 1]), np.diag([-.7, .9, 3, 1]), turn, *oblique):
             nibabel.save(nibabel.Nifti1Image(data, affine), self.path("i.nii"))
             for frame in (None, "ras", "lps", "voxel"):
                 made = mwmesh.mesh(nibabel.load(self.path("i.nii")), frame=frame)
@@ -408,8 +411,11 @@ class Figures(unittest.TestCase):
         self.assertEqual(hanging.report["parts"]["found"], 2)
         self.assertEqual(whole.report["parts"]["found"], 1)
         self.assertEqual(whole.report["welds"]["voxels"], 8)
-        self.assertTrue(whole.verify(blocks, weld=[0]))
-        self.assertFalse(whole.verify(blocks))
+        welded, plain = whole.verify(blocks, weld=[0]), whole.verify(blocks)
+        self.assertTrue(welded)
+        places = [next(check for check in verdict.checks if check[0] == "P4 place")
+                  for verdict in (welded, plain)]
+        self.assertNotEqual(*places)
 
     def test_parts_and_splits(self):
         labels = np.zeros((12, 12, 20), np.uint8)
@@ -465,6 +471,27 @@ class Figures(unittest.TestCase):
                 mwmesh.mesh_to_file(labels, folder / "w.bdf", cohesive="*")
             with self.assertRaises(ValueError):
                 mesh.wedges[0] = 0
+
+    def test_interfaces_that_were_opened(self):
+        labels = np.ones((8, 8, 12), np.int8)
+        labels[:, :, 4:] = 3
+        labels[2:6, 2:6, 8:] = 2
+        whole = mwmesh.mesh(labels)
+        for opened in (mwmesh.mesh(labels, split="*"), mwmesh.mesh(labels, cohesive=[(1, 3)])):
+            self.assertGreater(len(opened.points), len(whole.points))
+            self.assertEqual(whole.contacts().keys(), opened.contacts().keys())
+            for pair, area in whole.contacts().items():
+                self.assertAlmostEqual(opened.contacts()[pair], area, 9)
+            for label in (1, 2, 3):
+                points, triangles = opened.surface(label)
+                edges = np.sort(triangles[:, [[0, 1], [1, 2], [2, 0]]].reshape(-1, 2), axis=1)
+                counts = np.unique(edges, axis=0, return_counts=True)[1]
+                self.assertEqual(set(counts), {2})
+                a, b, c = points[triangles].transpose(1, 0, 2)
+                self.assertAlmostEqual((a * np.cross(b, c)).sum() / 6, opened.volumes()[label], 9)
+            mine, others = opened.facets(1, 3), opened.facets(3, 1)
+            self.assertTrue(np.isin(mine, opened.tets[opened.labels == 1]).all())
+            self.assertTrue(np.isin(others, opened.tets[opened.labels == 3]).all())
 
     @needs("vtkmodules")
     @needs("meshio")
@@ -929,6 +956,26 @@ class Errors(InFolder):
         self.check(mwmesh.InputError, "1.5", np.full((2, 2, 2), 1.5))
         self.check(mwmesh.InputError, "nowhere.npy", self.path("nowhere.npy"))
 
+    def test_arrays_that_repeat_themselves(self):
+        slab = np.zeros((10, 12), np.uint8)
+        slab[3:8, 4:9] = 1
+        for array in (np.broadcast_to(slab[..., None], (10, 12, 9)), np.broadcast_to(slab, (9, 10, 12)),
+                      np.broadcast_to(np.uint8(3), (8, 8, 8))):
+            self.assertEqual(mwmesh.mesh(array).digest, mwmesh.mesh(array.copy()).digest)
+
+    def test_masked_arrays(self):
+        masked = np.ma.masked_equal(grains(), 2)
+        self.check(mwmesh.UsageError, "is masked; fill it", masked)
+
+        class Blocks:
+            shape, dtype = masked.shape, masked.dtype
+
+            def __getitem__(self, box):
+                return masked[box]
+
+        self.check(mwmesh.UsageError, "is masked; fill it", Blocks())
+        self.check(mwmesh.UsageError, "names", grains(), names={"a", "b"})
+
     def test_sheared_affines_have_a_way_out(self):
         sheared = np.array([[2, 0.6, 0, 5], [0, 0.8, 0, 6], [0, 0, 3, 7]])
         self.check(mwmesh.InputError, "give frame voxel", grains(), affine=sheared)
@@ -963,6 +1010,13 @@ class Sessions(InFolder):
         self.assertTrue(np.array_equal(session.mesh.points, fresh.points))
         self.assertTrue(np.array_equal(session.mesh.tets, fresh.tets))
         self.assertTrue(np.array_equal(session.mesh.labels, fresh.labels))
+
+    def test_edits_that_change_nothing(self):
+        session = mwmesh.Session(grains(), window=8)
+        digest = session.mesh.digest
+        for edit in ((session.array.copy(),), (((1, 1, 1), (2, 2, 2)), session.array[1, 1, 1])):
+            mesh, delta = session.update(*edit)
+            self.assertEqual((mesh.digest, delta["voxels_changed"]), (digest, 0))
 
     def test_ten_edits_give_the_meshes_of_fresh_runs(self):
         random = np.random.default_rng(5)
