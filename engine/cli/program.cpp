@@ -9,6 +9,7 @@
 
 #include "engine/cli/command.h"
 #include "engine/cli/exit_code.h"
+#include "engine/cli/log.h"
 #include "engine/cli/mesh/run_processes.h"
 
 namespace mw::cli {
@@ -52,6 +53,7 @@ int run_command(const CommandLine& line, const std::vector<Command>& commands) {
 }
 
 int parse_and_run(int argc, char** argv) {
+  start_log(run_processes().speaks() ? "warn" : "off");
   const std::vector<Command> commands = all_commands();
   const CommandLine line = parse_command_line(commands, {argv + 1, argv + argc});
   int code = kExitDone;

@@ -131,8 +131,8 @@ class Coarsener {
                        [&](Index3 o) { return original_.at(v + o) == label; });
   }
 
-  /// True if along an axis one or two voxels of the label, this one among them, have other labels on
-  /// both sides.
+  /// True if along an axis one or two voxels of the label, this one among them, have other labels
+  /// on both sides.
   [[nodiscard]] bool is_thin(Index3 v, Index3 step) const {
     const Label label = original_.at(v);
     const auto is_other = [&](Index3 w) {
@@ -145,8 +145,8 @@ class Coarsener {
     return above && original_.at(v - step) == label && is_other(v - step - step);
   }
 
-  /// True for a voxel of a sheet that is one voxel thick and would get a notch without it: at least
-  /// three of its neighbours in the sheet are as thin as it is.
+  /// True for a voxel of a sheet that is one or two voxels thick and would get a notch without it:
+  /// at least three of its neighbours in the sheet are as thin as it is.
   [[nodiscard]] bool is_in_sheet(Index3 v) const {
     constexpr int kInSheet = 3;
     const std::array<Index3, 3> steps{axis_vector(0), axis_vector(1), axis_vector(2)};

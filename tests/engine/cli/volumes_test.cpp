@@ -146,6 +146,14 @@ TEST_F(VolumesTest, AreasAndVolumesAreInPhysicalUnits) {
   EXPECT_NEAR(info["volume"]["volume_error_max_abs"], one["volume_error_max_abs"], 1e-12);
 }
 
+TEST_F(VolumesTest, WarningsLeaveTheOutputAlone) {
+  expect_done("synth voronoi --shape 36,32,40 --labels 9 --seed 3 -o w.npy");
+  const auto told = run("info v.npy,w.npy --overlap first --json");
+  ASSERT_EQ(told.code, 0) << told.err;
+  EXPECT_EQ(json::parse(told.out)["kind"], "volume");
+  EXPECT_EQ(told.err.rfind("mwmesh: warning: v.npy,w.npy: ", 0), 0U) << told.err;
+}
+
 TEST_F(VolumesTest, InfoHoldsOnlyMeshesAgainstVolumes) {
   expect_failure(2, "info v.npy --volume v.npy", "--volume");
   expect_done("mesh v.npy -o v.vtu");
