@@ -140,8 +140,8 @@ void deliver(const mwmesh::Mesh& mesh, io::MeshSink& sink, bool values) {
 
 namespace mwmesh {
 
-Space space_of_affine(const std::array<std::array<double, 4>, 3>& affine,
-                      const std::string& frame, const std::optional<Vector>& spacing) {
+Space space_of_affine(const std::array<std::array<double, 4>, 3>& affine, const std::string& frame,
+                      const std::optional<Vector>& spacing) {
   return mw::api::guarded([&] {
     mw::io::FileSpace told{.first = mw::io::Vector3{affine[0][3], affine[1][3], affine[2][3]},
                            .frame = mw::api::frame_of(frame),
