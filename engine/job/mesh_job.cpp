@@ -63,15 +63,15 @@ class CountedVolume : public io::VolumeView {
   mutable std::atomic<std::uint64_t> voxels_ = 0;
 };
 
-/// Throws if a box has no voxel of the volume: what it was to say is not known then.
-void check_changed(const std::vector<Box3>& changed, Index3 shape) {
+/// Throws if a box has no voxel: what it was to say is not known then.  One that lies outside of
+/// the volume says that nothing has changed in it, as where the volume was cropped.
+void check_changed(const std::vector<Box3>& changed) {
   for (const Box3& box : changed) {
-    if (!is_empty(intersection(box, {{0, 0, 0}, shape}))) continue;
+    if (!is_empty(box)) continue;
     throw Error(ErrorKind::kUsage,
                 io::text("--changed: the box from ", box.lo.x, ",", box.lo.y, ",", box.lo.z, " to ",
-                         box.hi.x, ",", box.hi.y, ",", box.hi.z, " has no voxel of the ", shape.x,
-                         " x ", shape.y, " x ", shape.z,
-                         " that are meshed: give the first voxel, and the one behind the last"));
+                         box.hi.x, ",", box.hi.y, ",", box.hi.z,
+                         " has no voxel: give the first voxel, and the one behind the last"));
   }
 }
 
@@ -85,7 +85,7 @@ class KeptInput {
     const KeepOptions& options = job.run.keep;
     const bool speaks = job.run.processes == nullptr || job.run.processes->speaks();
     if (options.folder.empty() || !speaks) return;
-    check_changed(options.changed, opened.info().shape);
+    check_changed(options.changed);
     folder_ = std::make_shared<KeepFolder>(options.folder, options.use);
     open_before(job);
     std::vector<Box3> changed{{{0, 0, 0}, opened.info().shape}};

@@ -258,6 +258,17 @@ void deliver_rest(const MeshRequest& request, report::FinishedRun& run, MeshFile
   if (run.engine.work != nullptr) run.engine.work->discard();
 }
 
+/// Throws if a box of --changed is outside of a whole volume, where it can only be a mistake.
+void check_changed(const MeshRequest& request, Index3 shape) {
+  if (request.volume.crop) return;
+  for (const Box3& box : request.job.run.keep.changed) {
+    if (is_empty(box) || !is_empty(intersection(box, {{0, 0, 0}, shape}))) continue;
+    throw Error(ErrorKind::kUsage, io::text("--changed: the box from ", box.lo.x, ",", box.lo.y,
+                                            ",", box.lo.z, " is outside of the volume, which has ",
+                                            shape.x, " x ", shape.y, " x ", shape.z, " voxels"));
+  }
+}
+
 int mesh(const MeshRequest& request, const OptionSet& options) {
   watch_interrupts();
   if (runs_are_divided()) watch_save_requests();
@@ -269,6 +280,7 @@ int mesh(const MeshRequest& request, const OptionSet& options) {
   MeshFiles files(request, open_shared_output(request, is_certified));
   log_info("reading " + request.volume.path.string());
   const std::unique_ptr<io::LabelVolume> volume = open(request.volume);
+  check_changed(request, volume->info().shape);
   if (volume->scores() != nullptr) {
     log_warning(std::string(engine::kVolumesOfScores) + "; volumes are not promised (P8)");
   }

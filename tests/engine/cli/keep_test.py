@@ -131,10 +131,14 @@ class Keep(unittest.TestCase):
 
     def test_boxes_without_a_voxel_are_refused(self):
         self.mesh("--keep", "k")
-        for box in ("5,5,5,5,5,5", "9,9,9,5,5,5", "30,0,0,40,26,22", "-9,0,0,0,5,5"):
+        for box, said in (("5,5,5,5,5,5", "has no voxel"), ("9,9,9,5,5,5", "has no voxel"),
+                          ("30,0,0,40,26,22", "is outside"), ("-9,0,0,0,5,5", "is outside")):
             with self.subTest(box):
-                self.refused(2, "has no voxel of the 30 x 26 x 22", "mesh", "v.npy", "-o", "m.vtu",
-                             *SETTINGS, "--from", "k", "--changed", box)
+                self.refused(2, said, "mesh", "v.npy", "-o", "m.vtu", *SETTINGS, "--from", "k",
+                             "--changed", box)
+        crop = ("mesh", "v.npy", "-o", "c.vtu", *SETTINGS, "--crop", "0,0,0,12,12,12")
+        self.done(*crop, "--keep", "c")  # an edit beside the crop changes nothing in it
+        self.done(*crop, "--from", "c", "--force", "--changed", "20,20,20,22,22,22")
 
     def test_a_certificate_is_about_the_whole_input(self):
         self.mesh("--keep", "k")
