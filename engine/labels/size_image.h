@@ -17,9 +17,8 @@ namespace mw::engine {
 class SizeImage {
  public:
   /// labels describes the volume that is meshed.
-  /// ERRORS: mw::Error(kInput) when the image has another shape or lies elsewhere in the world, or
-  /// is of a format whose numbers
-  ///         are not read here.
+  /// ERRORS: mw::Error(kInput) when the image has another shape, lies elsewhere in the world, or is
+  ///         of a format whose numbers are not read here.
   SizeImage(const io::LabelVolume& image, const io::VolumeInfo& labels, std::string file);
   /// Returns the image with each size multiplied.
   [[nodiscard]] SizeImage scaled(double factor) const;

@@ -397,7 +397,7 @@ class Mesh:
             return np.empty((0, 6), np.int64), np.empty(0, np.int64), np.empty(0, np.int64)
         rows, sides = self.wedges, self.wedge_labels
         tets = np.flatnonzero(np.isin(self.tets, rows).sum(axis=1) >= 3)
-        facets = np.sort(self.tets[tets][:, [[1, 2, 3], [0, 2, 3], [0, 1, 3], [0, 1, 2]]], axis=2)
+        facets = np.sort(self.tets[tets][:, _FACES], axis=2)
         all_facets = np.concatenate([facets.reshape(-1, 3), np.sort(rows[:, :3], axis=1)])
         place = np.unique(all_facets, axis=0, return_inverse=True)[1].ravel()
         tet_of = np.empty(place.max(initial=-1) + 1, np.int64)

@@ -11,6 +11,7 @@
 #include "kernels/quality/mesh_quality.h"
 #include "kernels/simplify/simplify.h"
 #include "tests/kernels/mesh/dense_mesh.h"
+#include "tests/kernels/optimise/short_cost.h"
 #include "tests/kernels/surface/interface_triangles.h"
 
 namespace mw::test {
@@ -40,22 +41,6 @@ std::pair<double, double> shape_at_vertex(const TetMesh& mesh, const Metric& met
     const double r = radius_ratio(mesh, metric, t);
     out.first = std::min(out.first, r);
     out.second += 1.0 / r;
-  }
-  return out;
-}
-
-/// What edges at v below 0.85 cost, as a share of the energy (ShortEdges).
-double short_cost(const TetMesh& mesh, const Metric& metric, LocalVertex v) {
-  std::set<LocalVertex> others;
-  for (const LocalTet& t : mesh.tets()) {
-    const bool has = std::ranges::find(t.vertices, v) != t.vertices.end();
-    if (has) others.insert(t.vertices.begin(), t.vertices.end());
-  }
-  others.erase(v);
-  double out = 0.0;
-  for (const LocalVertex w : others) {
-    const double length = metric.vector(mesh.position(v), mesh.position(w)).norm();
-    out += 15.0 * std::pow(std::max(0.0, 1.0 - length / 0.85), 2);
   }
   return out;
 }

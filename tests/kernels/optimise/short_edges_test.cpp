@@ -5,25 +5,10 @@
 
 #include <Eigen/Eigenvalues>
 
-#include "tests/kernels/mesh/dense_mesh.h"
+#include "tests/kernels/optimise/short_cost.h"
 
 namespace mw::test {
 namespace {
-
-double cost_at(const TetMesh& mesh, const Metric& metric, LocalVertex v, const Vec3& x) {
-  std::set<LocalVertex> others;
-  for (const LocalTet& t : mesh.tets()) {
-    const bool has = std::ranges::find(t.vertices, v) != t.vertices.end();
-    if (has) others.insert(t.vertices.begin(), t.vertices.end());
-  }
-  others.erase(v);
-  double out = 0.0;
-  for (const LocalVertex w : others) {
-    const double length = (metric.vector(mesh.position(v), mesh.position(w)) - x).norm();
-    out += 15.0 * std::pow(std::max(0.0, 1.0 - length / kShortEdge), 2);
-  }
-  return out;
-}
 
 TEST(ShortEdges, CostWhatTheDefinitionSays) {
   std::mt19937 random(41);
@@ -41,7 +26,7 @@ TEST(ShortEdges, CostWhatTheDefinitionSays) {
       const auto away = [&] { return (static_cast<double>(below(random, 801)) - 400.0) / 1000.0; };
       const Vec3 x(away(), away(), away());
       const double cost = edges.value_at(x);
-      ASSERT_NEAR(cost, cost_at(mesh, metric, v, x), 1e-9);
+      ASSERT_NEAR(cost, short_cost(mesh, metric, v, x), 1e-9);
       costly += cost > 0.0 ? 1 : 0;
       StarTerms terms;
       edges.add_derivatives(x, 2.0, terms);
