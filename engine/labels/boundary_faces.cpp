@@ -6,6 +6,7 @@
 #include <algorithm>
 
 #include "engine/labels/bricks.h"
+#include "kernels/core/assert.h"
 #include "kernels/core/index.h"
 
 namespace mw::engine {
@@ -17,16 +18,12 @@ std::int64_t bricks_along(std::int64_t voxels) {
   return (voxels + kBrick - 1) / kBrick;
 }
 
-/// Counts the faces between `count` voxels of a row and those above them in y and z, and between
-/// `next` of them and the next in x.  up and out are steps to the voxel above in y and z, or 0.
-std::uint32_t faces_of_row(const Label* row, std::int64_t count, std::int64_t next, std::int64_t up,
-                           std::int64_t out) {
-  std::uint32_t faces = 0;
-  for (std::int64_t x = 0; x < count; ++x) {
-    faces += (row[x] != row[x + up] ? 1U : 0U) + (row[x] != row[x + out] ? 1U : 0U);
-  }
-  for (std::int64_t x = 0; x < next; ++x) faces += row[x] != row[x + 1] ? 1U : 0U;
-  return faces;
+/// Counts the faces between a voxel of an array of this shape and those above it along each axis.
+std::uint32_t faces_above(const Label* voxel, Index3 at, Index3 shape) {
+  const Label label = *voxel;
+  return (at.x + 1 < shape.x && voxel[1] != label ? 1U : 0U) +
+         (at.y + 1 < shape.y && voxel[shape.x] != label ? 1U : 0U) +
+         (at.z + 1 < shape.z && voxel[shape.x * shape.y] != label ? 1U : 0U);
 }
 
 }  // namespace
@@ -36,21 +33,12 @@ BoundaryFaces::BoundaryFaces(Index3 volume)
       bricks_{bricks_along(volume.x), bricks_along(volume.y), bricks_along(volume.z)},
       faces_(static_cast<std::size_t>(bricks_.product())) {}
 
-void BoundaryFaces::count(const LabelBox& labels, Index3 brick, bool uniform) {
-  const Box3 box = box_of(brick);
-  const Index3 all = labels.box.shape(), last = box.hi - Index3{1, 1, 1};
-  const bool more_x = box.hi.x < labels.box.hi.x;
+void BoundaryFaces::count(Index3 brick, std::span<const Label> voxels) {
+  const Index3 shape = box_of(brick).shape();
+  MW_ASSERT(static_cast<std::int64_t>(voxels.size()) == shape.product());
   std::uint32_t faces = 0;
-  for (Index3 v = box.lo; v.z < box.hi.z; ++v.z) {
-    for (v.y = box.lo.y; v.y < box.hi.y; ++v.y) {
-      const bool inner = uniform && v.y != last.y && v.z != last.z;
-      v.x = inner ? last.x : box.lo.x;
-      const std::int64_t count = box.hi.x - v.x;
-      faces += faces_of_row(labels.labels.data() + labels.box.offset(v), count,
-                            more_x ? count : count - 1, v.y + 1 < labels.box.hi.y ? all.x : 0,
-                            v.z + 1 < labels.box.hi.z ? all.x * all.y : 0);
-    }
-  }
+  const Label* voxel = voxels.data();
+  for_each_index(shape, [&](Index3 at) { faces += faces_above(voxel++, at, shape); });
   faces_[row(brick)] = static_cast<std::uint16_t>(faces);
 }
 

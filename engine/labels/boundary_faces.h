@@ -11,18 +11,19 @@
 
 namespace mw::engine {
 
-/// Faces between two voxels of the volume with different labels; each counts for the voxel below
-/// it.  Memory: 2 bytes for 16^3 voxels.
+/// Faces between two voxels of one brick with different labels.  Those between bricks are left out,
+/// so that the counts are a function of the labels alone: what is read at once, and so how much is
+/// seen around a brick, depends on how the volume is stored.  Memory: 2 bytes for 16^3 voxels.
 class BoundaryFaces {
  public:
   BoundaryFaces() = default;
   /// Begins with no faces.
   explicit BoundaryFaces(Index3 volume);
 
-  /// Counts the faces of a brick, except those that it shares with voxels outside `labels`.
-  /// uniform says that the brick has one label, hence no faces inside.
-  /// REQUIRES: labels cover the brick.  Thread safety: different bricks may be counted at once.
-  void count(const LabelBox& labels, Index3 brick, bool uniform);
+  /// Counts the faces of a brick, whose voxels are given, x fastest.
+  /// REQUIRES: they are all its voxels in the volume.  Thread safety: different bricks may be
+  /// counted at once.
+  void count(Index3 brick, std::span<const Label> voxels);
 
   /// Returns the number of faces of each brick, x fastest.
   [[nodiscard]] std::span<const std::uint16_t> counts() const { return faces_; }

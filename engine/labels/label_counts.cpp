@@ -22,9 +22,8 @@ std::optional<Label> only_label(std::span<const Label> voxels) {
 }  // namespace
 
 /// Sums of whole numbers do not depend on which thread adds first.
-void LabelCounts::count(const LabelBox& tile, Index3 brick, std::span<const Label> mine,
-                        std::optional<Label> only) {
-  faces.count(tile, brick, only.has_value());
+void LabelCounts::count(Index3 brick, std::span<const Label> mine, std::optional<Label> only) {
+  if (!only) faces.count(brick, mine);
   const auto add = [&](Label label, std::uint64_t more) {
     std::atomic_ref(voxels[label]).fetch_add(more, std::memory_order_relaxed);
   };
@@ -43,7 +42,7 @@ LabelCounts counts_of_part(const io::DenseVolume& volume, int threads, const Seq
   tbb_for_each_index(threads, count, [&](Index3 at) {
     const LabelBox tile = read_labels(volume, tiles[static_cast<std::size_t>(at.x)]);
     for_each_brick(tile, [&](Index3 brick, const Box3& /*box*/, std::span<const Label> voxels) {
-      out.count(tile, brick, voxels, only_label(voxels));
+      out.count(brick, voxels, only_label(voxels));
     });
   });
   return out;

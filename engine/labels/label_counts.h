@@ -18,10 +18,9 @@ struct LabelCounts {
   /// Begins with no counts.
   LabelCounts(Index3 shape, std::size_t labels) : faces(shape), voxels(labels) {}
 
-  /// Counts a brick of a tile that was read.  mine are the brick's voxels; only is its label if it
-  /// has just one.  Thread safety: different bricks may be counted at once.
-  void count(const LabelBox& tile, Index3 brick, std::span<const Label> mine,
-             std::optional<Label> only);
+  /// Counts a brick that was read.  mine are the brick's voxels; only is its label if it has just
+  /// one.  Thread safety: different bricks may be counted at once.
+  void count(Index3 brick, std::span<const Label> mine, std::optional<Label> only);
 
   BoundaryFaces faces;                ///< shows where there is much to do
   std::vector<std::uint64_t> voxels;  ///< by dense label

@@ -96,6 +96,11 @@ double limit_of(double size, const io::DenseVolume& volume) {
   return SizeRules::kContracted / *std::min_element(spacing.begin(), spacing.end()) * size;
 }
 
+/// Rounds a limit down to a rung, but not below `least`; a size may be as small as a number can be.
+double rung_from(double least, double limit) {
+  return std::max(SizeField::rung_below(std::max(limit, least)), least);
+}
+
 /// Returns the limits that settings put on edges, in lengths of the metric.
 SizeField size_field(const io::DenseVolume& volume, const SizeSettings& sizes) {
   if (!sizes.limits_edges()) return {};
@@ -206,7 +211,7 @@ void PreparedLabels::limit_by_image(const SizeImage& image, int threads) {
     for_each_index(box, [&](Index3 v) {
       const double limit = limit_of(sizes[i++], volume_);
       if (limit == SizeField::kNoLimit) return;
-      sizes_.limit_voxel(v, std::max(SizeField::rung_below(limit), least));
+      sizes_.limit_voxel(v, rung_from(least, limit));
     });
   });
 }
@@ -230,7 +235,7 @@ void PreparedLabels::limit_thin_parts(const SizeSettings& sizes, int threads) {
       if (!wanted[labels.at(v)]) return;
       const double limit = thickness / sizes.across;
       parts.add(thickness, limit < least);
-      sizes_.limit_voxel(v, std::max(SizeField::rung_below(limit), least));
+      sizes_.limit_voxel(v, rung_from(least, limit));
     });
     const std::lock_guard turn(adding_up);
     thin_parts_.add(parts);
@@ -268,7 +273,7 @@ void PreparedLabels::read_tile(const io::DenseVolume& volume, const Box3& tile) 
   const LabelBox labels = read_labels(volume, tile);
   for_each_brick(labels, [&](Index3 brick, const Box3& box, std::span<const Label> voxels) {
     original_.write(brick, voxels);
-    if (counts_) counts_->count(labels, brick, voxels, original_.uniform_label(brick));
+    if (counts_) counts_->count(brick, voxels, original_.uniform_label(brick));
     if (sizes_.limits()) sizes_.add(box, voxels);
   });
 }

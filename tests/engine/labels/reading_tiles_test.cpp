@@ -166,5 +166,23 @@ TEST(LabelCounts, OfPartsAddUpToThoseOfTheWhole) {
   }
 }
 
+/// The same labels may be stored in chunks of any size.  What is counted decides on the mesh.
+TEST(LabelCounts, DoNotDependOnHowTheVolumeIsStored) {
+  std::mt19937 random(62);
+  for (std::uint32_t i = 0; i < 20; ++i) {
+    const Index3 shape{1 + below(random, 80), 1 + below(random, 60), 1 + below(random, 90)};
+    const auto kind = static_cast<audit::test::VolumeKind>(i % audit::test::kVolumeKinds);
+    const auto small = audit::test::random_volume_of(random, kind, shape, 1 + below(random, 5));
+    const test::MemoryVolume memory(small, {});
+    const io::LabelTable table = io::collect_labels(memory);
+    const LabelCounts plain = counts_of_part(io::DenseVolume(memory, table), 1, {});
+    const Index3 chunk{1 + below(random, 100), 1 + below(random, 100), 1 + below(random, 100)};
+    const test::CountedVolume stored(memory, chunk);
+    const LabelCounts chunked = counts_of_part(io::DenseVolume(stored, table), 1, {});
+    EXPECT_EQ(chunked.voxels, plain.voxels);
+    EXPECT_TRUE(std::ranges::equal(chunked.faces.counts(), plain.faces.counts()));
+  }
+}
+
 }  // namespace
 }  // namespace mw::engine
