@@ -316,6 +316,7 @@ void RunStore::commit(const WindowKey& key, std::vector<BlockMesh> blocks) {
 /// is here enter it again.
 void RunStore::replace(const WindowKey& key, std::span<const BlockKey> blocks,
                        std::vector<BlockPin>& pins, std::span<const KeptPlace> places) {
+  const bool was_torn = std::exchange(torn_, true);
   std::vector<std::uint64_t> slots;
   for (const BlockKey& block : blocks) {
     slots.push_back(layout_.slot(block));
@@ -336,9 +337,11 @@ void RunStore::replace(const WindowKey& key, std::span<const BlockKey> blocks,
       table_.put(slots[i], std::move(pins[i]));
     }
   }
-  if (journal_ == nullptr) return;
-  group_.windows.push_back(layout_.window(key));
-  group_.slots.insert(group_.slots.end(), slots.begin(), slots.end());
+  if (journal_ != nullptr) {
+    group_.windows.push_back(layout_.window(key));
+    group_.slots.insert(group_.slots.end(), slots.begin(), slots.end());
+  }
+  torn_ = was_torn;
 }
 
 void RunStore::adopt(const WindowKey& key, std::span<const KeptPlace> places) {
@@ -378,11 +381,13 @@ void RunStore::receive(const BlockVersion& version, std::vector<std::byte> bytes
   const WindowOrder order = layout_.order(version.block.march);
   const std::uint64_t from = order.rank(version.from.window);
   const std::lock_guard lock(mutex_);
+  const bool was_torn = std::exchange(torn_, true);
   for_each_index(layout_.windows_over(version.block), [&](Index3 w) {
     if (order.rank(w) <= from) done_.insert(layout_.window({version.block.march, w}));
   });
   table_.put(layout_.slot(version.block), std::move(pin));
   if (journal_ != nullptr) group_.slots.push_back(layout_.slot(version.block));
+  torn_ = was_torn;
 }
 
 }  // namespace mw::engine

@@ -92,6 +92,7 @@ class RunStore {
   /// These are for a store with a router.  No window starts from pause() until go_on().  Once none
   /// runs (is_quiet()) and no block is on its way, checkpoint() makes what is here durable as one
   /// record; go_on() then frees the bytes that only older records point to.
+  /// ERRORS of checkpoint(): mw::Error(kResource) when memory ran out in the middle of a commit.
   void pause();
   [[nodiscard]] bool is_quiet() const;
   void checkpoint();
@@ -105,7 +106,7 @@ class RunStore {
   void adopt(const WindowKey& key, std::span<const KeptPlace> places);
 
   /// Makes durable what is finished.  Does nothing without a work folder, or after an error in an
-  /// earlier group.
+  /// earlier group or in the middle of a commit.
   void save();
   /// True if another run can go on from what this one has saved.
   [[nodiscard]] bool has_saved_work() const;
@@ -151,7 +152,7 @@ class RunStore {
                  std::vector<BlockPin> pins);
   [[nodiscard]] bool group_is_full() const;
   void write_group();
-  [[nodiscard]] JournalRecord close_group(std::vector<Extent>& retired);
+  [[nodiscard]] std::optional<JournalRecord> close_group(std::vector<Extent>& retired);
 
   using Clock = std::chrono::steady_clock;
 
@@ -170,6 +171,9 @@ class RunStore {
   std::map<std::uint64_t, MemoryBudget::Reservation> in_flight_;  ///< by window
   std::uint64_t visiting_ = 0;  ///< windows that are visited or whose blocks are not all handed on
   bool paused_ = false;
+  /// A window's blocks are being replaced.  It stays so when memory runs out in the middle: then
+  /// the blocks here are of no use, and no record may follow those that were saved before.
+  bool torn_ = false;
   std::vector<Extent> retired_;  ///< the extents that go_on() releases
   Group group_;
   Clock::time_point group_since_ = Clock::now();

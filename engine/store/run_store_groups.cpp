@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "engine/store/run_store.h"
+#include "kernels/core/error.h"
 
 namespace mw::engine {
 
@@ -13,8 +14,10 @@ bool RunStore::group_is_full() const {
          (group_.windows.size() >= limits_.windows || Clock::now() - group_since_ >= limits_.age);
 }
 
-JournalRecord RunStore::close_group(std::vector<Extent>& retired) {
+/// Returns nothing when the blocks here are of no use.
+std::optional<JournalRecord> RunStore::close_group(std::vector<Extent>& retired) {
   const std::lock_guard lock(mutex_);
+  if (torn_) return std::nullopt;
   Group group = std::exchange(group_, {});
   group_since_ = Clock::now();
   std::sort(group.slots.begin(), group.slots.end());
@@ -38,10 +41,11 @@ void RunStore::write_group() {
   if (broken_) return;
   broken_ = true;  // until all went well
   std::vector<Extent> retired;
-  const JournalRecord record = close_group(retired);
-  if (!record.windows.empty()) {
+  const std::optional<JournalRecord> record = close_group(retired);
+  if (!record) return;
+  if (!record->windows.empty()) {
     disk_->sync();
-    journal_->append(record);
+    journal_->append(*record);
   }
   const std::lock_guard lock(mutex_);
   for (const Extent& extent : retired) disk_->release(extent);
@@ -67,9 +71,10 @@ bool RunStore::is_quiet() const {
 /// Always writes a record, so that the number of records is that of checkpoints.
 void RunStore::checkpoint() {
   const std::lock_guard turn(saving_);
-  const JournalRecord record = close_group(retired_);
+  const std::optional<JournalRecord> record = close_group(retired_);
+  if (!record) throw Error(ErrorKind::kResource, "memory ran out while blocks were replaced");
   disk_->sync();
-  journal_->append(record);
+  journal_->append(*record);
 }
 
 void RunStore::go_on() {

@@ -233,5 +233,40 @@ TEST(RunStore, WritesNoGroupAfterOneThatFailed) {
   EXPECT_EQ(files.operations, operations);
 }
 
+/// All next users of blocks are here.
+class KeepsAll : public BlockRouter {
+ public:
+  [[nodiscard]] bool stays(const BlockVersion& /*version*/) const override { return true; }
+  void send(const BlockVersion& /*version*/, BlockPin /*block*/) override {}
+  void committed(std::span<const BlockVersion> /*versions*/) override {}
+  [[nodiscard]] bool is_carrying() const override { return false; }
+};
+
+/// The old blocks have left by then, and the new ones are not there: what is here must not be
+/// recorded, or a resumed run would go on from blocks that no window has left.
+TEST(RunStore, RecordsNothingAfterMemoryRanOutInTheMiddleOfACommit) {
+  const RunLayout layout = fake_layout();
+  const WindowKey first{0, {0, 0, 0}};
+  MemoryBudget budget(index_bytes(layout) + kTightBytes);
+  VolatileFiles files;
+  KeepsAll router;
+  RunStore store(layout, budget, &files, kNever, &router);
+  BlockStore& march = store.march(0);
+  std::vector<BlockMesh> blocks = fake_work(layout, first, march.take(first.window));
+  std::uint64_t needed = 0;
+  for (const BlockMesh& block : blocks) {
+    needed += RunStore::cost_of(encode_block({}, block).size());
+  }
+  // There is room for the blocks, but not for a page of the table.
+  constexpr std::uint64_t kLessThanAPage = 1000;
+  auto rest = std::optional(
+      store.reserve(Purpose::kWindows, budget.limit() - budget.used() - needed - kLessThanAPage));
+  expect_error(ErrorKind::kResource, {}, [&] { march.commit(first.window, std::move(blocks)); });
+  rest.reset();
+  store.pause();
+  expect_error(ErrorKind::kResource, {"memory ran out"}, [&] { store.checkpoint(); });
+  EXPECT_FALSE(store.has_saved_work());
+}
+
 }  // namespace
 }  // namespace mw::engine
