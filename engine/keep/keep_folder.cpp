@@ -3,8 +3,6 @@
 // Making, locking and checking the folder.
 #include "engine/keep/keep_folder.h"
 
-#include <fcntl.h>
-#include <sys/file.h>
 #include <sys/stat.h>
 
 #include <algorithm>
@@ -12,6 +10,7 @@
 #include <cerrno>
 #include <sstream>
 
+#include "engine/store/journal/folder_lock.h"
 #include "engine/store/journal/mapped_file.h"
 #include "engine/store/journal/workdir.h"
 #include "io/file/errors.h"
@@ -23,7 +22,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr const char* kLockFile = "lock";
 constexpr const char* kSettingsFile = "settings.txt";
 constexpr const char* kChangingFile = "changing";
 constexpr const char* kPartPrefix = "part-";
@@ -31,9 +29,27 @@ constexpr std::array<const char*, 9> kFiles{kLockFile,    kSettingsFile, kVersio
                                             kWindowsFile, kLabelsFile,   kChosenFile,
                                             kLimitFile,   kMeshFile,     kChangingFile};
 
+constexpr const char* kSpilled = ".blocks.partial-spilled";
+
+bool is_kept_file(std::string_view name) {
+  return std::find(kFiles.begin(), kFiles.end(), name) != kFiles.end();
+}
+
 /// True for the name of a file that a kill in an unlucky instant leaves.
-bool is_left_over(const std::string& name) {
-  return name.find(".partial-") != name.npos || name.starts_with(io::kScratchPrefix);
+bool is_left_over(std::string_view name) {
+  if (name == kSpilled || name.starts_with(io::kScratchPrefix)) return true;
+  const std::size_t end = name.find(".partial-");
+  return end != name.npos && name.starts_with(".") && is_kept_file(name.substr(1, end - 1));
+}
+
+/// True for the folder of another process (kept_part()).
+bool is_part(const fs::path& path) {
+  const std::string name = path.filename().string();
+  if (!name.starts_with(kPartPrefix)) return false;
+  const std::string_view rank = std::string_view(name).substr(std::string_view(kPartPrefix).size());
+  const bool is_number = !rank.empty() && std::all_of(rank.begin(), rank.end(),
+                                                      [](char c) { return c >= '0' && c <= '9'; });
+  return is_number && is_of_runs(path);
 }
 
 [[noreturn]] void refuse(const fs::path& path, const std::string& why) {
@@ -64,27 +80,26 @@ void KeepFolder::make(KeepUse use) const {
   if (::mkdir(path_.c_str(), 0777) == 0) return;
   if (errno != EEXIST) io::fail_output(path_.string(), "create the folder", errno);
   if (!fs::is_directory(path_)) refuse(path_, "is not a folder; give --keep another name");
+  const bool may_be_ours = is_of_runs(path_);
   for (const auto& entry : fs::directory_iterator(path_)) {
     const std::string name = entry.path().filename().string();
-    const bool is_file = std::find(kFiles.begin(), kFiles.end(), name) != kFiles.end();
-    if (is_file || name.starts_with(kPartPrefix) || is_left_over(name)) continue;
+    if (may_be_ours && (is_kept_file(name) || is_left_over(name))) continue;
+    if (is_part(entry.path())) continue;  // processes of a run begin in any order
     refuse(path_, "was not made by --keep: it holds " + name + "; give an empty or a new folder");
   }
 }
 
 void KeepFolder::lock() {
-  const fs::path path = path_ / kLockFile;
-  lock_ = io::FileDescriptor(::open(path.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0666));
-  if (!lock_.valid()) io::fail_output(path.string(), "create", errno);
-  if (::flock(lock_.get(), LOCK_EX | LOCK_NB) == 0) {
-    std::error_code ignored;
-    for (const auto& entry : fs::directory_iterator(path_, ignored)) {
-      if (is_left_over(entry.path().filename().string())) fs::remove(entry.path(), ignored);
-    }
-    return;
+  std::optional<io::FileDescriptor> locked = lock_folder(path_);
+  if (!locked) {
+    refuse(path_, "another mwmesh is at work here; wait for it or give another folder");
   }
-  if (errno != EWOULDBLOCK) io::fail_output(path.string(), "lock", errno);
-  refuse(path_, "another mwmesh is at work here; wait for it or give another folder");
+  if (!locked->valid()) refuse(path_, "was removed meanwhile; begin it by --keep");
+  lock_ = std::move(*locked);
+  std::error_code ignored;
+  for (const auto& entry : fs::directory_iterator(path_, ignored)) {
+    if (is_left_over(entry.path().filename().string())) fs::remove(entry.path(), ignored);
+  }
 }
 
 void KeepFolder::settle(const std::string& settings) const {
@@ -108,7 +123,7 @@ void KeepFolder::settle(const std::string& settings) const {
 std::vector<fs::path> KeepFolder::parts() const {
   std::vector<fs::path> out;
   for (const auto& entry : fs::directory_iterator(path_)) {
-    if (entry.path().filename().string().starts_with(kPartPrefix)) out.push_back(entry.path());
+    if (is_part(entry.path())) out.push_back(entry.path());
   }
   std::sort(out.begin(), out.end());
   return out;
@@ -152,7 +167,7 @@ std::unique_ptr<WorkFile> KeepFolder::open(const std::string& name) {
 }
 
 std::unique_ptr<WorkFile> KeepFolder::open_scratch() const {
-  const fs::path path = path_ / ".blocks.partial-spilled";
+  const fs::path path = path_ / kSpilled;
   auto file = std::make_unique<MappedFile>(path);
   fs::remove(path);
   return file;

@@ -15,14 +15,15 @@
 namespace mw::engine {
 
 /// A folder with
-///     lock          held (flock) by the process that works here
+///     lock          held by the process that works here (folder_lock.h)
 ///     settings.txt  what the facts here depend on beside the labels: lines "name = value"
 ///     versions      bytes of blocks (window_pack.h), where the records say
 ///     windows       what went into windows and came out (record_log.h, window_records.h)
 ///     labels        the labels of the run that was complete last (kept_labels.h)
 ///     chosen.txt    what the last run chose by itself
 ///     limit.txt     bytes that all this may take when a run ends; if missing, any number
-///     mesh.txt      how large the mesh of the run was that was complete last
+///     mesh.txt      the run that was complete last: how large its mesh was, and what it did with
+///                   the labels before it meshed them
 ///     changing      boxes in which incomplete runs may have seen other labels, a line each
 ///     part-N        the folder of process N (kept_part()), with the same files; the first process
 ///                   takes it over when the run ends, or when the next one begins

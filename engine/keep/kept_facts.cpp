@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "engine/keep/drop_order.h"
+#include "engine/store/journal/folder_lock.h"
 #include "engine/store/journal/mapped_file.h"
 #include "io/file/sink/partial_file.h"
 
@@ -26,6 +27,17 @@ constexpr const char* kCompactedFile = ".windows.partial-compacted";
 std::uint64_t sectors_of(const Extent& extent) {
   constexpr std::uint64_t kSector = ExtentAllocator::kSectorBytes;
   return (extent.size + kSector - 1) / kSector * kSector;
+}
+
+/// Removes the folder of another process.  Its lock goes last, since without it the other files
+/// would count as somebody else's after a kill.
+void remove_part(const std::filesystem::path& part) {
+  std::error_code ignored;  // what stays holds no records, and the next run removes it
+  for (const auto& entry : std::filesystem::directory_iterator(part, ignored)) {
+    if (entry.path().filename() != kLockFile) std::filesystem::remove(entry.path(), ignored);
+  }
+  std::filesystem::remove(part / kLockFile, ignored);
+  std::filesystem::remove(part, ignored);
 }
 
 }  // namespace
@@ -168,8 +180,7 @@ void KeptFacts::take_over(const std::filesystem::path& part, std::vector<std::ui
     save();
     std::filesystem::remove(records);
   }
-  std::error_code ignored;  // what stays holds no records, and the next run removes it
-  std::filesystem::remove_all(part, ignored);
+  remove_part(part);
 }
 
 /// Bytes that are given up leave gaps, not all of which can be filled, so it may take some rounds.

@@ -3,9 +3,8 @@
 // Making, locking, checking and removing a work folder; settings as lines of text.
 #include "engine/store/journal/workdir.h"
 
-#include <fcntl.h>
-#include <sys/file.h>
 #include <sys/stat.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <array>
@@ -14,8 +13,10 @@
 #include <map>
 #include <optional>
 #include <sstream>
+#include <vector>
 
 #include "engine/settings/setting_table.h"
+#include "engine/store/journal/folder_lock.h"
 #include "engine/store/journal/journal.h"
 #include "engine/store/journal/mapped_file.h"
 #include "io/file/errors.h"
@@ -29,7 +30,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr const char* kLockFile = "lock";
 constexpr const char* kSettingsFile = "settings.txt";
 // They are in the order of removal: a kill on the way leaves nothing that looks like saved work.
 constexpr std::array<const char*, 4> kFiles{kJournalFile, kBlocksFile, kSettingsFile, kLockFile};
@@ -86,14 +86,6 @@ void clear_away(const fs::path& path) {
   std::error_code error;
   fs::remove(path, error);
   if (error) io::fail_output(path.string(), "remove", error.value());
-}
-
-/// True if the locked file still has that name: a run that ends removes it.
-bool is_at(const io::FileDescriptor& file, const fs::path& path) {
-  struct stat held {};
-  struct stat named {};
-  return ::fstat(file.get(), &held) == 0 && ::stat(path.c_str(), &named) == 0 &&
-         held.st_ino == named.st_ino && held.st_dev == named.st_dev;
 }
 
 std::string triple(const std::array<double, 3>& v) {
@@ -182,28 +174,30 @@ void Workdir::make_folder() {
 }
 
 void Workdir::refuse_files_of_others() const {
+  // Another run may be about to make or to remove the folder, so it is looked at twice.
+  const bool was_of_runs = is_of_runs(path_);
   std::error_code error;
   const fs::directory_iterator entries(path_, error);
   if (error) io::fail_output(path_.string(), "read the work folder", error.value());
-  for (const auto& entry : entries) {
-    const std::string name = entry.path().filename().string();
-    if (is_ours(name)) continue;
+  std::vector<std::string> names;
+  for (const auto& entry : entries) names.push_back(entry.path().filename().string());
+  const bool may_be_ours = was_of_runs || is_of_runs(path_);
+  for (const std::string& name : names) {
+    if (may_be_ours && is_ours(name)) continue;
     refuse(path_, "is no work folder of mwmesh: it holds " + name + "; give an empty or a new one");
   }
 }
 
 void Workdir::lock() {
-  const fs::path path = path_ / kLockFile;
   do {
     make_folder();
-    lock_ = io::FileDescriptor(::open(path.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0666));
-    if (!lock_.valid() && errno == ENOENT) continue;  // another run has just removed its folder
-    if (!lock_.valid()) io::fail_output(path.string(), "create", errno);
-    if (::flock(lock_.get(), LOCK_EX | LOCK_NB) == 0) continue;
-    if (errno != EWOULDBLOCK) io::fail_output(path.string(), "lock", errno);
-    keep_ = true;
-    refuse(path_, "another mwmesh is at work here; wait for it or give another --workdir");
-  } while (!lock_.valid() || !is_at(lock_, path));
+    std::optional<io::FileDescriptor> locked = lock_folder(path_);
+    if (!locked) {
+      keep_ = true;
+      refuse(path_, "another mwmesh is at work here; wait for it or give another --workdir");
+    }
+    lock_ = std::move(*locked);
+  } while (!lock_.valid());
 }
 
 bool Workdir::has_saved_work() {
@@ -244,7 +238,7 @@ void Workdir::remove_files() const {
     // A journal that a power cut brings back without the others would look like saved work.
     if (name == kJournalFile) io::sync_folder(path_);
   }
-  fs::remove(path_, ignored);
+  ::rmdir(path_.c_str());  // a link to the folder stays, as somebody else made it
 }
 
 std::unique_ptr<WorkFile> Workdir::open(const std::string& name) {

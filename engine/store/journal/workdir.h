@@ -18,7 +18,7 @@ inline constexpr const char* kBlocksFile = "blocks";
 inline constexpr const char* kJournalFile = "journal";
 
 /// A folder with
-///     lock          held (flock) by the process that works here
+///     lock          held by the process that works here (folder_lock.h)
 ///     settings.txt  what the result depends on, a line each: "name = value"
 ///     blocks        bytes of blocks, engine/store/codec/block_codec.h, where the journal says
 ///     journal       engine/store/journal/journal.h

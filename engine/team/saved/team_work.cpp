@@ -7,6 +7,7 @@
 #include <fstream>
 #include <iterator>
 
+#include "engine/store/journal/folder_lock.h"
 #include "engine/store/journal/work_file.h"
 #include "io/file/errors.h"
 #include "io/file/sink/atomic_file.h"
@@ -43,6 +44,21 @@ bool take_number(std::string_view& text, std::string_view name, std::uint64_t& o
   return true;
 }
 
+bool is_ours(const std::string& name) {
+  return name == kLockFile || name == kEpochsFile || name.starts_with("gen-") ||
+         name.starts_with(io::text(".", kEpochsFile, ".partial-"));
+}
+
+/// Returns the name of a file that no run has made, or nothing.
+std::string file_of_others(const fs::path& folder) {
+  const bool may_be_ours = is_of_runs(folder);
+  for (const auto& entry : fs::directory_iterator(folder)) {
+    std::string name = entry.path().filename().string();
+    if (!may_be_ours || !is_ours(name)) return name;
+  }
+  return {};
+}
+
 [[noreturn]] void refuse(const fs::path& folder, const std::string& why) {
   throw Error(ErrorKind::kUsage, folder.string() + ": " + why);
 }
@@ -72,6 +88,13 @@ std::optional<TeamWork::State> TeamWork::read_state(const std::string& text) con
 TeamWork::TeamWork(Team& team, const fs::path& folder, bool resume, const std::string& identity)
     : team_(team), folder_(folder), identity_(identity) {
   fs::create_directories(folder_);
+  // All ranks throw what the first one finds.
+  const std::string foreign = team.gather(team.is_first() ? file_of_others(folder_) : "").at(0);
+  if (!foreign.empty()) {
+    refuse(folder_,
+           "is no work folder of mwmesh-mpi: it holds " + foreign + "; give an empty or a new one");
+  }
+  lock_for_all();
   const std::string seen = team.is_first() ? text_of(folder_ / kEpochsFile) : std::string();
   before_ = read_state(team.gather(seen).at(0));
   if (before_ && !resume) {
@@ -93,9 +116,23 @@ TeamWork::TeamWork(Team& team, const fs::path& folder, bool resume, const std::s
   own_.emplace(own_folder_, false, identity);
 }
 
+/// The first rank holds the lock of the folder.
+void TeamWork::lock_for_all() {
+  std::optional<io::FileDescriptor> locked;
+  if (team_.is_first()) locked = lock_folder(folder_);
+  const bool is_held = locked && locked->valid();
+  if (team_.gather(is_held ? "held" : "").at(0).empty()) {
+    refuse(folder_, "another mwmesh is at work here; wait for it or give another --workdir");
+  }
+  if (is_held) lock_ = std::move(*locked);
+}
+
 TeamWork::~TeamWork() {
   std::error_code others_are_there;
   own_.reset();
+  if (lock_.valid() && !fs::exists(folder_ / kEpochsFile, others_are_there)) {
+    fs::remove(folder_ / kLockFile, others_are_there);
+  }
   fs::remove(folder_of(generation_), others_are_there);
   fs::remove(folder_, others_are_there);
 }

@@ -8,10 +8,12 @@
 
 #include "engine/store/journal/workdir.h"
 #include "engine/team/team.h"
+#include "io/file/file_descriptor.h"
 
 namespace mw::engine {
 
 /// A folder that all ranks see, with
+///     lock                  held by the first rank (folder_lock.h)
 ///     epochs                what counts: lines "name = value" of generation, ranks and epochs,
 ///                           then the identity of the run
 ///     gen-0002/rank-0007/   a Workdir of each rank
@@ -51,6 +53,7 @@ class TeamWork {
     std::string identity;
   };
 
+  void lock_for_all();
   [[nodiscard]] std::optional<State> read_state(const std::string& text) const;
   [[nodiscard]] std::filesystem::path folder_of(std::uint64_t generation) const;
   [[nodiscard]] std::filesystem::path folder_of(std::uint64_t generation, std::uint64_t rank) const;
@@ -58,6 +61,7 @@ class TeamWork {
   Team& team_;
   std::filesystem::path folder_;
   std::string identity_;
+  io::FileDescriptor lock_;
   std::optional<State> before_;
   std::uint64_t generation_ = 1;
   std::uint64_t counted_ = 0;

@@ -129,6 +129,18 @@ class Keep(unittest.TestCase):
         with self.assertRaises(AssertionError):
             self.expect_fresh()
 
+    def test_files_of_others_stay(self):
+        """The names of our files are everyday words."""
+        for name in ("labels", "changing", "lock", "part-1", "part-00000", "part-x/thesis",
+                     "part-1/labels", "data.partial-results.csv", ".x.partial-1"):
+            with self.subTest(name), tempfile.TemporaryDirectory(dir=".") as folder:
+                path = pathlib.Path(folder, name)
+                path.parent.mkdir(exist_ok=True)
+                path.write_text("precious")
+                self.refused(2, "was not made by --keep", "mesh", "v.npy", "-o", "m.vtu", *SETTINGS,
+                             "--keep", folder)
+                self.assertEqual(path.read_text(), "precious")
+
     def test_boxes_without_a_voxel_are_refused(self):
         self.mesh("--keep", "k")
         for box, said in (("5,5,5,5,5,5", "has no voxel"), ("9,9,9,5,5,5", "has no voxel"),
@@ -146,6 +158,24 @@ class Keep(unittest.TestCase):
         self.save()
         self.mesh("--from", "k", "--changed", "20,20,20,21,21,21", "--certify", "on")
         self.expect_fresh()
+
+    def test_delta_of_other_merges(self):
+        """What was meshed before was merged in its own way, whatever is merged now."""
+        first, second, third = (int(label) for label in np.unique(self.volume)[:3])
+        def edited():
+            with open("d.json", encoding="utf-8") as file:
+                delta = json.load(file)
+            return delta["voxels_changed"], [row["label"] for row in delta["labels"]]
+        voxels = int((self.volume == second).sum())
+        self.mesh("--keep", "k", "--drop-specks", "3")
+        self.mesh("--from", "k", "--merge", f"{second}={first}", "--delta", "d.json")
+        merged, labels = edited()
+        self.assertGreaterEqual(merged, voxels)  # and the specks
+        self.assertTrue({first, second} <= set(labels))
+        self.mesh("--from", "k", "--merge", f"{third},{second}={first}", "--delta", "d.json")
+        self.assertEqual(edited(), (int((self.volume == third).sum()), [first, third]))
+        self.mesh("--from", "k", "--delta", "d.json")
+        self.assertEqual(edited()[1], [first, second, third])
 
     def test_delta(self):
         self.mesh("--keep", "k")

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Whole records come back, and the first that is not whole ends the journal.
 #include "engine/store/journal/journal.h"
+#include "engine/store/journal/folder_lock.h"
 #include "engine/store/journal/workdir.h"
 #include "kernels/core/error.h"
 #include "tests/engine/store/random_blocks.h"
@@ -249,6 +250,7 @@ TEST_F(WorkdirTest, ShowsLongValuesInPart) {
 /// A run killed before anything was saved, at whatever moment, is in nobody's way.
 TEST_F(WorkdirTest, TakesOverWhatWasNeverSaved) {
   fs::create_directory(path());
+  EXPECT_TRUE(lock_folder(path()).has_value());
   std::ofstream(path() / "settings.txt") << "window = 4\n";
   std::ofstream(path() / ".settings.txt.partial-12-0") << "wind";
   std::ofstream(path() / "journal") << "";
@@ -280,6 +282,26 @@ TEST_F(WorkdirTest, LeavesFilesOfOthersAlone) {
   EXPECT_FALSE(fs::exists(path() / "lock"));
 }
 
+/// The names of our files are everyday words.
+TEST_F(WorkdirTest, LeavesFilesOfOthersAloneThatAreCalledLikeOurs) {
+  for (const char* name : {"settings.txt", "blocks", "journal", "lock"}) {
+    fs::create_directory(path());
+    std::ofstream(path() / name) << "precious\n";
+    expect_refused(false, kSettings, std::string("it holds ") + name);
+    expect_refused(true, kSettings, std::string("it holds ") + name);
+    EXPECT_TRUE(fs::exists(path() / name));
+    fs::remove_all(path());
+  }
+}
+
+TEST_F(WorkdirTest, LeavesALinkToTheFolder) {
+  fs::create_directory(folder() / "elsewhere");
+  fs::create_directory_symlink("elsewhere", path());
+  { const Workdir workdir(path(), false, kSettings); }
+  EXPECT_TRUE(fs::is_symlink(path()));
+  EXPECT_TRUE(fs::is_empty(folder() / "elsewhere"));
+}
+
 TEST_F(WorkdirTest, NeedsAFolderToBeIn) {
   std::ofstream(path()) << "a file";
   expect_refused(false, kSettings, "is not a folder");
@@ -288,6 +310,8 @@ TEST_F(WorkdirTest, NeedsAFolderToBeIn) {
 }
 
 TEST_F(WorkdirTest, TellsWhatItCannotClearAway) {
+  fs::create_directories(path());
+  EXPECT_TRUE(lock_folder(path()).has_value());
   fs::create_directories(path() / kBlocksFile / "in the way");
   expect_error(ErrorKind::kResource, {kBlocksFile},
                [&] { const Workdir workdir(path(), false, kSettings); });
