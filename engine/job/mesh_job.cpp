@@ -12,6 +12,7 @@
 #include "engine/job/certificate.h"
 #include "engine/job/count_pilot.h"
 #include "engine/job/halving.h"
+#include "engine/job/steps_text.h"
 #include "engine/job/unpacking.h"
 #include "engine/job/volume_delta.h"
 #include "engine/keep/keep_folder.h"
@@ -105,32 +106,41 @@ class KeptInput {
   [[nodiscard]] const std::shared_ptr<KeepFolder>& folder() const { return folder_; }
   [[nodiscard]] std::uint64_t voxels_read() const { return counted_.voxels(); }
 
-  /// Returns what the edit did to the volume and to the mesh; the steps of the job were applied to
-  /// `after`.
+  /// Returns what the edit did to the volume and to the mesh.  `after` is what the steps of the job
+  /// made of the labels; before, the steps of the run that was complete last did so.
   [[nodiscard]] io::Json delta(const io::LabelVolume& after, const MeshJob& job,
                                const MeshSize& size) const {
+    MeshSize old_size;
+    std::istringstream text(folder_->text(kMeshFile));
+    const bool is_known = !(text >> old_size.vertices >> old_size.tets).fail();
     const PatchedVolume unpatched(counted_, *before_, {});
-    const io::PreparedInput before(unpatched, job.steps);
+    const io::PreparedInput before(unpatched, steps_in(text),
+                                   io::SpeckLimits::of_budget(job.run.store.memory));
     const VerifyTask task{.options = {},
                           .threads = thread_count(job.run.threads),
                           .folder = folder_->path(),
                           .between = job.stop};
-    MeshSize old_size;
-    std::istringstream text(folder_->text(kMeshFile));
-    const bool is_known = !(text >> old_size.vertices >> old_size.tets).fail();
     return delta_json(delta_of(before.volume(), after, task),
                       is_known ? std::optional(old_size) : std::nullopt, size);
   }
 
   /// Must be called once the run is complete.
-  void finish(const MeshSize& size) {
+  void finish(const io::InputSteps& steps, const MeshSize& size) {
     if (folder_ == nullptr) return;
     after_->commit();
-    folder_->put_text(kMeshFile, io::text(size.vertices, " ", size.tets, "\n"));
+    folder_->put_text(kMeshFile, io::text(size.vertices, " ", size.tets, "\n") + text_of(steps));
     folder_->end_change();
   }
 
  private:
+  /// Reads the lines behind the first one.
+  static io::InputSteps steps_in(std::istringstream& text) {
+    std::string rest;
+    std::getline(text, rest);
+    std::getline(text, rest, '\0');
+    return steps_of(text ? rest : std::string());
+  }
+
   void open_before(const MeshJob& job) {
     const KeepOptions& options = job.run.keep;
     if (options.changed.empty() && !job.wants_delta) return;
@@ -375,7 +385,7 @@ report::FinishedRun mesh(const io::LabelVolume& opened, const MeshJob& asked, io
   }
   const MeshSize size{run.engine.vertices, run.engine.tets};
   if (job.wants_delta) run.delta = kept.delta(input.volume(), job, size);
-  kept.finish(size);
+  kept.finish(job.steps, size);
   if (run.engine.keep) run.engine.keep->voxels_read = kept.voxels_read();
   if (connected) run.connected = connected->facts();
   if (run.connected) {
