@@ -41,6 +41,7 @@ class Reader {
 
   CommandLine read(std::vector<std::string> arguments) {
     CommandLine line{.command = command_};
+    refuse_names_like_flags(arguments);
     std::reverse(arguments.begin(), arguments.end());  // the library takes them from the end
     try {
       app_.parse(arguments);
@@ -62,6 +63,15 @@ class Reader {
   }
 
  private:
+  /// Refuses -volume.npy, which the library would take for -v and more flags behind it.
+  void refuse_names_like_flags(const std::vector<std::string>& arguments) const {
+    for (const std::string& word : arguments) {
+      if (word == "--") return;
+      if (word.size() < 3 || (!word.starts_with("-v") && !word.starts_with("-h"))) continue;
+      refuse(word + ": unknown flag; a file of that name is ./" + word, command_);
+    }
+  }
+
   struct Flag {
     const Option* option = nullptr;
     CLI::Option* parsed = nullptr;

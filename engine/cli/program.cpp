@@ -4,6 +4,9 @@
 #include "engine/cli/program.h"
 #include "engine/version.h"
 
+#include <fcntl.h>
+#include <unistd.h>
+
 #include <csignal>
 #include <iostream>
 
@@ -66,16 +69,30 @@ int parse_and_run(int argc, char** argv) {
   return code;
 }
 
+/// Gives the numbers of closed standard streams to files that neither take nor give bytes.  Else
+/// the first files that are opened would get them, and messages would go into the mesh.
+void hold_standard_streams() {
+  for (int stream = 0; stream <= STDERR_FILENO; ++stream) {
+    if (::fcntl(stream, F_GETFD) >= 0) continue;
+    (void)::open("/dev/null", stream == STDIN_FILENO ? O_WRONLY : O_RDONLY);
+  }
+}
+
+void begin() {
+  hold_standard_streams();
+  // Beyond a file size limit a write then fails, with a message, instead of killing the program.
+  (void)std::signal(SIGXFSZ, SIG_IGN);
+}
+
 }  // namespace
 
 int run_program(int argc, char** argv) noexcept {
-  // Beyond a file size limit a write then fails, with a message, instead of killing the program.
-  (void)std::signal(SIGXFSZ, SIG_IGN);
+  begin();
   return guarded([&] { return parse_and_run(argc, argv); });
 }
 
 int run_divided_program(int argc, char** argv, engine::Processes& processes) noexcept {
-  (void)std::signal(SIGXFSZ, SIG_IGN);
+  begin();
   return guarded(
       [&] {
         divide_runs_among(processes);

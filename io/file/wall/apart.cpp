@@ -5,6 +5,7 @@
 
 #include <fcntl.h>
 #include <signal.h>
+#include <sys/prctl.h>
 #include <sys/resource.h>
 #include <sys/wait.h>
 #include <unistd.h>
@@ -59,12 +60,14 @@ void set_limit(decltype(RLIMIT_AS) what, std::uint64_t soft) {
 }
 
 /// Resets the signals, so that a crash, which is expected here, kills the child quietly, whatever
-/// this program or a tool does about signals.
+/// this program or a tool does about signals.  What a terminal or a batch system sends to the whole
+/// group is for the parent, which ends the child: a child that died of it would look like a crash.
 void forget_signals() {
-  for (const int signal :
-       {SIGABRT, SIGBUS, SIGFPE, SIGILL, SIGINT, SIGPIPE, SIGSEGV, SIGTERM, SIGXCPU}) {
+  for (const int signal : {SIGABRT, SIGBUS, SIGFPE, SIGILL, SIGPIPE, SIGSEGV, SIGXCPU}) {
     ::signal(signal, SIG_DFL);
   }
+  for (const int signal : {SIGINT, SIGTERM, SIGHUP, SIGUSR1}) ::signal(signal, SIG_IGN);
+  ::prctl(PR_SET_PDEATHSIG, SIGKILL);
   sigset_t none;
   sigemptyset(&none);
   ::sigprocmask(SIG_SETMASK, &none, nullptr);

@@ -106,6 +106,8 @@ TEST_F(UsageTest, RefusesContradictions) {
   expect_failure(2, "mesh v.npy -o w.vtu --dtype u8", "--shape");
   expect_failure(2, "mesh v.npy -o w.vtu --shape 20,20,20", "--dtype");
   expect_failure(2, "mesh v.npy -o w.vtu --labels 1,99", "no label 99");
+  expect_failure(2, "mesh -v.npy -o w.vtu", "./-v.npy");
+  expect_failure(2, "mesh -hello.npy -o w.vtu", "./-hello.npy");
 }
 
 TEST_F(UsageTest, RefusesTetgenWithoutItsWorker) {
@@ -199,6 +201,19 @@ TEST_F(UsageTest, EndsWithFourWhenTheDiskIsFull) {
     expect_failure(2, "mesh v.npy -o nowhere/" + name, "nowhere");
   }
   expect_failure(4, "info v.npy", "standard output", "sh -c '\"$0\" \"$@\" >/dev/full'");
+}
+
+/// The first file that is opened would get the number of a closed stream, and the messages with it.
+TEST_F(UsageTest, WritesNoMessagesIntoAMeshWhenStreamsAreClosed) {
+  make_volume();
+  for (const std::string ending : {".vtu", ".vtkhdf", ".msh"}) {
+    expect_done("mesh v.npy -o whole" + ending);
+    for (const std::string closed : {">&-", "2>&-", "<&- >&- 2>&-"}) {
+      const std::string warned = " --resume --force -o m" + ending;  // nothing to resume: a warning
+      (void)run("mesh v.npy" + warned, "sh -c '\"$0\" \"$@\" " + closed + "'");
+      EXPECT_EQ(read("m" + ending), read("whole" + ending)) << ending << " " << closed;
+    }
+  }
 }
 
 /// Reading the labels of 4 GiB, most of them holes in the file, takes more than a second.

@@ -46,6 +46,16 @@ TEST(Apart, CrashesStayThere) {
   EXPECT_EQ(die([] { throw std::bad_alloc(); }).death, "it wanted too much memory");
 }
 
+/// A terminal and a batch system signal the whole group; what is to be done is the parent's
+/// decision.
+TEST(Apart, SignalsToTheGroupAreNoCrash) {
+  const ApartAnswer answer = run_apart({}, [] {
+    for (const int signal : {SIGINT, SIGTERM, SIGHUP, SIGUSR1}) ::raise(signal);
+    return std::string("answer");
+  });
+  EXPECT_EQ(answer.bytes, "answer");
+}
+
 TEST(Apart, LimitsHold) {
   ApartLimits limits;
   limits.cpu_seconds = 1;
