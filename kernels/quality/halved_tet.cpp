@@ -62,6 +62,8 @@ double halved_floor(double floor) {
   const double counted = std::min(floor, kMost);
   if (!(counted > 0.0)) return 0.0;
   const double kept = kShare * counted * counted;
+  constexpr double kRounded = 1e-300;  // less has no three digits that could be kept
+  if (kept < kRounded) return 0.0;
   const double scale = std::pow(10.0, 2.0 - std::floor(std::log10(kept)));
   return std::floor(kept * scale) / scale;
 }

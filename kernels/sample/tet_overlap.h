@@ -34,7 +34,7 @@ class TetOverlap {
   /// The voxels of an image of this shape that the tet may cover; may be empty.
   [[nodiscard]] Box3 box(Index3 shape) const;
   /// Calls visit for each row of the box that the tet meets, y within z ascending.
-  /// ENSURES: the volume that is told of a voxel does not depend on the box.
+  /// ENSURES: up to rounding, the volume that is told of a voxel does not depend on the box.
   /// Cost: a clipped polygon for each column, and for each voxel that a face passes through.
   void cut(const Box3& box, const std::function<void(const CoveredRow& row)>& visit) const;
 

@@ -14,11 +14,14 @@ bool EdgeLimits::is_within(Point a, Point b, double limit) const {
 bool EdgeLimits::is_short(LocalVertex v, LocalVertex w) const {
   constexpr double kShort = 0.6;
   const Point a = mesh_.position(v), b = mesh_.position(w);
-  const LocalVertex inner = mesh_.order(v) == 1 ? v : w;
-  const Label label = mesh_.star(inner).front().label;
-  if (!sizes_->is_asked(label)) return false;
-  const double limit = std::min({sizes_->at(a), sizes_->at(b), sizes_->of_label(label)});
-  return is_within(a, b, kShort * limit);
+  double limit = SizeField::kNoLimit;
+  bool is_asked = false;
+  for (const LinkTriangle& t : mesh_.star(v)) {
+    if (t.label == kExterior || !t.has(w) || !sizes_->is_asked(t.label)) continue;
+    limit = std::min(limit, sizes_->of_label(t.label));
+    is_asked = true;
+  }
+  return is_asked && is_within(a, b, kShort * std::min({sizes_->at(a), sizes_->at(b), limit}));
 }
 
 bool EdgeLimits::star_keeps(LocalVertex v, LocalVertex without, Point x) const {

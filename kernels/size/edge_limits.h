@@ -36,7 +36,8 @@ class EdgeLimits {
   }
 
   /// Is an edge so short that a longer one is asked there?  False where no size is asked of the
-  /// place itself and limits only come from places around.  REQUIRES: any(); both alive.
+  /// labels around it and limits only come from places farther away.  REQUIRES: any(); both
+  /// alive.
   [[nodiscard]] bool is_short(LocalVertex v, LocalVertex w) const;
 
  private:

@@ -63,7 +63,8 @@ class SizeField {
   /// Limits a voxel, whatever its label.  Thread safety: as add().
   void limit_voxel(Index3 voxel, double limit);
   /// Rounds a limit down to one of few, which is at most a twentieth less.  Each limit that is in
-  /// use costs spread() time.
+  /// use costs spread() time.  REQUIRES: the limit is finite, and not much less than a voxel, since
+  /// each step on the way down is a twentieth.
   [[nodiscard]] static double rung_below(double limit);
   /// Makes the limits hold for moves, flips and inner vertices as they are.
   void allow_no_stretch() { stretch_ = 1.0; }

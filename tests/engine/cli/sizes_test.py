@@ -164,6 +164,10 @@ class Sizes(unittest.TestCase):
         np.save("h.npy", sizes)
         self.assertIn("halved      once", run("mesh", "l.npy", "-o", "l.vtu", "--size", "h.npy"))
         self.assertIn("all checks hold", run("verify", "l.npy", "l.vtu"))
+        tiny = sizes.astype(np.float64)  # as a file that tells the wrong type would have it
+        tiny[3, 4, 5] = 5e-324
+        np.save("h.npy", tiny)
+        start("mesh", "l.npy", "-o", "l.vtu", "--size", "h.npy", "--force")  # it comes to an end
         np.save("h.npy", sizes[:-1])
         done = start("mesh", "l.npy", "-o", "l.vtu", "--size", "h.npy")
         self.assertEqual(done.returncode, 3)

@@ -182,6 +182,10 @@ TEST(HalvedTet, NoPartIsBelowTheFloorThatIsTold) {
 
 TEST(HalvedTet, TheFloorOfPartsFollowsThatOfTets) {
   EXPECT_EQ(halved_floor(0.0), 0.0);
+  for (const double tiny : {1e-100, 1e-153, 1e-155, 1e-200, 5e-324}) {
+    EXPECT_GE(halved_floor(tiny), 0.0) << tiny;
+    EXPECT_LE(halved_floor(tiny), tiny) << tiny;
+  }
   EXPECT_DOUBLE_EQ(halved_floor(0.2), 0.072);
   EXPECT_DOUBLE_EQ(halved_floor(halved_floor(0.2)), 0.00933);
   double last = 0;
