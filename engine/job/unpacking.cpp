@@ -12,8 +12,10 @@ void check_unpacking(const io::LabelVolume& volume, const ReadingRoom& room) {
   constexpr std::uint64_t kLittle = 4;  // a chunk is little if this many fit into a share
   const std::uint64_t unpacked = volume.buffer_bytes(1);
   if (unpacked < room.memory / room.shares / kLittle) return;
-  const std::uint64_t least = room.shares * (room.beside + unpacked);
-  if (least <= room.memory) return;
+  const std::uint64_t now = room.shares * (room.beside + unpacked);
+  if (now <= room.memory) return;
+  // Of each byte that is added to the budget, unpacked chunks take a quarter.
+  const std::uint64_t least = now + (now - room.memory) / 3;
   throw Error(ErrorKind::kResource,
               io::text("a memory budget of ", io::size_words(room.memory),
                        " is too small to unpack a chunk of the volume; ", io::min_memory(least)));

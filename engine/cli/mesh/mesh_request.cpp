@@ -76,7 +76,7 @@ void add_keep_options(OptionSet& options, MeshRequest& request) {
                .implied = implied_by_keep});
   options.add({.name = "changed",
                .value = "X0,Y0,Z0,X1,Y1,Z1",
-               .help = "with --from: where INPUT has changed, repeatable [anywhere]",
+               .help = "with --from: where INPUT has changed since its last mesh, repeatable [anywhere]",
                .group = kRunGroup,
                .listed = Listed::kInHelpAll,
                .repeats = true,
@@ -334,6 +334,20 @@ void settle_keep(MeshRequest& request) {
                                             : engine::KeepUse::kBegin;
 }
 
+/// Returns the labels that these have become when the rules were applied.
+std::vector<RawLabel> merged(std::vector<RawLabel> labels,
+                             const std::vector<io::MergeRule>& rules) {
+  for (RawLabel& label : labels) {
+    const auto rule = std::find_if(rules.begin(), rules.end(), [&](const io::MergeRule& r) {
+      return std::find(r.from.begin(), r.from.end(), label) != r.from.end();
+    });
+    if (rule != rules.end()) label = rule->to;
+  }
+  std::sort(labels.begin(), labels.end());
+  labels.erase(std::unique(labels.begin(), labels.end()), labels.end());
+  return labels;
+}
+
 /// Fills in what follows from other values.
 void settle_job(MeshRequest& request) {
   engine::MeshJob& job = request.job;
@@ -343,7 +357,9 @@ void settle_job(MeshRequest& request) {
   request.volume.cache_bytes = cache_bytes(store.memory);
   job.steps = request.volume.steps;
   const bool has_choice = job.choice.labels || job.choice.background;
-  if (!request.volume.object.empty() && !has_choice) job.choice.labels = request.volume.object;
+  if (!request.volume.object.empty() && !has_choice) {
+    job.choice.labels = merged(request.volume.object, job.steps.merge);
+  }
   job.folder = request.output.parent_path();
   job.is_measured = !request.report.empty() || !request.html.empty();
   job.finds_parts = true;

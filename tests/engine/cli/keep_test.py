@@ -6,6 +6,7 @@ import json
 import os
 import pathlib
 import random
+import re
 import signal
 import subprocess
 import sys
@@ -128,6 +129,13 @@ class Keep(unittest.TestCase):
         self.assertEqual(content_of("m.vtu"), before)
         with self.assertRaises(AssertionError):
             self.expect_fresh()
+
+    def test_a_folder_of_another_build_says_so(self):
+        self.mesh("--keep", "k")
+        path = pathlib.Path("k/settings.txt")
+        path.write_text(re.sub("results = .*", "results = 0123456789abcdef", path.read_text()))
+        self.refused(2, "another build of mwmesh", "mesh", "v.npy", "-o", "m.vtu", *SETTINGS,
+                     "--from", "k")
 
     def test_files_of_others_stay(self):
         """The names of our files are everyday words."""

@@ -146,6 +146,13 @@ class OneObject(unittest.TestCase):
             self.assertRegex(info, rf"(?m)^ *{label} ")
         self.assertNotRegex(info, r"(?m)^ *0 ")
 
+    def test_has_the_label_that_it_was_merged_into(self):
+        merge = ("--merge", f"{OTHER},{DUST}=7")
+        run("mesh", "stores/zarr", "-o", "m.vtkhdf", "--force", "--object", f"{OTHER},{DUST}", *merge)
+        self.assertRegex(run("info", "m.vtkhdf"), r"(?m)^ *7 ")
+        self.assertIn("all checks hold", run("verify", "stores/zarr", "m.vtkhdf", "--object",
+                                             f"{OTHER},{DUST}", *merge))
+
     def test_refuses_what_is_not_there(self):
         for more, code, words in ((("12", "--crop", "0,0,0,512,512,512"), 3, "no voxel has 12"),
                                   (("0",), 2, "label 0"),
