@@ -6,6 +6,7 @@
 #include "io/file/errors.h"
 #include "io/mesh/grouped/deck_ends.h"
 #include "io/mesh/grouped/facet_nodes.h"
+#include "io/mesh/grouped/fixed_fields.h"
 #include "io/mesh/medit/medit.h"
 
 namespace mw::io {
@@ -122,7 +123,7 @@ void InpWriter::write_nodes(GroupedMesh& mesh) {
   line("*NODE");
   for (std::uint64_t row = 0; row < mesh.node_count(); ++row) {
     const Position p = mesh.node(row);
-    line(text(row + 1, ", ", p[0], ", ", p[1], ", ", p[2]));
+    line(text(row + 1, ", ", inp_real(p[0]), ", ", inp_real(p[1]), ", ", inp_real(p[2])));
   }
 }
 
@@ -211,7 +212,7 @@ void InpWriter::write_deck(GroupedMesh& mesh, PlainNames& names) {
   line("*STATIC");
   line("*BOUNDARY");
   for (std::size_t k = 0; k < 3; ++k) {
-    line(text(high, ", ", k + 1, ", ", k + 1, ", ", ends.shift()[k]));
+    line(text(high, ", ", k + 1, ", ", k + 1, ", ", inp_real(ends.shift()[k])));
   }
   for (const char* const card : {"*NODE FILE", "U", "*EL FILE", "S", "*END STEP"}) line(card);
 }

@@ -1,12 +1,14 @@
 // SPDX-FileCopyrightText: The mwmesh authors
 // SPDX-License-Identifier: Apache-2.0
-// Numbers at the right of fields of a given width, as formats of punched cards want them.
+// Numbers in fields of a given width, as formats of punched cards want them.
 #pragma once
 
+#include <algorithm>
 #include <array>
+#include <charconv>
 #include <cstdint>
-#include <cstdio>
 #include <string>
+#include <string_view>
 
 #include "io/file/errors.h"
 #include "kernels/core/assert.h"
@@ -25,9 +27,12 @@ namespace mw::io {
 /// where columns < digits + 5 + the digits of the exponent.
 [[nodiscard]] inline std::string fixed_real(double value, std::size_t columns, int digits,
                                             std::size_t exponent = 2) {
+  // Unlike printf, to_chars has a point in every locale that the host program may have set.
   std::array<char, 64> text{};
-  std::snprintf(text.data(), text.size(), "%.*E", digits, value);
-  std::string out = text.data();
+  const auto end = std::to_chars(text.data(), text.data() + text.size(), value,
+                                 std::chars_format::scientific, digits);
+  std::string out(text.data(), end.ptr);
+  std::replace(out.begin(), out.end(), 'e', 'E');
   const std::size_t sign = out.find('E') + 1;
   if (out.size() - sign - 1 < exponent) out.insert(sign + 1, "0");
   return std::string(columns > out.size() ? columns - out.size() : 0, ' ') + out;
@@ -41,6 +46,29 @@ namespace mw::io {
   if (out.size() <= columns) return out;
   throw Error(ErrorKind::kUsage, text(file, ": ", value, " has too large an exponent for ", columns,
                                       " columns; choose another unit or format"));
+}
+
+/// Returns the shortest text that reads back as the same number where that fits into the columns,
+/// else as many digits as do.  REQUIRES: at least 8 columns.
+[[nodiscard]] inline std::string real_within(double value, std::size_t columns) {
+  constexpr int kAllDigits = 17;
+  MW_ASSERT(columns >= 8);
+  std::array<char, 32> chars{};
+  char* end = std::to_chars(chars.data(), chars.data() + chars.size(), value).ptr;
+  for (int digits = kAllDigits; end - chars.data() > static_cast<std::ptrdiff_t>(columns);) {
+    end = std::to_chars(chars.data(), chars.data() + chars.size(), value,
+                        std::chars_format::general, --digits)
+              .ptr;
+  }
+  return {chars.data(), end};
+}
+
+/// Returns a number for a deck of Abaqus.  CalculiX reads 20 characters of a number and nothing
+/// behind them, not even an exponent.  13 digits or more are kept, 14 unless the exponent has
+/// three.
+[[nodiscard]] inline std::string inp_real(double value) {
+  constexpr std::size_t kColumns = 20;
+  return real_within(value, kColumns);
 }
 
 }  // namespace mw::io

@@ -13,6 +13,7 @@
 
 #include "io/file/errors.h"
 #include "io/file/sink/atomic_file.h"
+#include "io/mesh/grouped/fixed_fields.h"
 
 namespace mw::io {
 namespace {
@@ -211,8 +212,8 @@ class PairsWriter : public GroupedWriter {
       const Position& first = mesh.box().origin;
       const Position& edge = mesh.box().edges[k];
       file_.append(text("*NODE, NSET=PERIODIC_", std::string_view("XYZ").substr(k, 1), "\n", next,
-                        ", ", first[0] + edge[0], ", ", first[1] + edge[1], ", ",
-                        first[2] + edge[2], "\n"));
+                        ", ", inp_real(first[0] + edge[0]), ", ", inp_real(first[1] + edge[1]),
+                        ", ", inp_real(first[2] + edge[2]), "\n"));
     }
     for (const PeriodicPair& p : found.pairs) {
       for (int direction = 1; direction <= 3; ++direction) {

@@ -3,6 +3,7 @@
 // Formats for solvers and for views, of four nodes and of ten, hold the mesh that was written.
 #include <gmock/gmock.h>
 
+#include "io/file/text_numbers.h"
 #include "io/mesh/digest.h"
 #include "io/mesh/open_mesh.h"
 #include "tests/io/mesh/read_back.h"
@@ -187,6 +188,56 @@ TEST(InpWriter, LinesAreWithinTheLimitsOfAbaqus) {
     EXPECT_TRUE(line.starts_with('*') || std::ranges::count(line, ',') <= 15) << line;
     EXPECT_FALSE(line.empty() || line.ends_with(','));
   }
+}
+
+/// CalculiX reads 20 characters of a number and drops the rest, with the exponent.
+TEST(InpWriter, NumbersAreWithinTheCharactersThatCalculixReads) {
+  const TempDir dir;
+  MeshData mesh = grid_mesh({2, 2, 2}, 1);
+  const double step = 1.040810546875001e-05;
+  for (Position& p : mesh.vertices) p = {p[0] * step, p[1] * step, p[2] * step};
+  mesh.record.promises.emplace().periodic = 7;
+  mesh.record.box = MeshBox{{}, {{{2 * step, 0, 0}, {0, 2 * step, 0}, {0, 0, 2 * step}}}};
+  const MeshExtras extras{.deck = true, .pairs = dir.path() / "pairs.inp"};
+  write_mesh(mesh, *open_mesh_sink(dir.path() / "m.inp", Element::kTet4, extras));
+  int exponents = 0;
+  for (const char* const name : {"m.inp", "pairs.inp"}) {
+    std::istringstream lines(content_of(dir.path() / name));
+    for (std::string line; std::getline(lines, line);) {
+      if (line.starts_with('*') || line.starts_with("Tetrahedra")) continue;
+      std::istringstream fields(line);
+      for (std::string field; std::getline(fields, field, ',');) {
+        field = trimmed(field);
+        EXPECT_LE(field.size(), 20U) << field;
+        exponents += field.find('e') == std::string::npos ? 0 : 1;
+      }
+    }
+  }
+  EXPECT_EQ(exponents, 3 * 18 + 1 + 3);  // coordinates above 0, the pull, and reference nodes
+}
+
+/// APDL takes ALL, STAT and DEFA, in letters of any size, for something else than a component.
+TEST(CdbWriter, ComponentsHaveNoReservedNames) {
+  const TempDir dir;
+  MeshData mesh = grid_mesh({2, 2, 2}, 1);
+  for (std::size_t t = 0; t < mesh.tets.size(); ++t) mesh.labels[t] = t % 4;
+  mesh.names = LabelNames({{0, "all", {}}, {1, "STAT", {}}, {2, "Defa", {}}, {3, "defa2", {}}});
+  save(mesh, dir.path() / "m.cdb");
+  const std::string content = content_of(dir.path() / "m.cdb");
+  for (const char* const name : {"all_0", "STAT_1", "Defa_2", "defa2"}) {
+    EXPECT_THAT(content, testing::HasSubstr(text("CMBLOCK,", name, ",ELEM,")));
+  }
+}
+
+/// Readers take what is behind a ':' for a path in the HDF5 file.
+TEST(XdmfWriter, NamesHaveNoColon) {
+  const TempDir dir;
+  expect_error(ErrorKind::kUsage, {"a:b.xdmf", "':'"}, [&] {
+    save(grid_mesh({1, 1, 1}, 1), dir.path() / "a:b.xdmf");
+  });
+  EXPECT_EQ(dir.entries(), 0U);
+  std::filesystem::create_directory(dir.path() / "a:b");
+  save(grid_mesh({1, 1, 1}, 1), dir.path() / "a:b" / "c.xdmf");
 }
 
 /// Numbers against brute force: which labels share each triangle of the tets.
