@@ -27,6 +27,28 @@ std::string hdf5_reason() {
   return reason.empty() ? "no reason given" : reason;
 }
 
+std::optional<Hdf5Elsewhere> stored_elsewhere(hid_t object, hid_t set) {
+  H5O_info_t here{}, there{};
+  if (H5Oget_info2(object, &here, H5O_INFO_BASIC) < 0 ||
+      H5Oget_info2(set, &there, H5O_INFO_BASIC) < 0) {
+    return Hdf5Elsewhere{"its header cannot be read", kHdf5Damaged};
+  }
+  if (here.fileno != there.fileno) {
+    return Hdf5Elsewhere{"a link leads to another file", "give that file"};
+  }
+  const Hdf5Handle list(H5Dget_create_plist(set), &H5Pclose);
+  if (!list.valid()) return Hdf5Elsewhere{"its storage is unknown", kHdf5Damaged};
+  if (H5Pget_layout(list.get()) == H5D_VIRTUAL) {
+    return Hdf5Elsewhere{"its numbers are in other files (a virtual data set)",
+                         "copy it into one file: h5py's out['name'] = file['name'][()]"};
+  }
+  if (H5Pget_external_count(list.get()) != 0) {
+    return Hdf5Elsewhere{"its numbers are in other files (external storage)",
+                         "h5repack it into one file"};
+  }
+  return std::nullopt;
+}
+
 namespace {
 
 /// An open file, of which the library sees the first member only.

@@ -53,6 +53,22 @@ inline void silence_hdf5() {
 /// Any other call of the library forgets it.
 [[nodiscard]] std::string hdf5_reason();
 
+/// What an error about a file that contradicts itself advises.
+inline constexpr const char* kHdf5Damaged =
+    "the file is damaged: check it with h5dump, or h5repack it";
+
+/// Why numbers are not read: they are not in the file that was opened.
+struct Hdf5Elsewhere {
+  const char* reason;
+  const char* way_out;
+};
+
+/// Returns why not all of a data set is in the file of `object`, because it has external storage,
+/// is virtual, or was reached by a link to another file; nothing when all is there.  A crafted file
+/// could name any file of the user so.  It opens no file, unlike H5Dget_space() and H5Dread(), so
+/// these wait until this has returned nothing.
+[[nodiscard]] std::optional<Hdf5Elsewhere> stored_elsewhere(hid_t object, hid_t set);
+
 /// A file that the library reads.
 struct Hdf5Source {
   const ByteSource* bytes = nullptr;

@@ -41,8 +41,20 @@ void keep_rows(const KeptRows& kept, std::uint64_t first, std::vector<Position>&
 
 Hdf5Array::Hdf5Array(hid_t where, const std::string& path, const std::string& file)
     : file_(file), path_(path), set_(H5Dopen2(where, path.c_str(), H5P_DEFAULT), &H5Dclose) {
-  if (!set_.valid()) fail("missing or damaged");
+  check_place(where);
   inspect();
+}
+
+void Hdf5Array::check_place(hid_t where) const {
+  H5L_info_t link{};
+  const bool leads_away = !set_.valid() &&
+                          H5Lget_info(where, path_.c_str(), &link, H5P_DEFAULT) >= 0 &&
+                          link.type == H5L_TYPE_EXTERNAL;
+  if (!set_.valid() && !leads_away) fail("missing or damaged");
+  const std::optional<Hdf5Elsewhere> found =
+      leads_away ? Hdf5Elsewhere{"a link leads to another file", "h5copy what it leads to"}
+                 : stored_elsewhere(where, set_.get());
+  if (found) fail_input(file_, text("data set '", path_, "'"), found->reason, found->way_out);
 }
 
 void Hdf5Array::inspect() {
@@ -102,6 +114,9 @@ void Hdf5Array::fail(const std::string& reason) const {
 
 Hdf5Handle open_hdf5(const std::string& file) {
   silence_hdf5();
+  // Otherwise a file could make the library load code, or read files that it names.
+  H5PLset_loading_state(0);
+  H5Lunregister(H5L_TYPE_EXTERNAL);
   // A file on a read-only or shared disk cannot always be locked, and nobody writes in place.
   const Hdf5Handle access(H5Pcreate(H5P_FILE_ACCESS), &H5Pclose);
   H5Pset_file_locking(access.get(), false, true);

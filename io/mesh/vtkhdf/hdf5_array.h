@@ -18,7 +18,7 @@ namespace mw::io {
 class Hdf5Array {
  public:
   /// ERRORS (all members): mw::Error(kInput) naming file and data set; here when it is missing, no
-  /// array of numbers, or announces more than its bytes in the file can hold.
+  /// array of numbers, not in the file itself, or announces more than its bytes can hold.
   Hdf5Array(hid_t where, const std::string& path, const std::string& file);
 
   [[nodiscard]] std::uint64_t rows() const { return rows_; }
@@ -35,6 +35,7 @@ class Hdf5Array {
   [[noreturn]] void fail(const std::string& reason) const;
 
  private:
+  void check_place(hid_t where) const;
   void inspect();
   void check_storage(std::size_t number_bytes) const;
   void read_as(std::uint64_t first, std::uint64_t count, hid_t type, void* out) const;
@@ -48,7 +49,9 @@ class Hdf5Array {
   bool is_signed_ = false;
 };
 
-/// Opens a file to read.  ERRORS: mw::Error(kInput) when it is missing, damaged or no HDF5 file.
+/// Opens a file to read.  From then on the library loads no plugins and follows no link to another
+/// file in this process, which is to be a child (read_hdf5_apart()).
+/// ERRORS: mw::Error(kInput) when it is missing, damaged or no HDF5 file.
 [[nodiscard]] Hdf5Handle open_hdf5(const std::string& file);
 
 /// Runs read in a child, since damage makes the library crash, and passes on to sink what it

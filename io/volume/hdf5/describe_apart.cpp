@@ -87,7 +87,7 @@ class Describer {
   }
 
   [[nodiscard]] Hdf5Description describe() {
-    check_file();
+    check_place();
     find_type();
     find_shape();
     const Hdf5Handle list(H5Dget_create_plist(set_.get()), &H5Pclose);
@@ -97,14 +97,11 @@ class Describer {
         find_bytes();
         break;
       case H5D_CONTIGUOUS:
-        find_run(list.get());
+        find_run();
         break;
       case H5D_CHUNKED:
         find_chunks(list.get());
         break;
-      case H5D_VIRTUAL:
-        fail("its voxels are in other files (a virtual data set)",
-             "copy it into one file: h5py's out['labels'] = file[...][()]");
       default:
         fail("its storage is unknown", kHdf5Damaged);
     }
@@ -113,16 +110,9 @@ class Describer {
   }
 
  private:
-  /// Links may lead to other files, where offsets mean nothing.
-  void check_file() const {
-    H5O_info_t here{}, there{};
-    if (H5Oget_info2(hdf5_, &here, H5O_INFO_BASIC) < 0 ||
-        H5Oget_info2(set_.get(), &there, H5O_INFO_BASIC) < 0) {
-      fail_library("its header cannot be read");
-    }
-    if (here.fileno != there.fileno) {
-      fail("a link leads to another file", "give that file");
-    }
+  /// Offsets mean nothing in other files.
+  void check_place() const {
+    if (const auto found = stored_elsewhere(hdf5_, set_.get())) fail(found->reason, found->way_out);
   }
 
   void find_type() {
@@ -161,11 +151,8 @@ class Describer {
     }
   }
 
-  void find_run(hid_t list) {
+  void find_run() {
     out_.layout = Hdf5Layout::kContiguous;
-    if (H5Pget_external_count(list) != 0) {
-      fail("its voxels are in other files (external storage)", "h5repack it into one file");
-    }
     const haddr_t offset = H5Dget_offset(set_.get());
     if (offset == HADDR_UNDEF) {
       fail("it has no voxels in the file: nothing was written", "write the labels");

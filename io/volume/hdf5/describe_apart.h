@@ -30,10 +30,6 @@ struct Hdf5NumberType {
 /// Returns "u8", or what the type is instead, such as "compound".
 [[nodiscard]] std::string type_text(hid_t type);
 
-/// What an error about a file that contradicts itself advises.
-inline constexpr const char* kHdf5Damaged =
-    "the file is damaged: check it with h5dump, or h5repack it";
-
 /// The most data sets that are looked at; a file of labels has a few.
 inline constexpr std::size_t kMaxHdf5Entries = 4096;
 

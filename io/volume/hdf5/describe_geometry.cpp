@@ -37,6 +37,9 @@ class AttributeReader {
   [[nodiscard]] std::vector<double> data_set_numbers(hid_t group, const char* name) const {
     const Hdf5Handle set = object(group, name);
     if (!set.valid() || H5Iget_type(set.get()) != H5I_DATASET) return {};
+    if (const auto found = stored_elsewhere(group, set.get())) {
+      fail_input(file_, name, found->reason, found->way_out);
+    }
     std::vector<double> out(few_numbers(H5Dget_type(set.get()), H5Dget_space(set.get()), name));
     if (!out.empty()) {
       demand(H5Dread(set.get(), H5T_NATIVE_DOUBLE, H5S_ALL, H5S_ALL, H5P_DEFAULT, out.data()),

@@ -1,6 +1,10 @@
 // SPDX-FileCopyrightText: The mwmesh authors
 // SPDX-License-Identifier: Apache-2.0
 // .vtkhdf files as other tools write them, and what ours hold.
+#include <sys/stat.h>
+
+#include <functional>
+
 #include "io/hdf5/hdf5_file.h"
 #include "io/mesh/apart_mesh.h"
 #include "io/mesh/open_mesh.h"
@@ -107,6 +111,56 @@ TEST(VtkhdfVariants, SignedAndOtherwiseNamedLabels) {
     EXPECT_EQ(mesh.labels, (std::vector<RawLabel>{static_cast<RawLabel>(-3), 2, 7})) << name;
     EXPECT_TRUE(mesh.labels_signed);
   }
+}
+
+/// A crafted file could bring in what other files of the user hold, or wait for a pipe for ever.
+TEST(VtkhdfVariants, NumbersInOtherFilesAreNotRead) {
+  const TempDir dir;
+  const std::filesystem::path pipe = dir.path() / "pipe";
+  ASSERT_EQ(::mkfifo(pipe.c_str(), 0600), 0);
+  const hsize_t rows = 3, endless = H5S_UNLIMITED;
+  const Hdf5Handle space(H5Screate_simple(1, &rows, nullptr), &H5Sclose);
+  const Hdf5Handle growing(H5Screate_simple(1, &rows, &endless), &H5Sclose);
+  const auto make = [&](const auto& set_up, hid_t extent) {
+    return [&, extent](hid_t cells) {
+      const Hdf5Handle storage(H5Pcreate(H5P_DATASET_CREATE), &H5Pclose);
+      set_up(storage.get());
+      const Hdf5Handle set(
+          H5Dcreate2(cells, "label", H5T_STD_U8LE, extent, H5P_DEFAULT, storage.get(), H5P_DEFAULT),
+          &H5Dclose);
+      EXPECT_TRUE(set.valid());
+    };
+  };
+  const auto refuse = [&](const char* reason, const std::function<void(hid_t)>& add_label) {
+    Sample sample;
+    sample.arrays.erase("CellData/label");
+    const auto path = write_file(dir, sample);
+    {
+      const Hdf5Handle file(H5Fopen(path.c_str(), H5F_ACC_RDWR, H5P_DEFAULT), &H5Fclose);
+      const Hdf5Handle cells(H5Gopen2(file.get(), "/VTKHDF/CellData", H5P_DEFAULT), &H5Gclose);
+      add_label(cells.get());
+    }
+    expect_error(ErrorKind::kInput, {path.string(), "CellData/label", reason},
+                 [&] { static_cast<void>(read_mesh(path)); });
+  };
+  refuse("external storage",
+         make([&](hid_t list) { H5Pset_external(list, pipe.c_str(), 0, rows); }, space.get()));
+  refuse(
+      "virtual",
+      make([&](hid_t list) { H5Pset_virtual(list, space.get(), pipe.c_str(), "/a", space.get()); },
+           space.get()));
+  refuse("a link leads to another file", [&](hid_t cells) {
+    H5Lcreate_external(pipe.c_str(), "/a", cells, "label", H5P_DEFAULT, H5P_DEFAULT);
+  });
+  refuse("virtual", make(
+                        [&](hid_t list) {
+                          const Hdf5Handle all(H5Scopy(growing.get()), &H5Sclose);
+                          const hsize_t start = 0, count = H5S_UNLIMITED;
+                          H5Sselect_hyperslab(all.get(), H5S_SELECT_SET, &start, nullptr, &count,
+                                              nullptr);
+                          H5Pset_virtual(list, all.get(), pipe.c_str(), "/a", all.get());
+                        },
+                        growing.get()));
 }
 
 TEST(VtkhdfVariants, RefusesWhatIsBrokenOrNoTetMesh) {

@@ -138,6 +138,33 @@ TEST_F(Hdf5Conventions, Dream3dUpToVersion7) {
   expect_refused({"FeatureIds", "DIMENSIONS", "5 x 1 x 4"});
 }
 
+TEST_F(Hdf5Conventions, GeometryInAnotherFileIsNotRead) {
+  const std::string secret = dir_.file("secret", std::string(12, 'x')).string();
+  const hsize_t numbers = 3;
+  const Hdf5Handle space(H5Screate_simple(1, &numbers, nullptr), &H5Sclose);
+  for (const bool is_virtual : {false, true}) {
+    {
+      const Hdf5Handle file = create();
+      add(file, "/DataContainers/Image/CellData/FeatureIds",
+          {.shape = {3, 4, 5, 1}, .type = VoxelType::kI32});
+      const Hdf5Handle geometry(H5Gcreate2(file.get(), "/DataContainers/Image/_SIMPL_GEOMETRY",
+                                           H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT),
+                                &H5Gclose);
+      const Hdf5Handle storage(H5Pcreate(H5P_DATASET_CREATE), &H5Pclose);
+      if (is_virtual) {
+        H5Pset_virtual(storage.get(), space.get(), secret.c_str(), "/a", space.get());
+      } else {
+        H5Pset_external(storage.get(), secret.c_str(), 0, 12);
+      }
+      const Hdf5Handle set(H5Dcreate2(geometry.get(), "SPACING", H5T_IEEE_F32LE, space.get(),
+                                      H5P_DEFAULT, storage.get(), H5P_DEFAULT),
+                           &H5Dclose);
+      EXPECT_TRUE(set.valid());
+    }
+    expect_refused({path_.string(), "SPACING", "other files", is_virtual ? "virtual" : "external"});
+  }
+}
+
 TEST_F(Hdf5Conventions, Dream3dFromVersion8On) {
   const Hdf5Sample ids{.shape = {3, 4, 5, 1}, .type = VoxelType::kI32};
   {
