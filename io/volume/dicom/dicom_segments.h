@@ -65,6 +65,14 @@ struct DicomSegments {
   std::shared_ptr<const ByteSource> pixels;
 };
 
+/// Whether the grid has a size, spacings and directions that a file can have.  The process that
+/// reads the file checks all that, too, but is not to be believed, as the file may have taken it
+/// over.
+[[nodiscard]] bool is_sound(const DicomGrid& grid);
+/// Whether the grid is sound, and segments and frames keep what read_dicom_segments() promises.  It
+/// does not look at the pixels.
+[[nodiscard]] bool is_sound(const DicomSegments& dicom);
+
 /// Reads a file of the classes Segmentation Storage and Label Map Segmentation Storage, in a
 /// process of its own (io/file/wall/apart.h).
 /// Memory: the headers of the frames, some kilobytes each, packed pixels, and one frame unpacked,

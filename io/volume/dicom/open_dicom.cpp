@@ -4,10 +4,14 @@
 #include "io/volume/dicom/open_dicom.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstring>
 #include <map>
+#include <optional>
 #include <string_view>
+#include <tuple>
+#include <vector>
 
 #include "io/file/errors.h"
 #include "io/volume/dicom/dicom_segments.h"
@@ -106,14 +110,57 @@ class SliceGrid {
   Vector3 first_{};  ///< the centre of the first voxel
 };
 
-/// The frame of each slice; -1: there is none.
-using SliceFrames = std::vector<std::int64_t>;
+struct SliceFrame {
+  std::int64_t slice = 0;
+  std::int64_t frame = 0;
+};
+
+/// The frames of a segment by their slices.  Most slices of a segment may have none, and slices may
+/// be many more than the file has frames, so there is no list of all slices.
+class SliceFrames {
+ public:
+  void add(SliceFrame frame) { frames_.push_back(frame); }
+
+  /// Sorts the frames, after which the other functions may be called; returns two of one slice, if
+  /// there are any.
+  [[nodiscard]] std::optional<std::array<std::int64_t, 2>> sort() {
+    std::sort(frames_.begin(), frames_.end(), [](const SliceFrame& a, const SliceFrame& b) {
+      return std::tie(a.slice, a.frame) < std::tie(b.slice, b.frame);
+    });
+    const auto same =
+        std::adjacent_find(frames_.begin(), frames_.end(),
+                           [](const auto& a, const auto& b) { return a.slice == b.slice; });
+    if (same == frames_.end()) return std::nullopt;
+    return std::array{same->frame, std::next(same)->frame};
+  }
+
+  [[nodiscard]] std::optional<std::int64_t> at(std::int64_t slice) const {
+    const auto found =
+        std::lower_bound(frames_.begin(), frames_.end(), slice,
+                         [](const SliceFrame& f, std::int64_t z) { return f.slice < z; });
+    if (found == frames_.end() || found->slice != slice) return std::nullopt;
+    return found->frame;
+  }
+
+  /// Returns the slices that have frames.
+  [[nodiscard]] std::vector<SliceRange> slices() const {
+    std::vector<SliceRange> out;
+    for (const SliceFrame& f : frames_) {
+      if (out.empty() || out.back().end != f.slice) out.push_back({f.slice, f.slice});
+      ++out.back().end;
+    }
+    return out;
+  }
+
+ private:
+  std::vector<SliceFrame> frames_;
+};
 
 /// A volume that is 1 at the voxels of one segment, and 0 elsewhere.
 class SegmentMask : public LabelVolume {
  public:
-  SegmentMask(const DicomSegments& dicom, const VolumeInfo& info, SliceFrames frames)
-      : dicom_(dicom), info_(info), frames_(std::move(frames)) {}
+  SegmentMask(const DicomSegments& dicom, const VolumeInfo& info, const SliceFrames& frames)
+      : dicom_(dicom), info_(info), frames_(frames) {}
 
   [[nodiscard]] const VolumeInfo& info() const override { return info_; }
 
@@ -122,10 +169,10 @@ class SegmentMask : public LabelVolume {
     std::fill(out.begin(), out.end(), 0);
     const auto width = static_cast<std::size_t>(box.shape().x);
     for (Index3 v = box.lo; v.z < box.hi.z; ++v.z) {
-      const std::int64_t frame = frames_[static_cast<std::size_t>(v.z)];
-      if (frame < 0) continue;
+      const auto frame = frames_.at(v.z);
+      if (!frame) continue;
       for (v.y = box.lo.y; v.y < box.hi.y; ++v.y) {
-        const std::int64_t first = (frame * info_.shape.y + v.y) * info_.shape.x + v.x;
+        const std::int64_t first = (*frame * info_.shape.y + v.y) * info_.shape.x + v.x;
         read_row(static_cast<std::uint64_t>(first),
                  out.subspan(static_cast<std::size_t>(box.offset(v)), width));
       }
@@ -149,7 +196,7 @@ class SegmentMask : public LabelVolume {
 
   const DicomSegments& dicom_;
   const VolumeInfo& info_;
-  SliceFrames frames_;
+  const SliceFrames& frames_;
 };
 
 /// The voxels of a label map.
@@ -167,10 +214,10 @@ class LabelMap : public LabelVolume {
     MW_ASSERT(out.size() == static_cast<std::size_t>(box.voxels()));
     std::fill(out.begin(), out.end(), background_);
     for (std::int64_t z = box.lo.z; z < box.hi.z; ++z) {
-      const std::int64_t frame = frames_[static_cast<std::size_t>(z)];
-      if (frame < 0) continue;
+      const auto frame = frames_.at(z);
+      if (!frame) continue;
       const Box3 part{{box.lo.x, box.lo.y, z}, {box.hi.x, box.hi.y, z + 1}};
-      read_array(*pixels_, slice(z, frame), part, {box, out});
+      read_array(*pixels_, slice(z, *frame), part, {box, out});
     }
   }
 
@@ -195,24 +242,18 @@ using FramesOfSegments = std::map<std::int32_t, SliceFrames>;
 FramesOfSegments frames_by_slice(const DicomSegments& dicom, const SliceGrid& slices,
                                  const std::string& file) {
   const bool is_label_map = dicom.grid.voxels == DicomVoxels::kLabels;
-  const SliceFrames none(static_cast<std::size_t>(slices.count()), -1);
   FramesOfSegments out;
-  if (is_label_map) {
-    out[kAllSegments] = none;
-  } else {
-    for (const DicomSegment& s : dicom.segments) out[s.number] = none;
-  }
   for (std::size_t i = 0; i < dicom.frames.size(); ++i) {
-    const std::int32_t segment = dicom.frames[i].segment;
-    std::int64_t& frame = out[segment][static_cast<std::size_t>(slices.slice(i))];
-    if (frame >= 0) {
-      fail_input(file, "Image Position (Patient)",
-                 text("frames ", frame + 1, " and ", i + 1, " are both ",
-                      is_label_map ? "" : text("of segment ", segment, " "), "at one place"),
-                 is_label_map ? "export segments that overlap as BINARY"
-                              : "export it again with one frame for each slice of a segment");
-    }
-    frame = static_cast<std::int64_t>(i);
+    out[dicom.frames[i].segment].add({slices.slice(i), static_cast<std::int64_t>(i)});
+  }
+  for (auto& [segment, frames] : out) {
+    const auto same = frames.sort();
+    if (!same) continue;
+    fail_input(file, "Image Position (Patient)",
+               text("frames ", (*same)[0] + 1, " and ", (*same)[1] + 1, " are both ",
+                    is_label_map ? "" : text("of segment ", segment, " "), "at one place"),
+               is_label_map ? "export segments that overlap as BINARY"
+                            : "export it again with one frame for each slice of a segment");
   }
   return out;
 }
@@ -256,11 +297,15 @@ std::unique_ptr<LabelVolume> merged_masks(DicomSegments dicom, const FramesOfSeg
                                           const VolumeInfo& info, MaskMerger merger) {
   std::sort(dicom.segments.begin(), dicom.segments.end(),
             [](const DicomSegment& a, const DicomSegment& b) { return a.number < b.number; });
+  const SliceFrames none;
   for (const DicomSegment& segment : dicom.segments) {
-    const SegmentMask mask(dicom, info, frames.at(segment.number));
+    const auto found = frames.find(segment.number);
+    const SliceFrames& own = found == frames.end() ? none : found->second;
+    const SegmentMask mask(dicom, info, own);
     merger.add(
         {.volume = &mask,
          .value = 1,
+         .slices = own.slices(),
          .file = text(dicom.pixels->name(), ", segment ", segment.number, " '", segment.name, "'"),
          .name = segment.name,
          .colour = segment.colour});

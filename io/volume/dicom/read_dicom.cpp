@@ -315,7 +315,7 @@ class DicomReceiver {
     SentSizes sizes;
     if (!stream.read(std::as_writable_bytes(std::span(&sizes, 1)))) return;
     if (sizes.segments > kMostSegmentNumber + 1 || sizes.frames > kMostFrames ||
-        sizes.pixel_bytes != pixel_bytes_of(sizes.grid, sizes.frames)) {
+        !is_sound(sizes.grid) || sizes.pixel_bytes != pixel_bytes_of(sizes.grid, sizes.frames)) {
       return;
     }
     std::vector<SentSegment> segments(sizes.segments);
@@ -331,6 +331,7 @@ class DicomReceiver {
           {.number = s.number, .name = clean_name(s.name.data()), .colour = {}});
       if (s.colour != Colour{}) result_.segments.back().colour = s.colour;
     }
+    if (!is_sound(result_)) return;
     receive_pixels(stream, sizes.pixel_bytes);
   }
 
@@ -361,7 +362,48 @@ class DicomReceiver {
   bool is_complete_ = false;
 };
 
+bool is_finite(const Vector3& v) {
+  return std::all_of(v.begin(), v.end(), [](double x) { return std::isfinite(x); });
+}
+
+/// Whether a length is one, or 0 where that is allowed.
+bool is_length(double length, bool may_be_none) {
+  return std::isfinite(length) && (may_be_none || length > 0);
+}
+
 }  // namespace
+
+bool is_sound(const DicomGrid& grid) {
+  constexpr std::int32_t kMostVoxels = 65535;
+  const auto is_from = [](std::int32_t number, std::int32_t least, std::int32_t most) {
+    return number >= least && number <= most;
+  };
+  const bool is_map = grid.voxels == DicomVoxels::kLabels;
+  const bool fits =
+      is_map
+          ? (grid.bits == 8 || grid.bits == 16) && is_from(grid.background, 0, (1 << grid.bits) - 1)
+          : grid.voxels == DicomVoxels::kMasks && (grid.bits == 1 || grid.bits == 8) &&
+                is_from(grid.threshold, 1, 255);
+  return fits && is_from(grid.rows, 1, kMostVoxels) && is_from(grid.columns, 1, kMostVoxels) &&
+         is_finite(grid.along_row) && is_finite(grid.along_column) &&
+         is_length(grid.column_spacing, false) && is_length(grid.row_spacing, false) &&
+         is_length(grid.slice_spacing, true) && is_length(grid.slice_thickness, true);
+}
+
+bool is_sound(const DicomSegments& dicom) {
+  if (!is_sound(dicom.grid) || dicom.frames.empty()) return false;
+  const bool is_map = dicom.grid.voxels == DicomVoxels::kLabels;
+  std::vector<std::int32_t> numbers;
+  for (const DicomSegment& s : dicom.segments) {
+    if (s.number < (is_map ? 0 : 1) || s.number > kMostSegmentNumber) return false;
+    numbers.push_back(s.number);
+  }
+  if (is_map) numbers = {kAllSegments};
+  std::sort(numbers.begin(), numbers.end());
+  return std::all_of(dicom.frames.begin(), dicom.frames.end(), [&](const DicomFrame& f) {
+    return is_finite(f.first) && std::binary_search(numbers.begin(), numbers.end(), f.segment);
+  });
+}
 
 DicomSegments read_dicom_segments(const ByteSource& source) {
   constexpr std::uint64_t kBytesASecond = 4 << 20, kSeconds = 10;

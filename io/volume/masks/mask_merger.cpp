@@ -33,16 +33,17 @@ class SetVolume : public VolumeView {
   std::vector<RawLabel> labels_;
 };
 
-/// Calls visit(box) on slabs of about kSlabVoxels voxels that cover a volume, in order.  A slab is
-/// a run of whole slices or, where slices are large, of whole rows of one.
+/// Calls visit(box) on slabs of about kSlabVoxels voxels that cover these slices of a volume, in
+/// order.  A slab is a run of whole slices or, where slices are large, of whole rows of one.
 template <typename Visit>
-void each_slab(Index3 shape, Visit visit) {
+void each_slab(Index3 shape, SliceRange range, Visit visit) {
   const std::int64_t rows = std::clamp<std::int64_t>(kSlabVoxels / shape.x, 1, shape.y);
   const std::int64_t slices =
       std::clamp<std::int64_t>(kSlabVoxels / (shape.x * shape.y), 1, shape.z);
-  for (std::int64_t z = 0; z < shape.z; z += slices) {
+  for (std::int64_t z = range.begin; z < range.end; z += slices) {
     for (std::int64_t y = 0; y < shape.y; y += rows) {
-      visit(Box3{{0, y, z}, {shape.x, std::min(y + rows, shape.y), std::min(z + slices, shape.z)}});
+      visit(
+          Box3{{0, y, z}, {shape.x, std::min(y + rows, shape.y), std::min(z + slices, range.end)}});
     }
   }
 }
@@ -136,7 +137,9 @@ void MaskMerger::add(const Mask& mask) {
   value_ = mask.value;
   const Set own = new_set({static_cast<std::uint16_t>(names_.size())});
   names_.push_back({.label = names_.size() + 1, .name = mask.name, .colour = mask.colour});
-  each_slab(info_.shape, [&](const Box3& slab) { add_slab(mask, own, slab); });
+  for (const SliceRange& range : mask.slices.value_or(std::vector{SliceRange{0, info_.shape.z}})) {
+    each_slab(info_.shape, range, [&](const Box3& slab) { add_slab(mask, own, slab); });
+  }
   if (refused_.voxels != 0) refuse_overlap(mask);
 }
 

@@ -17,11 +17,19 @@
 
 namespace mw::io {
 
+/// Slices from `begin` on and before `end`.
+struct SliceRange {
+  std::int64_t begin = 0;
+  std::int64_t end = 0;
+};
+
 /// The voxels of a volume that belong to a mask, and what the mask is called.
 struct Mask {
   const LabelVolume* volume = nullptr;
   /// The value of its voxels; without one they are all that is not 0, which must be one value.
   std::optional<RawLabel> value;
+  /// The slices outside of which the mask is known to have no voxel; the volume is read only there.
+  std::optional<std::vector<SliceRange>> slices{};
   std::string file;  ///< what errors call the volume
   std::string name;
   std::optional<Colour> colour;

@@ -4,13 +4,14 @@
 """DICOM segmentations that pydicom writes, as masks and as label maps: the mesh is that of the bare
 array of their labels, and lies where the attributes of the frames say."""
 import json
+import os
 import random
 import shutil
 import subprocess
 import sys
 import unittest
 
-from program import enter_folder, run, start
+from program import PROGRAM, RESIDENT_MEMORY_IS_OURS, enter_folder, run, start
 
 try:
     import numpy
@@ -270,6 +271,26 @@ class Dicom(unittest.TestCase):
         every = Segmentation(gap)
         every.kept = lambda segment, z: segment == 1
         self.check(every, labels * (labels == 1))
+
+    def test_slices_without_frames_take_no_memory(self):
+        masks = {1: numpy.ones((8, 8, 2), bool)}
+        segmentation = Segmentation(masks)
+        data = segmentation.dataset()
+        far = data.PerFrameFunctionalGroupsSequence[1].PlanePositionSequence[0]
+        far.ImagePositionPatient = segmentation.place(100_000)
+        data.SegmentSequence = segmentation.segments(range(1, 1001))
+        data.save_as("far.dcm", write_like_original=False)
+        with subprocess.Popen([PROGRAM, "info", "far.dcm", "--json"], stdout=subprocess.PIPE,
+                              text=True) as child:
+            found = json.load(child.stdout)
+            _, status, used = os.wait4(child.pid, 0)
+            child.returncode = os.waitstatus_to_exitcode(status)
+        self.assertEqual(child.returncode, 0)
+        self.assertEqual(found["shape_xyz"], [8, 8, 100_001])
+        counts = {row["label"]: row["voxels"] for row in found["labels"]["per_label"]}
+        self.assertEqual(counts, {0: 64 * 99_999, 1: 128})
+        if RESIDENT_MEMORY_IS_OURS:
+            self.assertLess(used.ru_maxrss, 300 << 10)  # a number a slice and segment are 800 MB
 
     def test_overlap(self):
         masks = {1: self.masks[1], 2: self.masks[2] | numpy.roll(self.masks[1], 2, 0)}

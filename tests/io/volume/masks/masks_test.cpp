@@ -9,6 +9,7 @@
 #include <random>
 #include <set>
 
+#include "io/volume/masks/mask_merger.h"
 #include "io/volume/open_volume.h"
 #include "tests/io/volume/sample_files.h"
 #include "tests/io/volume/volume_checks.h"
@@ -139,6 +140,35 @@ TEST(Masks, BecomeLabelsWhereverTheyAre) {
       expect_labels(*open_volume(last, options), wanted, true);
     }
   }
+}
+
+/// A mask that is read only where it says that it has voxels.
+class MaskOfSlices : public LabelVolume {
+ public:
+  explicit MaskOfSlices(std::vector<SliceRange> slices) : slices_(std::move(slices)) {
+    info_.shape = kShape;
+  }
+  [[nodiscard]] const VolumeInfo& info() const override { return info_; }
+  void read(const Box3& box, std::span<RawLabel> out) const override {
+    const auto has = [&](const SliceRange& s) { return s.begin <= box.lo.z && box.hi.z <= s.end; };
+    EXPECT_TRUE(std::any_of(slices_.begin(), slices_.end(), has)) << box.lo.z << ' ' << box.hi.z;
+    std::fill(out.begin(), out.end(), 1);
+  }
+
+ private:
+  std::vector<SliceRange> slices_;
+  VolumeInfo info_;
+};
+
+TEST(Masks, AreReadOnlyInTheSlicesThatTheyHave) {
+  const std::vector<std::vector<SliceRange>> slices{{{0, 1}, {2, 3}}, {}, {{1, 2}}};
+  MaskMerger merger(MaskOfSlices({}).info(), Overlap::kRefused, "masks");
+  for (const std::vector<SliceRange>& some : slices) {
+    const MaskOfSlices mask(some);
+    merger.add({.volume = &mask, .value = 1, .slices = some, .file = "", .name = "", .colour = {}});
+  }
+  const std::vector<RawLabel> labels = read_all(*merger.finish());
+  for (std::size_t v = 0; v < kVoxels; ++v) EXPECT_EQ(labels[v], v / 20 == 1 ? 3U : 1U);
 }
 
 TEST(Masks, AreReadInBoxes) {
