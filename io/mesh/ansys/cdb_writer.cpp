@@ -18,8 +18,9 @@ constexpr std::uint64_t kTetType = 1, kFaceType = 2;
 }  // namespace
 
 void CdbWriter::write(GroupedMesh& mesh) {
-  constexpr NameRule kNames{.max_bytes = 32, .allows_dash = false};
-  PlainNames names(mesh, kNames);
+  // The commands that select components take these three words for something else.
+  PlainNames names(mesh,
+                   {.max_bytes = 32, .allows_dash = false, .reserved = {"ALL", "STAT", "DEFA"}});
   const std::vector<NamedFacets> sets = named_facets(mesh, names);
   std::vector<Faces> faces;
   std::uint64_t elements = mesh.tet_count();

@@ -15,12 +15,16 @@ std::int32_t above(const LabelNumbers& labels, std::size_t number) {
   return static_cast<std::int32_t>(labels.largest() + static_cast<std::int64_t>(number));
 }
 
-/// Returns a name that Gmsh reads: it documents 127 bytes and knows no way to write a quote.
-std::string gmsh_name(std::string name, const std::string& plain) {
-  constexpr std::size_t kMaxBytes = 127;
-  if (name.size() > kMaxBytes) return plain;
+/// Gmsh knows no way to write a quote.
+std::string without_quotes(std::string name) {
   std::replace(name.begin(), name.end(), '"', '\'');
   return name;
+}
+
+/// Returns the name, or the plain one where it is longer than the 127 bytes that Gmsh documents.
+std::string gmsh_name(std::string name, const std::string& plain) {
+  constexpr std::size_t kMaxBytes = 127;
+  return name.size() > kMaxBytes ? plain : name;
 }
 
 std::string name_line(std::int32_t dimension, std::int64_t tag, const std::string& name) {
@@ -79,7 +83,7 @@ void write_record(MshEncoder& out, const GroupedMesh& mesh) {
 }
 
 void write_physical_names(MshEncoder& out, const GroupedMesh& mesh, const LabelNumbers& labels) {
-  const GroupNames names(mesh);
+  const GroupNames names(mesh, without_quotes);
   const std::vector<FacetGroup>& groups = mesh.facet_groups();
   std::vector<std::string> lines;
   for (std::size_t g = 0; g < groups.size(); ++g) {

@@ -60,12 +60,16 @@ std::string label_digits(const LabelTable& table, Label rank) {
   return table.is_signed() ? text(static_cast<std::int64_t>(raw)) : text(raw);
 }
 
-GroupNames::GroupNames(const GroupedMesh& mesh) {
+GroupNames::GroupNames(const GroupedMesh& mesh, const Spelling& spelled) {
   const LabelTable& table = mesh.table();
-  std::map<std::string, std::size_t> uses;
-  for (Label rank = 0; rank < table.size(); ++rank) ++uses[mesh.names().name(table.raw(rank))];
-  for (Label rank = 0; rank < table.size(); ++rank) {
+  const auto name_of = [&](Label rank) {
     const std::string& name = mesh.names().name(table.raw(rank));
+    return spelled ? spelled(name) : name;
+  };
+  std::map<std::string, std::size_t> uses;
+  for (Label rank = 0; rank < table.size(); ++rank) ++uses[name_of(rank)];
+  for (Label rank = 0; rank < table.size(); ++rank) {
+    const std::string name = name_of(rank);
     const std::string digits = label_digits(table, rank);
     if (name.empty()) {
       volumes_.push_back("label_" + digits);

@@ -4,6 +4,7 @@
 // files.
 #pragma once
 
+#include <functional>
 #include <map>
 #include <set>
 #include <string>
@@ -25,9 +26,12 @@ namespace mw::io {
 /// Names for people, made of the names of labels.
 class GroupNames {
  public:
-  explicit GroupNames(const GroupedMesh& mesh);
+  /// Where a format cannot write all names, spelled returns a label's name as it can.
+  using Spelling = std::function<std::string(const std::string&)>;
+  explicit GroupNames(const GroupedMesh& mesh, const Spelling& spelled = {});
 
-  /// Returns the label's name; "label_7" where it has none, "name (7)" where another has the same.
+  /// Returns the label's name; "label_7" where it has none, "name (7)" where another has the same
+  /// (or is spelled so).
   [[nodiscard]] const std::string& volume(Label rank) const { return volumes_[rank]; }
   /// Returns the names of both labels of an interface, the lower label first: "liver|kidney".
   /// Facets on a side of the box have the name of that side, which is the same for all labels.

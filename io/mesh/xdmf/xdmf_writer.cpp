@@ -187,6 +187,16 @@ std::string xdmf_cells_text(const XdmfFacts& facts) {
   return document_text(mesh_text(facts));
 }
 
+/// ERRORS: mw::Error(kUsage) for a name that readers would not find the HDF5 file by, since they
+/// take what is behind a ':' for a path in that file.
+const std::filesystem::path& checked_name(const std::filesystem::path& path) {
+  if (path.filename().string().find(':') == std::string::npos) return path;
+  throw Error(ErrorKind::kUsage,
+              path.string() +
+                  ": a ':' in the name of an .xdmf file would end the name of the .h5 "
+                  "file beside it in references to that; give a name without one");
+}
+
 }  // namespace
 
 std::filesystem::path xdmf_numbers_path(const std::filesystem::path& xdmf) {
@@ -198,7 +208,7 @@ std::filesystem::path xdmf_cells_path(const std::filesystem::path& xdmf) {
 }
 
 XdmfWriter::XdmfWriter(const std::filesystem::path& path)
-    : path_(path),
+    : path_(checked_name(path)),
       file_(path),
       cells_(xdmf_cells_path(path)),
       numbers_(xdmf_numbers_path(path)),

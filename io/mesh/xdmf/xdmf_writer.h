@@ -30,6 +30,8 @@ namespace mw::io {
 ///   /Values/NAME                   Float64 [tets], for each of the values
 /// M.cells.xdmf has only the grid `mesh`, for readers that take one grid from a file (meshio).  The
 /// tables are M.xdmf.labels.csv and M.facets.csv.
+/// ERRORS: see AtomicFile; mw::Error(kUsage) for a name with ':', at which readers would end that
+/// of M.h5.
 class XdmfWriter : public GroupedWriter {
  public:
   explicit XdmfWriter(const std::filesystem::path& path);

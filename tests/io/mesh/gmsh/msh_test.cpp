@@ -78,6 +78,19 @@ TEST_F(Msh, NamesTooLongForGmshAreReplacedThereAlone) {
   EXPECT_EQ(read_mesh(path()).names.name(3), name);
 }
 
+TEST_F(Msh, NamesThatMeetWithoutTheirQuotesHaveTheirLabels) {
+  MeshData mesh = grid_mesh({2, 2, 2}, 5);
+  for (std::size_t t = 0; t < mesh.tets.size(); ++t) mesh.labels[t] = 1 + t % 3;
+  mesh.names = LabelNames({{1, "a\"b", {}}, {2, "a'b", {}}, {3, "c\"", {}}});
+  save(mesh, path(), Element::kTet4, Encoding::kText);
+  const std::string content = content_of(path());
+  for (const char* const line : {"3 1 \"a'b (1)\"\n", "3 2 \"a'b (2)\"\n", "3 3 \"c'\"\n",
+                                 " \"a'b (1)|a'b (2)\"\n", " \"a'b (2)|c'\"\n"}) {
+    EXPECT_THAT(content, testing::HasSubstr(line));
+  }
+  EXPECT_TRUE(std::ranges::equal(read_mesh(path()).names.rows(), mesh.names.rows()));
+}
+
 constexpr const char* kHead4 = "$MeshFormat\n4.1 0 8\n$EndMeshFormat\n";
 
 /// Sparse tags, a parametric node, other elements, sections that do not matter, CR LF.
