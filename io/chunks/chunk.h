@@ -30,6 +30,12 @@ struct Chunk {
   [[nodiscard]] std::uint64_t size() const { return file ? file->size() : bytes.size(); }
 };
 
+/// What the voxels of a chunk are that a store does not have.
+struct ChunkFill {
+  std::optional<RawLabel> label = 0;  ///< empty where the fill value is no label
+  double number = 0;                  ///< the same value as a number
+};
+
 /// Where the bytes of a chunk go.
 enum class ChunkPlace {
   kMemory,

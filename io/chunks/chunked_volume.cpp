@@ -105,6 +105,15 @@ ChunkPlace place_of(std::uint64_t chunk, std::uint64_t cache) {
   return chunk > std::max(cache / 8, kMinFileBytes) ? ChunkPlace::kFile : ChunkPlace::kMemory;
 }
 
+/// Gives the voxels of a part the fill value.
+void fill_in(RawLabel fill, const Box3& part, const ReadBox& to) {
+  for (Index3 v = part.lo; v.z < part.hi.z; ++v.z) {
+    for (v.y = part.lo.y; v.y < part.hi.y; ++v.y) {
+      std::fill_n(to.labels.data() + to.box.offset({part.lo.x, v.y, v.z}), part.shape().x, fill);
+    }
+  }
+}
+
 class Turn {
  public:
   explicit Turn(std::counting_semaphore<>& turns) : turns_(turns) { turns_.acquire(); }
@@ -118,7 +127,7 @@ class Turn {
 
 }  // namespace
 
-ChunkedVolume::ChunkedVolume(VolumeInfo info, VoxelCoding coding, RawLabel fill,
+ChunkedVolume::ChunkedVolume(VolumeInfo info, VoxelCoding coding, const ChunkFill& fill,
                              std::unique_ptr<ChunkSource> source, std::uint64_t cache_bytes)
     : info_(std::move(info)),
       coding_(coding),
@@ -181,15 +190,13 @@ ChunkCache::Loaded ChunkedVolume::load(Index3 chunk) const {
 void ChunkedVolume::read_numbers(const Box3& box, std::span<double> out) const {
   VoxelCoding coding = coding_;
   coding.as_numbers = true;
-  const double fill = has_signed_labels(info_)
-                          ? static_cast<double>(static_cast<std::int64_t>(fill_))
-                          : static_cast<double>(fill_);
   std::vector<RawLabel> bits(out.size());
-  read_as(coding, std::bit_cast<RawLabel>(fill), {box, bits});
+  read_as(coding, std::bit_cast<RawLabel>(fill_.number), {box, bits});
   numbers_of_bits(bits, out);
 }
 
-void ChunkedVolume::read_as(const VoxelCoding& coding, RawLabel fill, const ReadBox& to) const {
+void ChunkedVolume::read_as(const VoxelCoding& coding, std::optional<RawLabel> fill,
+                            const ReadBox& to) const {
   const auto& [box, out] = to;
   MW_ASSERT(out.size() == static_cast<std::size_t>(box.voxels()));
   if (out.empty()) return;
@@ -206,11 +213,12 @@ void ChunkedVolume::read_as(const VoxelCoding& coding, RawLabel fill, const Read
       return chunk->file ? read_array(*chunk->file, array, part, to)
                          : copy(*chunk, array, part, to);
     }
-    for (Index3 v = part.lo; v.z < part.hi.z; ++v.z) {
-      for (v.y = part.lo.y; v.y < part.hi.y; ++v.y) {
-        std::fill_n(out.data() + box.offset({part.lo.x, v.y, v.z}), part.shape().x, fill);
-      }
+    if (!fill) {
+      fail_input(source_->name_of(number), "fill value",
+                 text("the chunk is not there, and ", fill_.number, " fills it, which is no label"),
+                 "labels are whole numbers: is this an image, or probabilities?");
     }
+    fill_in(*fill, part, to);
   });
 }
 

@@ -9,6 +9,7 @@
 #include <list>
 #include <memory>
 #include <mutex>
+#include <optional>
 #include <semaphore>
 #include <unordered_map>
 
@@ -62,16 +63,16 @@ class ChunkCache {
 class ChunkedVolume : public LabelVolume, public NumberVolume {
  public:
   /// REQUIRES: info.chunk positive on every axis; chunk c holds the voxels from c * info.chunk on.
-  /// fill is the label of voxels whose chunk the store does not have.
+  /// To read labels of a chunk that the store does not have is an error where fill is no label.
   /// cache_bytes bounds the unpacked chunks that are kept between reads.  Chunks above an eighth of
   /// it (and 1 MiB) are unpacked once to files without names in $TMPDIR or /tmp, as far as there is
   /// room, and read from there by region.
-  ChunkedVolume(VolumeInfo info, VoxelCoding coding, RawLabel fill,
+  ChunkedVolume(VolumeInfo info, VoxelCoding coding, const ChunkFill& fill,
                 std::unique_ptr<ChunkSource> source, std::uint64_t cache_bytes);
 
   [[nodiscard]] const VolumeInfo& info() const override { return info_; }
   void read(const Box3& box, std::span<RawLabel> out) const override {
-    read_as(coding_, fill_, {box, out});
+    read_as(coding_, fill_.label, {box, out});
   }
   void read_numbers(const Box3& box, std::span<double> out) const override;
   [[nodiscard]] std::uint64_t buffer_bytes(int threads) const override;
@@ -84,13 +85,13 @@ class ChunkedVolume : public LabelVolume, public NumberVolume {
   [[nodiscard]] std::uint64_t unpacked_at_once() const;
   [[nodiscard]] std::optional<Chunk> unpacked(Index3 chunk, const Box3& box) const;
   [[nodiscard]] ChunkCache::Loaded load(Index3 chunk) const;
-  void read_as(const VoxelCoding& coding, RawLabel fill, const ReadBox& to) const;
+  void read_as(const VoxelCoding& coding, std::optional<RawLabel> fill, const ReadBox& to) const;
   void copy(const Chunk& chunk, const StoredArray& array, const Box3& part,
             const ReadBox& to) const;
 
   VolumeInfo info_;
   VoxelCoding coding_;
-  RawLabel fill_;
+  ChunkFill fill_;
   std::unique_ptr<ChunkSource> source_;
   std::uint64_t cache_bytes_;
   ChunkPlace place_;

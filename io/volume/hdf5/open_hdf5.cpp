@@ -4,6 +4,7 @@
 #include "io/volume/hdf5/open_hdf5.h"
 
 #include <algorithm>
+#include <bit>
 #include <cstring>
 #include <string_view>
 
@@ -85,17 +86,18 @@ std::unique_ptr<LabelVolume> open_run(std::unique_ptr<ByteSource> source, Volume
       ArrayLayout{.offset = offset, .order = description.order});
 }
 
-/// The label of voxels whose chunk was never written.
-RawLabel fill_label(const Hdf5Description& description, std::string_view file) {
-  const VoxelCoding coding{description.type, description.order};
+/// Returns what voxels are whose chunk was never written.
+ChunkFill fill_of(const Hdf5Description& description) {
+  VoxelCoding coding{description.type, description.order};
   const auto* const bytes = reinterpret_cast<const std::byte*>(description.fill.data());
+  ChunkFill out;
   RawLabel label = 0;
-  if (decode_voxels(bytes, 1, 1, coding, &label, 1) == 0) {
-    fail_input(file, text("data set ", description.path, " fill value"),
-               why_no_label(bytes, coding),
-               "labels are whole numbers: is this an image, or probabilities?");
-  }
-  return label;
+  const bool is_label = decode_voxels(bytes, 1, 1, coding, &label, 1) == 1;
+  out.label = is_label ? std::optional(label) : std::nullopt;
+  coding.as_numbers = true;
+  static_cast<void>(decode_voxels(bytes, 1, 1, coding, &label, 1));
+  out.number = std::bit_cast<double>(label);
+  return out;
 }
 
 std::unique_ptr<LabelVolume> open_chunks(std::unique_ptr<ByteSource> source, VolumeInfo info,
@@ -103,7 +105,7 @@ std::unique_ptr<LabelVolume> open_chunks(std::unique_ptr<ByteSource> source, Vol
                                          std::uint64_t cache_bytes) {
   check_filters(description, source->name());
   info.chunk = chunk_extents(description, axes);
-  const RawLabel fill = fill_label(description, source->name());
+  const ChunkFill fill = fill_of(description);
   const VoxelCoding coding{description.type, description.order};
   auto chunks = std::make_unique<Hdf5Chunks>(std::move(source), std::move(description), axes);
   return std::make_unique<ChunkedVolume>(std::move(info), coding, fill, std::move(chunks),

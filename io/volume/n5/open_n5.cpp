@@ -174,7 +174,7 @@ std::unique_ptr<LabelVolume> open_n5(const Place& container, const OpenOptions& 
                   .format = "n5",
                   .chunk = block_of(array)};
   const VoxelCoding coding{.type = array.type, .order = ByteOrder::kBig};
-  return std::make_unique<ChunkedVolume>(std::move(info), coding, 0,
+  return std::make_unique<ChunkedVolume>(std::move(info), coding, ChunkFill{},
                                          std::make_unique<N5Blocks>(folder, std::move(array)),
                                          options.cache_bytes);
 }

@@ -200,7 +200,7 @@ std::unique_ptr<LabelVolume> open_png_slices(std::vector<std::filesystem::path> 
                   .chunk = {header.width, header.height, 1}};
   info.space = placed(files.front().string(), {}, options);
   const VoxelCoding coding{info.type, ByteOrder::kBig, {}};
-  return std::make_unique<ChunkedVolume>(std::move(info), coding, 0,
+  return std::make_unique<ChunkedVolume>(std::move(info), coding, ChunkFill{},
                                          std::make_unique<PngChunks>(std::move(files), header),
                                          options.cache_bytes);
 }

@@ -170,7 +170,7 @@ std::unique_ptr<LabelVolume> open_precomputed(const Place& folder, const OpenOpt
   const VoxelCoding coding{.type = scale.type, .order = ByteOrder::kLittle};
   auto chunks = std::make_unique<PrecomputedChunks>(folder_of(folder, scale, options.trust_paths),
                                                     std::move(scale));
-  return std::make_unique<ChunkedVolume>(std::move(info), coding, 0, std::move(chunks),
+  return std::make_unique<ChunkedVolume>(std::move(info), coding, ChunkFill{}, std::move(chunks),
                                          options.cache_bytes);
 }
 

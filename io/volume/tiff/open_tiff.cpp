@@ -170,7 +170,7 @@ std::unique_ptr<LabelVolume> chunked(std::unique_ptr<TiffStack> stack, VolumeInf
   auto chunks = std::make_unique<TiffChunks>(std::move(stack));
   info.chunk = chunks->chunk_shape();
   const VoxelCoding coding{info.type, kHostOrder, {}};
-  return std::make_unique<ChunkedVolume>(std::move(info), coding, 0, std::move(chunks),
+  return std::make_unique<ChunkedVolume>(std::move(info), coding, ChunkFill{}, std::move(chunks),
                                          options.cache_bytes);
 }
 

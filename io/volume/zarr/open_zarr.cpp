@@ -94,7 +94,7 @@ std::unique_ptr<LabelVolume> open_array(const ZarrNode& node, const Level* level
   info.chunk = axes.pick(array.chunk.shape, 1);
   info.space = space_of_array(node, axes, level, options);
   const VoxelCoding coding{.type = array.type, .order = array.chunk.byte_order};
-  return std::make_unique<ChunkedVolume>(std::move(info), coding, array.fill.value_or(0),
+  return std::make_unique<ChunkedVolume>(std::move(info), coding, array.fill,
                                          zarr_chunks(node.folder, array, axes),
                                          options.cache_bytes);
 }

@@ -55,7 +55,7 @@ struct ChunkKeys {
 struct ZarrArray {
   std::vector<std::int64_t> shape;
   VoxelType type = VoxelType::kU8;  ///< booleans are kU8
-  std::optional<RawLabel> fill;     ///< for chunks that are not there; empty: no label
+  ChunkFill fill;                   ///< for chunks that are not there
   ChunkKeys keys;
   ChunkCoding chunk;                    ///< what is read at once: within shards, their chunks
   std::optional<ShardCoding> shard;     ///< what a file holds, if not one chunk
@@ -101,9 +101,9 @@ void strip_crc32c(std::vector<std::byte>& bytes, std::string_view name);
 /// Returns the most that unpack_chunk_to_file() takes; nothing when a codec cannot do it.
 [[nodiscard]] std::optional<std::uint64_t> unpack_streaming(const ZarrArray& array);
 
-/// A missing file, and a chunk that a shard does not have, are fill values, which are an error when
-/// they are no labels.  The index of a shard is read once and kept, with those of others used last.
-/// REQUIRES: the array is checked, and axes are its.
+/// A missing file, and a chunk that a shard does not have, are fill values.  The index of a shard
+/// is read once and kept, with those of others used last. REQUIRES: the array is checked, and axes
+/// are its.
 [[nodiscard]] std::unique_ptr<ChunkSource> zarr_chunks(const Place& folder, const ZarrArray& array,
                                                        const AxisMap& axes);
 

@@ -149,14 +149,6 @@ class ZarrChunks : public ChunkSource {
     return folder_ / (array_.keys.prefix + key);
   }
 
-  /// Returns nothing for a chunk that is not there.  ERRORS: kInput where its fill is no label.
-  [[nodiscard]] std::optional<Chunk> fill_of(Index3 chunk) const {
-    if (array_.fill) return std::nullopt;
-    fail_input(name_of(chunk), "fill_value",
-               "the chunk is not there, and what fills it is no label",
-               "labels are whole numbers: is this an image, or probabilities?");
-  }
-
  private:
   Place folder_;
   ZarrArray array_;
@@ -172,7 +164,7 @@ class ChunkFiles : public ZarrChunks {
   [[nodiscard]] std::optional<Chunk> load(Index3 chunk, const Box3& /*box*/,
                                           ChunkPlace place) const override {
     std::shared_ptr<const ByteSource> file = path_of(chunk).open_if_there(max_packed(array()));
-    if (!file) return fill_of(chunk);
+    if (!file) return std::nullopt;
     if (is_streamed(place)) return unpack_chunk_to_file(array(), axes(), std::move(file));
     return unpack_chunk(array(), axes(), read_rest(*file, 0, max_packed(array())), file->name());
   }
@@ -222,7 +214,7 @@ class ShardFiles : public ZarrChunks {
     const Place path = path_of(shard);
     const auto inside = axes().spread(chunk_in_shard(chunk), array().shape.size());
     const auto range = indices_.find(shard, path, inside);
-    if (!range) return fill_of(chunk);
+    if (!range) return std::nullopt;
     const auto packed = part_of(path, *range, chunk);
     if (is_streamed(place)) return unpack_chunk_to_file(array(), axes(), packed);
     return unpack_chunk(array(), axes(), read_rest(*packed, 0, max_packed(array())),

@@ -7,6 +7,7 @@
 #include <bit>
 #include <charconv>
 #include <cmath>
+#include <limits>
 #include <numeric>
 #include <utility>
 
@@ -15,6 +16,8 @@
 
 namespace mw::io {
 namespace {
+
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 [[noreturn]] void fail_fill(const Json& value, VoxelType type, std::string_view file) {
   const std::string shown =
@@ -40,14 +43,23 @@ std::optional<double> float_of_bits(std::string_view digits, VoxelType type) {
   return static_cast<double>(std::bit_cast<float>(static_cast<std::uint32_t>(bits)));
 }
 
-std::optional<RawLabel> parse_float(const Json& value, VoxelType type, std::string_view file) {
-  if (value.is_number()) return label_of(value.number());
+/// Returns what a voxel of the type is whose file was written with this number.
+double as_stored(double number, VoxelType type) {
+  if (type == VoxelType::kF64 || !std::isfinite(number)) return number;
+  if (std::abs(number) > std::numeric_limits<float>::max()) return std::copysign(kInfinity, number);
+  return static_cast<double>(static_cast<float>(number));
+}
+
+double parse_float(const Json& value, VoxelType type, std::string_view file) {
+  if (value.is_number()) return as_stored(value.number(), type);
   if (!value.is_string()) fail_fill(value, type, file);
   const std::string& word = value.text();
-  if (word == "NaN" || word == "Infinity" || word == "-Infinity") return std::nullopt;
+  if (word == "NaN") return std::numeric_limits<double>::quiet_NaN();
+  if (word == "Infinity") return kInfinity;
+  if (word == "-Infinity") return -kInfinity;
   const auto number = float_of_bits(word, type);
   if (!number) fail_fill(value, type, file);
-  return label_of(*number);
+  return *number;
 }
 
 bool holds_signed(VoxelType type, std::int64_t number) {
@@ -82,10 +94,16 @@ RawLabel parse_integer(const Json& value, VoxelType type, std::string_view file)
 
 }  // namespace
 
-std::optional<RawLabel> parse_fill_value(const Json& value, VoxelType type, std::string_view file) {
-  if (value.is_null()) return 0;
-  if (is_float(type)) return parse_float(value, type, file);
-  return parse_integer(value, type, file);
+ChunkFill parse_fill_value(const Json& value, VoxelType type, std::string_view file) {
+  if (value.is_null()) return {};
+  if (is_float(type)) {
+    const double number = parse_float(value, type, file);
+    return {.label = label_of(number), .number = number};
+  }
+  const RawLabel label = parse_integer(value, type, file);
+  return {.label = label,
+          .number = is_signed(type) ? static_cast<double>(static_cast<std::int64_t>(label))
+                                    : static_cast<double>(label)};
 }
 
 namespace {
@@ -191,8 +209,6 @@ ZarrArray parse_zarr_v2(const Json& document, const std::string& file) {
   parse_compressor(fields, array);
   if (fields.has("fill_value")) {
     array.fill = parse_fill_value(document["fill_value"], array.type, file);
-  } else {
-    array.fill = 0;
   }
   return array;
 }

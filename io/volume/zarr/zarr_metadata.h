@@ -16,10 +16,9 @@ namespace mw::io {
 
 /// Reads `fill_value` of either version: null is 0; true and false are 1 and 0; numbers are exact
 /// up to 64 bits; floats may be "NaN", "Infinity", "-Infinity" or the hexadecimal of their bits.
-/// ENSURES: empty for a float that is no whole number; to read such a voxel is an error.
+/// ENSURES: there is no label for a float that is no whole number.
 /// ERRORS: mw::Error(kInput) naming file and field for what the type cannot hold.
-[[nodiscard]] std::optional<RawLabel> parse_fill_value(const Json& value, VoxelType type,
-                                                       std::string_view file);
+[[nodiscard]] ChunkFill parse_fill_value(const Json& value, VoxelType type, std::string_view file);
 
 // The two functions below: errors name `file`.  ERRORS: mw::Error(kInput) naming file and field for
 // what is missing, wrong or not read here.

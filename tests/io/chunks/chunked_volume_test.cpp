@@ -86,7 +86,8 @@ Volume random_volume(Random& random, Index3 shape, Index3 chunk, std::uint64_t c
   out.chunks = source.get();
   const VolumeInfo info{.shape = shape, .type = type, .format = "memory", .chunk = chunk};
   const VoxelCoding coding{.type = type, .order = ByteOrder::kBig};
-  out.volume = std::make_unique<ChunkedVolume>(info, coding, kFill, std::move(source), cache_bytes);
+  const ChunkFill fill{.label = kFill, .number = kFill};
+  out.volume = std::make_unique<ChunkedVolume>(info, coding, fill, std::move(source), cache_bytes);
   return out;
 }
 

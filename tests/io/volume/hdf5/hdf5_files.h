@@ -31,6 +31,7 @@ struct Hdf5Sample {
   std::optional<unsigned> other_filter{};  ///< one that the library does not have
   unsigned chunk_options = 0;
   std::optional<std::int64_t> fill{};
+  std::optional<double> real_fill{};
 };
 
 inline hid_t stored_type(VoxelType type, bool big) {
@@ -62,6 +63,7 @@ inline Hdf5Handle storage_of(const Hdf5Sample& sample) {
                   nullptr);
   }
   if (sample.fill) H5Pset_fill_value(list.get(), H5T_NATIVE_INT64, &*sample.fill);
+  if (sample.real_fill) H5Pset_fill_value(list.get(), H5T_NATIVE_DOUBLE, &*sample.real_fill);
   return list;
 }
 

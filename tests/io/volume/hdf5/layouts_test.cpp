@@ -1,6 +1,10 @@
 // SPDX-FileCopyrightText: The mwmesh authors
 // SPDX-License-Identifier: Apache-2.0
 // Every layout, type, filter and index of chunks of HDF5 gives back the labels that were written.
+#include <cmath>
+#include <limits>
+
+#include "io/volume/number_volume.h"
 #include "io/volume/open_volume.h"
 #include "tests/io/codec/packers.h"
 #include "tests/io/volume/hdf5/hdf5_files.h"
@@ -81,6 +85,33 @@ TEST(Hdf5, EveryIndexOfChunks) {
           expect_same(dir, sample, latest);
         }
       }
+    }
+  }
+}
+
+TEST(Hdf5, FillValuesThatAreNoLabelsMatterOnlyWhereTheyAreRead) {
+  const TempDir dir;
+  const auto path = dir.path() / "a.h5";
+  constexpr double kOfNetcdf = 9.969209968386869e+36;
+  for (const double fill : {std::numeric_limits<double>::quiet_NaN(), kOfNetcdf, 0.25}) {
+    Hdf5Sample sample{.type = VoxelType::kF32, .layout = H5D_CHUNKED, .chunk = {3, 4, 5}};
+    sample.real_fill = fill;
+    {
+      const Hdf5Handle file = create_hdf5(path);
+      write_data_set(file, "/whole", sample, labels_of(sample));
+      create_data_set(file, "/missing", sample);
+    }
+    OpenOptions options;
+    options.dataset = "/whole";
+    EXPECT_EQ(read_all(*open_volume(path, options)), labels_of(sample));
+    options.dataset = "/missing";
+    const auto volume = open_volume(path, options);
+    expect_error(ErrorKind::kInput, {path.string(), "fill value", "no label"},
+                 [&] { static_cast<void>(read_all(*volume)); });
+    std::vector<double> numbers(60);
+    dynamic_cast<const NumberVolume&>(*volume).read_numbers({{0, 0, 0}, {5, 4, 3}}, numbers);
+    for (const double number : numbers) {
+      EXPECT_TRUE(std::isnan(fill) ? std::isnan(number) : number == fill) << number;
     }
   }
 }

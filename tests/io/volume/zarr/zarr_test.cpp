@@ -1,8 +1,11 @@
 // SPDX-FileCopyrightText: The mwmesh authors
 // SPDX-License-Identifier: Apache-2.0
 // Arrays of Zarr 2 and 3, with and without shards, give back the labels that were written.
+#include <cmath>
+#include <limits>
 #include <thread>
 
+#include "io/volume/number_volume.h"
 #include "tests/io/volume/zarr/zarr_sample.h"
 
 namespace mw::io {
@@ -180,10 +183,34 @@ TEST(Zarr, FillValuesThatAreNoLabelsMatterOnlyWhereTheyAreRead) {
     std::vector<RawLabel> out(1);
     volume->read({{0, 0, 0}, {1, 1, 1}}, out);
     EXPECT_EQ(out[0], 3U);
-    expect_error(ErrorKind::kInput, {"c.1.0.0", "fill_value", "no label"}, [&] {
+    expect_error(ErrorKind::kInput, {"c.1.0.0", "fill value", "no label"}, [&] {
       volume->read({{0, 0, 1}, {1, 1, 2}}, out);
     });
   }
+}
+
+TEST(Zarr, FillValuesAreNumbersWhereThoseAreRead) {
+  const TempDir dir;
+  const ZarrSample sample{.shape = {1, 1, 1}, .chunk = {1, 1, 1}};
+  constexpr double kInfinity = std::numeric_limits<double>::infinity();
+  const auto read = [&](const char* type, const char* fill) {
+    Json json = sample.v3_metadata();
+    json["data_type"] = type;
+    json["fill_value"] = Json::parse(fill);
+    write_file(dir.path() / "zarr.json", json.dump());
+    const auto volume = open_volume(dir.path());
+    double out = 0;
+    dynamic_cast<const NumberVolume&>(*volume).read_numbers({{0, 0, 0}, {1, 1, 1}}, {&out, 1});
+    return out;
+  };
+  EXPECT_EQ(read("float32", "0.25"), 0.25);
+  EXPECT_EQ(read("float32", "0.1"), static_cast<double>(0.1F));
+  EXPECT_EQ(read("float64", "0.1"), 0.1);
+  EXPECT_EQ(read("float32", "1e300"), kInfinity);
+  EXPECT_EQ(read("float32", "\"-Infinity\""), -kInfinity);
+  EXPECT_TRUE(std::isnan(read("float32", "\"0x7fc00000\"")));
+  EXPECT_EQ(read("int16", "-7"), -7);
+  EXPECT_EQ(read("uint64", "18446744073709551615"), 0x1p64);
 }
 
 TEST(ZarrV2, SeparatorThatIsNotSaid) {
