@@ -23,10 +23,12 @@
 namespace mw::io {
 namespace {
 
-/// How the child ends.  Before kThrew it sends the kind of the error, one byte, and its message.
-enum ChildExit : int { kAnswered = 0, kThrew = 10, kNoMemory = 11, kOther = 12 };
+/// How the work ended.  The child sends it as the last thing that it does: a host program may
+/// ignore SIGCHLD, and then the system does not tell how a child ended.  Behind kThrew come the
+/// kind of the error, one byte, and its message.
+enum class ChildEnd : unsigned char { kAnswered, kThrew, kNoMemory, kOther };
 
-/// The longest message of an error.  A pipe holds as much while nobody reads it.
+/// The longest message of a child.  A pipe holds as much while nobody reads it.
 constexpr std::size_t kMaxMessage = 1 << 15;
 
 struct Pipe {
@@ -96,28 +98,42 @@ void write_all(int fd, std::span<const std::byte> bytes) {
   }
 }
 
-ChildExit throw_over(int fd, const Error& error) {
-  const std::string message =
-      static_cast<char>(error.kind()) + std::string(error.what()).substr(0, kMaxMessage - 1);
-  write_all(fd, std::as_bytes(std::span(message)));
-  return kThrew;
+void tell_end(int fd, ChildEnd end) {
+  write_all(fd, std::as_bytes(std::span(&end, 1)));
 }
 
-/// Runs in the child.
-ChildExit do_work(const Pipe& data, const Pipe& errors,
-                  const std::function<void(const SendBytes&)>& work) {
+void throw_over(int fd, const Error& error) {
+  const std::string message =
+      std::string{static_cast<char>(ChildEnd::kThrew), static_cast<char>(error.kind())} +
+      std::string(error.what()).substr(0, kMaxMessage - 2);
+  write_all(fd, std::as_bytes(std::span(message)));
+}
+
+/// Runs in the child.  ERRORS: std::runtime_error when nobody reads how it ended.
+void do_work(const Pipe& data, const Pipe& errors,
+             const std::function<void(const SendBytes&)>& work) {
   try {
     try {
       work([&](std::span<const std::byte> bytes) { write_all(data.in.get(), bytes); });
-      return kAnswered;
+      tell_end(errors.in.get(), ChildEnd::kAnswered);
     } catch (const Error& error) {
-      return throw_over(errors.in.get(), error);
+      throw_over(errors.in.get(), error);
     }
   } catch (const std::bad_alloc&) {
-    return kNoMemory;
+    tell_end(errors.in.get(), ChildEnd::kNoMemory);
   } catch (...) {
-    return kOther;
+    tell_end(errors.in.get(), ChildEnd::kOther);
   }
+}
+
+[[noreturn]] void be_child(const Pipe& data, const Pipe& errors,
+                           const std::function<void(const SendBytes&)>& work) {
+  try {
+    do_work(data, errors, work);
+  } catch (...) {  // nobody is there to be told
+  }
+  // _exit() runs no destructors and exit handlers: what they would finish belongs to the parent.
+  ::_exit(0);
 }
 
 /// The child as the parent sees it; it is killed when this object is destroyed.
@@ -132,32 +148,50 @@ class Child {
     wait();
   }
 
-  /// Waits for its end and returns how it ended, as waitpid tells it.
-  int wait() {
+  /// Waits for its end and returns how it ended, as waitpid tells it; nothing where the system does
+  /// not tell.
+  std::optional<int> wait() {
     int status = 0;
-    while (::waitpid(id_, &status, 0) < 0 && errno == EINTR) {
-    }
+    pid_t ended = -1;
+    do {
+      ended = ::waitpid(id_, &status, 0);
+    } while (ended < 0 && errno == EINTR);
     id_ = -1;
-    return status;
+    return ended < 0 ? std::nullopt : std::optional(status);
   }
 
  private:
   pid_t id_;
 };
 
-std::string death_of(int status) {
-  if (WIFSIGNALED(status)) {
-    if (WTERMSIG(status) == SIGXCPU) return "it found no end";
-    return text("it crashed (signal ", WTERMSIG(status), ")");
-  }
-  if (WEXITSTATUS(status) == kNoMemory) return "it wanted too much memory";
-  return "it crashed";
+/// Returns how a child died that has not told its end.
+std::string death_of(std::optional<int> status) {
+  if (!status || !WIFSIGNALED(*status)) return "it crashed";
+  if (WTERMSIG(*status) == SIGXCPU) return "it found no end";
+  return text("it crashed (signal ", WTERMSIG(*status), ")");
 }
 
 [[noreturn]] void throw_again(const std::string& message) {
-  const auto kind = static_cast<unsigned char>(message[0]);
+  const auto kind = static_cast<unsigned char>(message[1]);
   const bool known = kind <= static_cast<unsigned char>(ErrorKind::kCheckFailed);
-  throw Error(known ? static_cast<ErrorKind>(kind) : ErrorKind::kInternal, message.substr(1));
+  throw Error(known ? static_cast<ErrorKind>(kind) : ErrorKind::kInternal, message.substr(2));
+}
+
+/// Returns how the work died; empty where it came to its end.  ERRORS: that of the work.
+std::string death_told(const std::string& message, std::optional<int> status) {
+  if (message.empty()) return death_of(status);
+  switch (static_cast<ChildEnd>(message[0])) {
+    case ChildEnd::kAnswered:
+      return {};
+    case ChildEnd::kThrew:
+      if (message.size() > 1) throw_again(message);
+      break;
+    case ChildEnd::kNoMemory:
+      return "it wanted too much memory";
+    case ChildEnd::kOther:
+      break;
+  }
+  return death_of(status);
 }
 
 std::string read_message(const Pipe& errors) {
@@ -206,8 +240,7 @@ std::string stream_apart(const ApartLimits& limits,
     forget_signals();
     be_quiet();
     limit_child(limits);
-    // _exit() runs no destructors and exit handlers: what they would finish belongs to the parent.
-    ::_exit(do_work(data, errors, work));
+    be_child(data, errors, work);
   }
   Child child(id);
   data.in = FileDescriptor();
@@ -216,10 +249,7 @@ std::string stream_apart(const ApartLimits& limits,
   consume(stream);
   data.out = FileDescriptor();  // a child that has more to send ends by that
   const std::string message = read_message(errors);
-  const int status = child.wait();
-  if (!WIFEXITED(status)) return death_of(status);
-  if (WEXITSTATUS(status) == kThrew && !message.empty()) throw_again(message);
-  return WEXITSTATUS(status) == kAnswered ? std::string() : death_of(status);
+  return death_told(message, child.wait());
 }
 
 ApartAnswer run_apart(const ApartLimits& limits, const std::function<std::string()>& work) {

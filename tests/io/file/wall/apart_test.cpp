@@ -4,6 +4,7 @@
 #include "io/file/wall/apart.h"
 
 #include <signal.h>
+#include <unistd.h>
 
 #include <new>
 #include <stdexcept>
@@ -54,6 +55,20 @@ TEST(Apart, SignalsToTheGroupAreNoCrash) {
     return std::string("answer");
   });
   EXPECT_EQ(answer.bytes, "answer");
+}
+
+/// A host program may ignore the ends of its children, and then the system tells nothing of them.
+TEST(Apart, EndsAreKnownWhereTheSystemDoesNotTellThem) {
+  const auto before = ::signal(SIGCHLD, SIG_IGN);
+  EXPECT_EQ(die([] {}).bytes, "alive");
+  EXPECT_EQ(die([] { ::raise(SIGSEGV); }).death, "it crashed");
+  EXPECT_EQ(die([] { ::_exit(0); }).death, "it crashed");
+  EXPECT_EQ(die([] { throw std::runtime_error("no Error"); }).death, "it crashed");
+  EXPECT_EQ(die([] { throw std::bad_alloc(); }).death, "it wanted too much memory");
+  expect_error(ErrorKind::kInput, {"file: field"}, [] {
+    static_cast<void>(die([] { throw Error(ErrorKind::kInput, "file: field"); }));
+  });
+  ::signal(SIGCHLD, before);
 }
 
 TEST(Apart, LimitsHold) {
