@@ -38,17 +38,21 @@ namespace fs = std::filesystem;
 
 constexpr std::string_view kPartial = ".partial-";
 
-/// Returns eight digits that belong, as locks do, to a kernel from its start on; two kernels seldom
-/// have the same ones.
+/// Returns eight digits that two texts seldom have in common.
+std::string digits_of(std::string_view text) {
+  constexpr std::string_view kDigits = "0123456789abcdef";
+  std::string out;
+  for (unsigned i = 0; i < 8; ++i) {
+    out += kDigits[checksum(std::as_bytes(std::span(text))) >> 4 * i & 15U];
+  }
+  return out;
+}
+
+/// Returns eight digits that belong, as locks do, to a kernel from its start on.
 std::string kernel_mark() {
   std::string id;
   std::ifstream("/proc/sys/kernel/random/boot_id") >> id;
-  constexpr std::string_view kDigits = "0123456789abcdef";
-  std::string mark;
-  for (unsigned i = 0; i < 8; ++i) {
-    mark += kDigits[checksum(std::as_bytes(std::span(id))) >> 4 * i & 15U];
-  }
-  return mark;
+  return digits_of(id);
 }
 
 const std::string& this_kernel() {
@@ -56,10 +60,26 @@ const std::string& this_kernel() {
   return mark;
 }
 
+/// Returns what partial outputs have of their target's name: all of it, or its beginning and digits
+/// where no room would be left for what stands behind it.
+std::string short_name(const fs::path& target) {
+  constexpr std::size_t kMostBytes = 255;  // of a file's name
+  constexpr std::size_t kBehind = 40, kDigits = 8;
+  std::string name = target.filename().string();
+  if (name.size() + 1 + kBehind <= kMostBytes) return name;
+  const std::string digits = digits_of(name);
+  std::size_t kept = kMostBytes - 1 - kBehind - 1 - kDigits;
+  const auto is_inside_letter = [](char c) {
+    return (static_cast<unsigned char>(c) & 0xc0U) == 0x80;
+  };
+  while (kept > 0 && is_inside_letter(name[kept])) --kept;  // letters of UTF-8 stay whole
+  return name.substr(0, kept) + "~" + digits;
+}
+
 fs::path partial_name(const fs::path& target) {
   static std::atomic<unsigned> counter{0};
-  return folder_of(target) / text(".", target.filename().string(), kPartial, this_kernel(), "-",
-                                  ::getpid(), "-", counter++);
+  return folder_of(target) /
+         text(".", short_name(target), kPartial, this_kernel(), "-", ::getpid(), "-", counter++);
 }
 
 FileDescriptor create(const fs::path& path, PartialKind kind) {
@@ -97,7 +117,8 @@ bool is_local(const FileDescriptor& file) {
   return std::find(kLocal.begin(), kLocal.end(), type) != kLocal.end();
 }
 
-/// Returns the kernel's mark in the name of a partial output of `target`; nothing in another name.
+/// Returns the kernel's mark in the name of a partial output whose target has this short name;
+/// nothing in another name.
 std::string_view mark_of(std::string_view name, std::string_view target) {
   constexpr std::size_t kMark = 8;
   if (name.substr(0, 1) != "." || name.substr(1, target.size()) != target) return {};
@@ -145,8 +166,9 @@ std::vector<std::string> found_in(const fs::path& folder) {
 
 void remove_leftovers(const fs::path& target) {
   const fs::path folder = folder_of(target);
+  const std::string short_target = short_name(target);
   for (const std::string& name : found_in(folder)) {
-    const std::string_view mark = mark_of(name, target.filename().string());
+    const std::string_view mark = mark_of(name, short_target);
     if (!mark.empty()) remove_if_left(folder / name, mark);
   }
 }

@@ -26,7 +26,8 @@ class PlacedOutput {
 };
 
 /// An output that is being written, ".NAME.partial-KERNEL-PID-N" beside the target NAME.  KERNEL
-/// tells apart machines, and the starts of one machine; all containers of a machine share it.
+/// tells apart machines, and the starts of one machine; all containers of a machine share it.  Of a
+/// NAME that is too long for that it has the beginning, and digits of the whole.
 ///
 /// The output is locked (flock) until it has its own name or its writer is gone, so that one whose
 /// lock is free is left over from a run that was killed, even if another process has its PID.  Some

@@ -180,6 +180,29 @@ TEST(PartialFile, FoldersToo) {
   EXPECT_TRUE(fs::is_directory(path));
 }
 
+/// The file system takes 255 bytes, which the name of a partial file must not exceed either.
+TEST(PartialFile, NamesMayBeAsLongAsTheFileSystemTakesThem) {
+  for (const std::size_t length : {214U, 215U, 239U, 255U}) {
+    const std::string stem(length - 5, 'n');
+    std::string letters;
+    while (letters.size() + 2 < length - 4) letters += "ß";
+    for (const std::string& name : {stem + "a.vtu", letters + ".vtu"}) {
+      const TempDir dir;
+      in_killed_process([&] { new AtomicFile(dir.path() / name); });
+      EXPECT_EQ(dir.entries(), 1U) << name;
+      {
+        const AtomicFile other(dir.path() / (stem + "b.vtu"));
+        EXPECT_EQ(dir.entries(), 2U) << "another file's stays";
+      }
+      AtomicFile file(dir.path() / name);
+      EXPECT_EQ(dir.entries(), 1U) << "the new one alone";
+      file.append("whole");
+      file.commit();
+      EXPECT_EQ(content_of(dir.path() / name), "whole");
+    }
+  }
+}
+
 /// Names that are nearly ours are somebody else's.
 TEST(PartialFile, FilesOfOthersStay) {
   const TempDir dir;
