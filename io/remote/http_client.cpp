@@ -153,6 +153,30 @@ std::string certificates() {
   return {};
 }
 
+struct FreeUrl {
+  void operator()(CURLU* url) const { curl_url_cleanup(url); }
+};
+
+/// Returns scheme, host and port of an address, which tell servers apart; empty when it is none.
+std::string origin_of(const std::string& address) {
+  const std::unique_ptr<CURLU, FreeUrl> url(curl_url());
+  if (!url || curl_url_set(url.get(), CURLUPART_URL, address.c_str(), 0) != CURLUE_OK) return {};
+  std::string out;
+  for (const CURLUPart part : {CURLUPART_SCHEME, CURLUPART_HOST, CURLUPART_PORT}) {
+    char* found = nullptr;
+    if (curl_url_get(url.get(), part, &found, CURLU_DEFAULT_PORT) != CURLUE_OK) return {};
+    out += text(found, " ");
+    curl_free(found);
+  }
+  return out;
+}
+
+/// Whether a request, to which others may have led, is to the server of the first address.
+bool is_of_server(const std::string& address, const std::string& first) {
+  const std::string origin = origin_of(address);
+  return address == first || (!origin.empty() && is_same_letters(origin, origin_of(first)));
+}
+
 struct FreeHandle {
   void operator()(CURL* handle) const { curl_easy_cleanup(handle); }
 };
@@ -247,6 +271,7 @@ struct HttpClient::Exchange {
  private:
   static std::size_t on_body(char* bytes, std::size_t one, std::size_t count,
                              void* target) noexcept;
+  [[nodiscard]] CURLcode transfer(CURL* curl, const std::string& authorization);
   void begin();
   [[nodiscard]] bool take(std::span<const std::byte> bytes);
   [[nodiscard]] Verdict judge(CURLcode code) const;
@@ -382,11 +407,13 @@ HttpClient::Verdict HttpClient::Exchange::judge_status() const {
   const std::string reason = text("the server answers with status ", status);
   if (status == 404 || status == 410) return {};
   if (status == 401 || status == 403) {
-    return Verdict::failure(
-        reason + (status == 401 ? " (unauthorized)" : " (forbidden)"),
-        text("let ", kAuthorizationVariable,
-             " be the value of its header, such as 'Bearer TOKEN', or name the host in "
-             ".netrc; some stores say so of what is not there, too"));
+    return Verdict::failure(reason + (status == 401 ? " (unauthorized)" : " (forbidden)"),
+                            is_open_to_all(address)
+                                ? "use https://, as http:// would show a password on the way"
+                                : text("let ", kAuthorizationVariable,
+                                       " be the value of its header, such as 'Bearer TOKEN', or "
+                                       "name the host in .netrc; some stores say so of what is "
+                                       "not there, too"));
   }
   if (status == 408 || status == 425 || status == 429 || status >= 500) {
     return Verdict::retry(ErrorKind::kResource, reason, kTryLater);
@@ -439,23 +466,36 @@ HttpClient::~HttpClient() = default;
 
 namespace {
 
-/// Makes the settings of all requests.  REQUIRES: address outlives the transfer.
-void set_up(CURL* curl, const HttpLimits& limits, const std::string& address) {
+/// A request of a chain of redirects, and the address at which the chain began.
+struct Hop {
+  const std::string& address;
+  const std::string& first;
+};
+
+/// Makes the settings of all requests.  The library does not follow redirects itself, as it would
+/// look up the hosts that these lead to in .netrc, too.
+void set_up(CURL* curl, const HttpLimits& limits, const Hop& hop) {
   static const std::string kCertificates = certificates();
-  const bool is_safe = address.starts_with("https://");
+  const bool is_safe = hop.first.starts_with("https://");
+  const bool may_know = is_of_server(hop.address, hop.first) && !is_open_to_all(hop.address);
   curl_easy_reset(curl);
-  curl_easy_setopt(curl, CURLOPT_URL, address.c_str());
-  curl_easy_setopt(curl, CURLOPT_PROTOCOLS_STR, "http,https");
-  curl_easy_setopt(curl, CURLOPT_REDIR_PROTOCOLS_STR, is_safe ? "https" : "http,https");
-  curl_easy_setopt(curl, CURLOPT_FOLLOWLOCATION, 1L);
-  curl_easy_setopt(curl, CURLOPT_MAXREDIRS, limits.redirects);
+  curl_easy_setopt(curl, CURLOPT_URL, hop.address.c_str());
+  curl_easy_setopt(curl, CURLOPT_PROTOCOLS_STR, is_safe ? "https" : "http,https");
   curl_easy_setopt(curl, CURLOPT_NOSIGNAL, 1L);
   curl_easy_setopt(curl, CURLOPT_CONNECTTIMEOUT, limits.connect_seconds);
   curl_easy_setopt(curl, CURLOPT_LOW_SPEED_LIMIT, 1024L);
   curl_easy_setopt(curl, CURLOPT_LOW_SPEED_TIME, limits.stalled_seconds);
   curl_easy_setopt(curl, CURLOPT_USERAGENT, "mwmesh");
-  curl_easy_setopt(curl, CURLOPT_NETRC, static_cast<long>(CURL_NETRC_OPTIONAL));
+  curl_easy_setopt(curl, CURLOPT_NETRC,
+                   static_cast<long>(may_know ? CURL_NETRC_OPTIONAL : CURL_NETRC_IGNORED));
   if (!kCertificates.empty()) curl_easy_setopt(curl, CURLOPT_CAINFO, kCertificates.c_str());
+}
+
+/// Returns where the answer redirects; empty when it does not.
+std::string redirect_of(CURL* curl) {
+  const char* next = nullptr;
+  curl_easy_getinfo(curl, CURLINFO_REDIRECT_URL, &next);
+  return next == nullptr ? std::string() : next;
 }
 
 }  // namespace
@@ -466,15 +506,27 @@ std::size_t HttpClient::Exchange::on_body(char* bytes, std::size_t /*one*/, std:
   return static_cast<Exchange*>(target)->take(arrived) ? count : 0;
 }
 
-/// Makes one attempt.  ERRORS: what the sink throws.
+/// Makes one attempt, through all redirects.  ERRORS: what the sink throws.
 HttpClient::Verdict HttpClient::Exchange::perform(CURL* curl, const HttpLimits& limits,
                                                   const std::string& authorization) {
+  std::string at = address;
+  for (long followed = 0; followed <= limits.redirects; ++followed) {
+    set_up(curl, limits, {at, address});
+    const CURLcode code = transfer(curl, is_of_server(at, address) ? authorization : std::string());
+    const std::string next = code == CURLE_OK ? redirect_of(curl) : std::string();
+    if (next.empty()) return judge(code);
+    at = next;
+  }
+  return judge(CURLE_TOO_MANY_REDIRECTS);
+}
+
+/// Sends one request.  REQUIRES: set_up() was called.
+CURLcode HttpClient::Exchange::transfer(CURL* curl, const std::string& authorization) {
   begin();
   HeaderList lines;
   if (!authorization.empty()) append_header(lines, authorization);
   if (is_part()) append_header(lines, "Accept-Encoding: identity");
   const std::string range = is_part() ? text(offset, "-", offset + out.size() - 1) : std::string();
-  set_up(curl, limits, address);
   curl_easy_setopt(curl, CURLOPT_HTTPHEADER, lines.get());
   curl_easy_setopt(curl, is_part() ? CURLOPT_RANGE : CURLOPT_ACCEPT_ENCODING, range.c_str());
   curl_easy_setopt(curl, CURLOPT_ERRORBUFFER, words.data());
@@ -489,7 +541,7 @@ HttpClient::Verdict HttpClient::Exchange::perform(CURL* curl, const HttpLimits& 
   // The library must not keep pointers to what ends here.
   curl_easy_setopt(curl, CURLOPT_HTTPHEADER, nullptr);
   curl_easy_setopt(curl, CURLOPT_ERRORBUFFER, nullptr);
-  return judge(code);
+  return code;
 }
 
 HttpClient::Verdict HttpClient::attempt(Exchange& exchange) const {

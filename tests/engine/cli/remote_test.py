@@ -209,6 +209,42 @@ class Remote(unittest.TestCase):
                            capture_output=True)
             self.assertTrue(server.requests[0][1]["Authorization"].startswith("Basic "))
 
+    def test_netrc_is_for_the_host_of_the_address(self):
+        """A host to which it redirects is told nothing, not even its own password."""
+        os.makedirs("home", exist_ok=True)
+        with open("home/.netrc", "w", encoding="utf-8") as file:
+            file.write("machine 127.0.0.1 login me password 5ecret\n"
+                       "machine localhost login me password 0ther\n")
+        chunk = "/precomputed/4_4_4/16-32_0-16_0-16"
+        with Server("stores") as server, Server("stores") as other:
+            elsewhere = other.address.replace("127.0.0.1", "localhost")
+            server.handlers[chunk] = lambda h: h.answer(302, Location=elsewhere + chunk)
+            server.handlers["/precomputed/info"] = lambda h: h.answer(301, Location="/moved/info")
+            server.handlers["/moved/info"] = lambda h: h.serve("stores/precomputed/info", None)
+            subprocess.run([PROGRAM, "info", f"{server.address}/precomputed", "--scale", "0"],
+                           env={**os.environ, "HOME": os.path.abspath("home")}, check=True,
+                           capture_output=True)
+            self.assertTrue(all("Authorization" in headers for _, headers in server.requests))
+            self.assertIn("/moved/info", [path for path, _ in server.requests])
+            self.assertEqual([path for path, _ in other.requests], [chunk])
+            self.assertNotIn("Authorization", other.requests[0][1])
+
+    def test_netrc_is_not_shown_on_the_way(self):
+        """What a proxy sees of http:// to another machine, all on the way to that see, too."""
+        os.makedirs("home", exist_ok=True)
+        with open("home/.netrc", "w", encoding="utf-8") as file:
+            file.write("machine data.example login me password 5ecret\n")
+        with Server("stores") as proxy:
+            prefix = "http://data.example"
+            proxy.handlers[f"{prefix}/precomputed/info"] = lambda h: h.answer(401)
+            done = subprocess.run([PROGRAM, "info", f"{prefix}/precomputed"], text=True,
+                                  env={**os.environ, "HOME": os.path.abspath("home"),
+                                       "http_proxy": proxy.address}, capture_output=True)
+            self.assertEqual(done.returncode, 3)
+            self.assertIn("https://", done.stderr)
+            self.assertTrue(proxy.requests)
+            self.assertFalse(any("Authorization" in headers for _, headers in proxy.requests))
+
     def long_run(self, server):
         """A run of a few seconds that saves all the time, of a volume with no two voxels alike."""
         return [PROGRAM, "mesh", f"{server.address}/noise", "-o", "noise.vtkhdf", "--force",
