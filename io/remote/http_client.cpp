@@ -41,6 +41,7 @@ namespace {
 
 constexpr long kOk = 200;
 constexpr long kPartial = 206;
+constexpr long kForbidden = 403;
 constexpr long kRangeBeyondEnd = 416;
 /// The most bytes that are read of an error's body before the connection is closed.
 constexpr std::uint64_t kMaxErrorBody = 64U << 10U;
@@ -248,6 +249,7 @@ struct HttpClient::Exchange {
   // These are for a request for a whole file.
   std::uint64_t max = 0;
   BodySink* sink = nullptr;
+  bool may_be_refused = false;  ///< whether status 403 is an answer
   // These are for a request for a part.
   std::uint64_t offset = 0;
   std::span<std::byte> out{};
@@ -405,15 +407,10 @@ HttpClient::Verdict HttpClient::Exchange::judge_failure(CURLcode code) const {
 HttpClient::Verdict HttpClient::Exchange::judge_status() const {
   const long status = headers.status;
   const std::string reason = text("the server answers with status ", status);
-  if (status == 404 || status == 410) return {};
-  if (status == 401 || status == 403) {
+  if (status == 404 || status == 410 || (status == kForbidden && may_be_refused)) return {};
+  if (status == 401 || status == kForbidden) {
     return Verdict::failure(reason + (status == 401 ? " (unauthorized)" : " (forbidden)"),
-                            is_open_to_all(address)
-                                ? "use https://, as http:// would show a password on the way"
-                                : text("let ", kAuthorizationVariable,
-                                       " be the value of its header, such as 'Bearer TOKEN', or "
-                                       "name the host in .netrc; some stores say so of what is "
-                                       "not there, too"));
+                            way_past_refusal(address));
   }
   if (status == 408 || status == 425 || status == 429 || status >= 500) {
     return Verdict::retry(ErrorKind::kResource, reason, kTryLater);
@@ -571,11 +568,30 @@ void HttpClient::run(Exchange& exchange) const {
   }
 }
 
-Presence HttpClient::get(const std::string& address, std::uint64_t max, BodySink& sink) const {
-  Exchange exchange{.address = address, .max = max, .sink = &sink};
+Presence HttpClient::whole(Exchange& exchange) const {
   run(exchange);
   if (exchange.is_too_large) return Presence::kTooLarge;
+  if (exchange.headers.status == kForbidden) return Presence::kRefused;
   return exchange.headers.status == kOk ? Presence::kThere : Presence::kAbsent;
+}
+
+Presence HttpClient::get(const std::string& address, std::uint64_t max, BodySink& sink) const {
+  Exchange exchange{.address = address, .max = max, .sink = &sink};
+  return whole(exchange);
+}
+
+Presence HttpClient::probe(const std::string& address, std::uint64_t max, BodySink& sink) const {
+  Exchange exchange{.address = address, .max = max, .sink = &sink, .may_be_refused = true};
+  return whole(exchange);
+}
+
+std::string HttpClient::way_past_refusal(const std::string& address) {
+  const std::string way_out =
+      is_open_to_all(address)
+          ? "use https://, as http:// would show a password on the way"
+          : text("let ", kAuthorizationVariable,
+                 " be the value of its header, such as 'Bearer TOKEN', or name the host in .netrc");
+  return way_out + "; some stores say so of what is not there, too";
 }
 
 std::optional<RemotePart> HttpClient::get_part(const std::string& address, std::uint64_t offset,

@@ -38,7 +38,12 @@ class BodySink {
   virtual void take(std::span<const std::byte> bytes) = 0;
 };
 
-enum class Presence { kThere, kAbsent, kTooLarge };
+enum class Presence {
+  kThere,
+  kAbsent,
+  kTooLarge,
+  kRefused,  ///< status 403, as the result of HttpClient::probe() alone
+};
 
 /// What is known of a file after a part of it has come.
 struct RemotePart {
@@ -65,6 +70,11 @@ class HttpClient {
   /// Fetches a file; a body of more than max bytes, unpacked, is given up while it arrives.
   /// ENSURES: with kThere the body had at most max bytes, all of which are in the sink.
   [[nodiscard]] Presence get(const std::string& address, std::uint64_t max, BodySink& sink) const;
+  /// Likewise, but status 403 is no error: stores whose folders nobody may list answer so where
+  /// there is no such file.
+  [[nodiscard]] Presence probe(const std::string& address, std::uint64_t max, BodySink& sink) const;
+  /// Returns the way out that an error names where the server refuses an address.
+  [[nodiscard]] static std::string way_past_refusal(const std::string& address);
 
   /// Fetches bytes from offset on: as many as out has, or those up to the end of the file.  From a
   /// server that does not know parts it takes the file up to there, if that is at most 64 MiB.
@@ -79,6 +89,7 @@ class HttpClient {
 
   [[nodiscard]] Verdict attempt(Exchange& exchange) const;
   void run(Exchange& exchange) const;
+  [[nodiscard]] Presence whole(Exchange& exchange) const;
 
   HttpLimits limits_;
   std::string authorization_;  ///< a whole header; empty if there is none

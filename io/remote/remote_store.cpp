@@ -247,21 +247,26 @@ class RemoteStore : public Store {
   [[nodiscard]] std::uint64_t held_bytes(std::uint64_t max) const override {
     return std::min(max, kHeldBytes) + kFrontBytes;
   }
-  /// Remembers the metadata that it fetches, since callers open them right afterwards.
   [[nodiscard]] bool has_file(const std::string& name) const override {
     if (const auto known = remembered(name)) return known->has_value();
     Body body;
-    const Presence presence = reader_->client().get(name, kMaxJsonBytes, body);
-    if (presence == Presence::kTooLarge) return true;
-    if (presence == Presence::kAbsent) {
-      remember(name, std::nullopt);
-      return false;
+    return is_there(name, reader_->client().get(name, kMaxJsonBytes, body), body);
+  }
+  [[nodiscard]] bool has_document(const std::string& name) const override {
+    if (const auto known = remembered(name)) return known->has_value();
+    Body body;
+    const Presence presence = reader_->client().probe(name, kMaxJsonBytes, body);
+    if (presence == Presence::kRefused) {
+      const std::lock_guard lock(mutex_);
+      if (refused_.empty()) refused_ = name;
     }
-    const auto source = body.source(name);
-    std::vector<std::byte> document = read_prefix(*source, kMaxJsonBytes);
-    reader_->add_document(name, document);
-    if (document.size() <= kMaxRemembered) remember(name, std::move(document));
-    return true;
+    return is_there(name, presence, body);
+  }
+  [[nodiscard]] std::string refusal() const override {
+    const std::lock_guard lock(mutex_);
+    if (refused_.empty()) return {};
+    return text("the server answers ", refused_,
+                " with status 403 (forbidden): ", HttpClient::way_past_refusal(refused_));
   }
   [[nodiscard]] std::optional<bool> has_folder(const std::string& /*name*/) const override {
     return std::nullopt;
@@ -280,12 +285,26 @@ class RemoteStore : public Store {
   }
 
  private:
+  /// Remembers the metadata that were fetched, since callers open them right afterwards.
+  [[nodiscard]] bool is_there(const std::string& name, Presence presence, Body& body) const {
+    if (presence == Presence::kTooLarge) return true;
+    if (presence != Presence::kThere) {
+      remember(name, std::nullopt);
+      return false;
+    }
+    const auto source = body.source(name);
+    std::vector<std::byte> document = read_prefix(*source, kMaxJsonBytes);
+    reader_->add_document(name, document);
+    if (document.size() <= kMaxRemembered) remember(name, std::move(document));
+    return true;
+  }
   /// Fetches a whole file; null when there is no such file.
   [[nodiscard]] std::unique_ptr<ByteSource> fetch(const std::string& name,
                                                   std::uint64_t max) const {
     Body body;
     switch (reader_->client().get(name, max, body)) {
       case Presence::kAbsent:
+      case Presence::kRefused:  // get() throws in its place
         return nullptr;
       case Presence::kTooLarge:
         fail_input(name, {}, text("the server sends more than the ", max, " bytes it can have"),
@@ -312,6 +331,7 @@ class RemoteStore : public Store {
   std::shared_ptr<const PartReader> reader_;
   mutable std::mutex mutex_;
   mutable std::map<std::string, Answer> answers_;
+  mutable std::string refused_;  ///< the first document that the server refused
 };
 
 }  // namespace

@@ -43,6 +43,13 @@ class Store {
   [[nodiscard]] virtual std::uint64_t held_bytes(std::uint64_t max) const = 0;
   /// Whether there is a file of this name.  ERRORS: those of open().
   [[nodiscard]] virtual bool has_file(const std::string& name) const = 0;
+  /// Whether there is a document of this name that tells of a store.  Where a server refuses to say
+  /// so, it is taken for absent, since some refuse whatever they do not have; what is found then
+  /// decides, and refusal() explains why nothing was.  ERRORS: others than that, as open().
+  [[nodiscard]] virtual bool has_document(const std::string& name) const { return has_file(name); }
+  /// Returns what an error says of the first document that a server refused, with the way out;
+  /// empty when there is none.
+  [[nodiscard]] virtual std::string refusal() const { return {}; }
   /// Whether there is a folder of this name; nothing where the store has no folders.
   [[nodiscard]] virtual std::optional<bool> has_folder(const std::string& name) const = 0;
   /// Returns the names of folders in a folder, sorted; nothing where the store cannot list them.
@@ -97,6 +104,14 @@ class Place {
     return store_->held_bytes(max);
   }
   [[nodiscard]] bool is_file() const { return store_->has_file(name_); }
+  [[nodiscard]] bool is_document() const { return store_->has_document(name_); }
+  [[nodiscard]] std::string refusal() const { return store_->refusal(); }
+  /// Returns the way out of an error about documents that are missing: past the refusal, if there
+  /// is one, else the usual one.
+  [[nodiscard]] std::string refusal_or(const std::string& usual) const {
+    const std::string refused = refusal();
+    return refused.empty() ? usual : refused;
+  }
   [[nodiscard]] std::optional<bool> is_folder() const { return store_->has_folder(name_); }
   [[nodiscard]] std::optional<std::vector<std::string>> folders() const {
     return store_->folders_in(name_);

@@ -204,6 +204,10 @@ const VolumeFormat& format_of_remote(const Place& place) {
   for (const VolumeFormat& format : kFormats) {
     if (format.is_store != nullptr && format.is_store(place)) return format;
   }
+  const std::string refusal = place.refusal();
+  if (!refusal.empty()) {
+    fail_input(place.string(), "format", "the server shows no metadata of a volume there", refusal);
+  }
   fail_input(place.string(), "format", "the server has no metadata of a volume there",
              text("give the address of the folder that holds them; remote volumes are ", stores(),
                   ", and files of other formats are to be copied to a disk first"));

@@ -117,7 +117,7 @@ Place array_or_pyramid(const Place& container, const OpenOptions& options) {
 
 std::optional<N5Document> read_attributes(const Place& folder) {
   const Place path = folder / "attributes.json";
-  if (!path.is_file() && !path.open_if_there(kMaxJsonBytes)) return std::nullopt;
+  if (!path.is_document() && !path.open_if_there(kMaxJsonBytes)) return std::nullopt;
   return N5Document{.json = read_json(path), .file = path.string()};
 }
 
@@ -159,14 +159,17 @@ VolumeSpace space_of(const Place& folder, const N5Document& own, const N5Array& 
 }  // namespace
 
 bool is_n5(const Place& folder) {
-  return (folder / "attributes.json").is_file() || (folder / "s0" / "attributes.json").is_file() ||
+  return (folder / "attributes.json").is_document() ||
+         (folder / "s0" / "attributes.json").is_document() ||
          std::filesystem::path(folder.string()).extension() == ".n5";
 }
 
 std::unique_ptr<LabelVolume> open_n5(const Place& container, const OpenOptions& options) {
   const Place folder = find_n5_array(container, options);
   const auto document = read_attributes(folder);
-  if (!document) fail_input(folder.string(), "N5", "attributes.json is missing");
+  if (!document) {
+    fail_input(folder.string(), "N5", "attributes.json is missing", folder.refusal_or({}));
+  }
   N5Array array = parse_n5_array(document->fields());
   VolumeInfo info{.shape = shape_of(array),
                   .space = space_of(folder, *document, array, options),

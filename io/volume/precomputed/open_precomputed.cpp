@@ -156,7 +156,7 @@ Place folder_of(const Place& volume, const PrecomputedScale& scale, bool is_trus
 }  // namespace
 
 bool is_precomputed(const Place& folder) {
-  return (folder / "info").is_file();
+  return (folder / "info").is_document();
 }
 
 std::unique_ptr<LabelVolume> open_precomputed(const Place& folder, const OpenOptions& options) {

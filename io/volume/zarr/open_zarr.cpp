@@ -41,7 +41,7 @@ bool has_nested_chunks(const ZarrNode& node, const ZarrArray& array) {
   if (array.shape.size() < 2) return false;
   Place first = node.folder;
   for (std::size_t axis = 0; axis < array.shape.size(); ++axis) first = first / "0";
-  return first.is_file();
+  return first.is_document();
 }
 
 ZarrArray parse_array(const ZarrNode& node) {
@@ -190,10 +190,10 @@ std::unique_ptr<LabelVolume> open_zarr(const Place& folder, const OpenOptions& o
   if (node) return open_node(*node, options);
   if (options.dataset.empty()) {
     fail_input(folder.string(), {}, "no metadata of Zarr in it (zarr.json, .zarray, .zgroup)",
-               "get a whole copy of the store");
+               folder.refusal_or("get a whole copy of the store"));
   }
-  fail_usage(text("--dataset ", options.dataset, ": ", folder.string(),
-                  " has none of this name; it has ", contents(folder)));
+  fail_usage(text("--dataset ", options.dataset, ": ", folder.string(), " has none of this name; ",
+                  folder.refusal_or("it has " + contents(folder))));
 }
 
 std::size_t count_zarr_scales(const Place& folder, const OpenOptions& options) {

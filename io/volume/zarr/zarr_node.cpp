@@ -12,8 +12,8 @@
 namespace mw::io {
 namespace {
 
-bool has_file(const Place& folder, const char* name) {
-  return (folder / name).is_file();
+bool has_document(const Place& folder, const char* name) {
+  return (folder / name).is_document();
 }
 
 Json object_or_none(const Json& document, const std::string& file, const char* key) {
@@ -41,7 +41,7 @@ ZarrNode read_v3(const Place& folder) {
 
 ZarrNode read_v2(const Place& folder) {
   ZarrNode node{.folder = folder, .version = 2};
-  node.is_array = has_file(folder, ".zarray");
+  node.is_array = has_document(folder, ".zarray");
   node.metadata_file = (folder / ".zarray").string();
   node.attributes_file = (folder / ".zattrs").string();
   node.attributes = Json::object();
@@ -49,7 +49,7 @@ ZarrNode read_v2(const Place& folder) {
     node.metadata = read_json(folder / ".zarray");
     return node;
   }
-  if (!has_file(folder, ".zattrs")) return node;
+  if (!has_document(folder, ".zattrs")) return node;
   node.attributes = read_json(folder / ".zattrs");
   static_cast<void>(JsonFields(node.attributes, node.attributes_file));  // checks that it is one
   return node;
@@ -60,11 +60,11 @@ ZarrNode read_v2(const Place& folder) {
 bool is_zarr_node(const Place& folder) {
   constexpr std::array kFiles{"zarr.json", ".zarray", ".zgroup", ".zattrs"};
   return std::any_of(kFiles.begin(), kFiles.end(),
-                     [&](const char* file) { return has_file(folder, file); });
+                     [&](const char* file) { return has_document(folder, file); });
 }
 
 std::optional<ZarrNode> read_zarr_node(const Place& folder) {
-  if (has_file(folder, "zarr.json")) return read_v3(folder);
+  if (has_document(folder, "zarr.json")) return read_v3(folder);
   if (is_zarr_node(folder)) return read_v2(folder);
   return std::nullopt;
 }

@@ -18,11 +18,13 @@ class Server:
     share: the part of the requests that fail; seed: of the choice which ones.
     requests: (path, headers) of all so far; failed: how many of them failed on purpose.
     handlers: functions of a request handler by the path that they answer instead.
+    missing: the status that answers for files that are not there.
     """
 
     def __init__(self, folder, share=0.0, seed=1):
         self.folder, self.share = folder, share
         self.requests, self.failed, self.handlers = [], 0, {}
+        self.missing = 404
         self._random, self._lock = random.Random(seed), threading.Lock()
         server = self
 
@@ -86,7 +88,7 @@ class _Handler(http.server.BaseHTTPRequestHandler):
             self.close_connection = True
             return self.connection.shutdown(2)
         if not os.path.isfile(path):
-            return self.answer(404)
+            return self.answer(self.owner.missing)
         if fault == "slow":
             time.sleep(0.05)
         with open(path, "rb") as file:

@@ -104,6 +104,21 @@ class Remote(unittest.TestCase):
             self.fails(3, f"{server.address}/precomputed", "status 403", "MW_HTTP_AUTHORIZATION",
                        "/precomputed/info")
 
+    def test_a_server_that_refuses_what_it_does_not_have(self):
+        """As S3 does where the public may read files, and not list folders."""
+        with Server("stores") as server:
+            server.missing = 403
+            for name, write in remote_stores.KINDS.items():
+                with self.subTest(name):
+                    write(f"stores/whole_{name}", self.labels + 1)  # has all of its chunks
+                    mesh(f"stores/whole_{name}", "whole.vtkhdf")
+                    mesh(f"{server.address}/whole_{name}", "remote.vtkhdf")
+                    self.assertEqual(run("digest", "remote.vtkhdf"), run("digest", "whole.vtkhdf"))
+            self.fails(3, f"{server.address}/zarr2", "status 403", "/zarr2/0/0/0")
+            self.fails(3, f"{server.address}/nothing", "shows no metadata", "status 403",
+                       "/nothing/info", "MW_HTTP_AUTHORIZATION")
+            self.fails(3, f"{server.address}/nothing.zarr", "no metadata", "status 403")
+
     def test_redirects(self):
         with Server("stores") as server:
             def again(handler):
