@@ -325,7 +325,8 @@ bool HttpClient::Exchange::take_part(std::span<const std::byte> bytes) {
     const auto range = parse_content_range(headers.content_range);
     const std::uint64_t last = offset + out.size() - 1;
     if (headers.is_packed()) lie = "the part is packed (Content-Encoding)";
-    if (!range) lie = "the answer does not say which part it is (Content-Range)";
+    if (!range)
+      lie = "the answer does not say which part it is, or of how many bytes (Content-Range)";
     if (range && (range->first != offset || range->last != std::min(last, range->file_bytes - 1))) {
       lie = "the answer is another part than the one asked for (Content-Range)";
     }
