@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cctype>
+#include <string_view>
 
 namespace mw::api {
 namespace {
@@ -45,6 +46,8 @@ std::string library_words(std::string message) {
     std::replace(message.begin() + static_cast<std::ptrdiff_t>(at) + 2,
                  message.begin() + static_cast<std::ptrdiff_t>(end), '-', '_');
     message.erase(at, 2);
+    if (std::string_view(message).substr(at, end - at - 2) != "from") continue;
+    message.insert(end - 2, "_kept");
   }
   return message;
 }

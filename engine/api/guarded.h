@@ -3,15 +3,19 @@
 // Errors of the engine as those of the library.
 #pragma once
 
+#include <filesystem>
 #include <new>
+#include <stdexcept>
 #include <string>
 
 #include "engine/mwmesh.h"
+#include "engine/system/file_failure.h"
 #include "kernels/core/error.h"
 
 namespace mw::api {
 
-/// Returns the message in words for a caller of functions: "--max-distance" becomes "max_distance".
+/// Returns the message in words for a caller of functions: "--max-distance" becomes "max_distance",
+/// and "--from" becomes "from_kept".
 [[nodiscard]] std::string library_words(std::string message);
 
 [[nodiscard]] mwmesh::Error library_error(const Error& error);
@@ -27,6 +31,11 @@ auto guarded(const Work& work) {
     return work();
   } catch (const Error& error) {
     throw library_error(error);
+  } catch (const std::filesystem::filesystem_error& failure) {
+    throw library_error(engine::file_failure(failure));
+  } catch (const std::length_error&) {
+    throw mwmesh::Error(mwmesh::ErrorKind::kResource,
+                        "this is more than memory can hold: give a smaller volume");
   } catch (const std::bad_alloc&) {
     throw mwmesh::Error(mwmesh::ErrorKind::kResource,
                         "memory is out: give a smaller budget or a smaller volume, or free some");

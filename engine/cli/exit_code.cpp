@@ -15,6 +15,7 @@
 #include <string_view>
 
 #include "engine/cli/interrupt.h"
+#include "engine/system/file_failure.h"
 
 namespace mw::cli {
 namespace {
@@ -89,7 +90,8 @@ int guarded(const std::function<int()>& action, bool quiet) noexcept {
   } catch (const std::length_error& error) {
     return fail(kExitResource, "more data than memory can hold: ", error.what());
   } catch (const std::filesystem::filesystem_error& error) {
-    return fail(kExitResource, "check the disk: ", error.what());
+    const Error failure = engine::file_failure(error);
+    return fail(exit_code(failure.kind()), "", failure.what());
   } catch (const std::exception& error) {
     return fail(kExitInternal, "internal: ", error.what());
   } catch (...) {

@@ -56,10 +56,29 @@ bool is_part(const fs::path& path) {
   throw Error(ErrorKind::kUsage, path.string() + ": " + why);
 }
 
+fs::path whole(const fs::path& path) {
+  std::error_code failed;
+  const fs::path out = fs::absolute(path, failed).lexically_normal();
+  if (failed) refuse(path, "there is no working folder: " + failed.message());
+  return out;
+}
+
+fs::directory_iterator entries(const fs::path& folder) {
+  std::error_code failed;
+  fs::directory_iterator out(folder, failed);
+  if (failed) refuse(folder, "cannot list it: " + failed.message());
+  return out;
+}
+
+/// False for a path that cannot be looked at.
+bool is_folder(const fs::path& path) {
+  std::error_code ignored;
+  return fs::is_directory(path, ignored);
+}
+
 }  // namespace
 
-KeepFolder::KeepFolder(const fs::path& path, KeepUse use)
-    : path_(fs::absolute(path).lexically_normal()) {
+KeepFolder::KeepFolder(const fs::path& path, KeepUse use) : path_(whole(path)) {
   if (!path_.has_filename()) path_ = path_.parent_path();
   make(use);
   lock();
@@ -74,14 +93,14 @@ KeepFolder::KeepFolder(const fs::path& path, KeepUse use)
 }
 
 void KeepFolder::make(KeepUse use) const {
-  if (use == KeepUse::kUpdate && !fs::is_directory(path_)) {
+  if (use == KeepUse::kUpdate && !is_folder(path_)) {
     refuse(path_, "is no folder; begin it by --keep");
   }
   if (::mkdir(path_.c_str(), 0777) == 0) return;
   if (errno != EEXIST) io::fail_output(path_.string(), "create the folder", errno);
-  if (!fs::is_directory(path_)) refuse(path_, "is not a folder; give --keep another name");
+  if (!is_folder(path_)) refuse(path_, "is not a folder; give --keep another name");
   const bool may_be_ours = is_of_runs(path_);
-  for (const auto& entry : fs::directory_iterator(path_)) {
+  for (const auto& entry : entries(path_)) {
     const std::string name = entry.path().filename().string();
     if (may_be_ours && (is_kept_file(name) || is_left_over(name))) continue;
     if (is_part(entry.path())) continue;  // processes of a run begin in any order
@@ -128,7 +147,7 @@ void KeepFolder::settle(const std::string& settings) const {
 
 std::vector<fs::path> KeepFolder::parts() const {
   std::vector<fs::path> out;
-  for (const auto& entry : fs::directory_iterator(path_)) {
+  for (const auto& entry : entries(path_)) {
     if (is_part(entry.path())) out.push_back(entry.path());
   }
   std::sort(out.begin(), out.end());

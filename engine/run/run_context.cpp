@@ -116,7 +116,7 @@ std::string way_on(const RunHooks& hooks) {
 void check_keep(const RunHooks& hooks, const MeshSettings& settings) {
   if (hooks.keep.folder.empty()) {
     if (!hooks.keep.bytes) return;
-    throw Error(ErrorKind::kUsage, "keep-bytes: is the size of a folder, name it with keep");
+    throw Error(ErrorKind::kUsage, "--keep-bytes: is the size of a folder, name it with --keep");
   }
   if (settings.order != Order::kColour) {
     throw Error(ErrorKind::kUsage,

@@ -57,7 +57,9 @@ class FileSystem : public Store {
   }
   [[nodiscard]] std::optional<std::pair<std::string, std::string>> above(
       const std::string& name) const override {
-    const fs::path whole = fs::absolute(fs::path(name) / "").lexically_normal().parent_path();
+    std::error_code ignored;  // without a working folder there is nothing above
+    const fs::path whole =
+        fs::absolute(fs::path(name) / "", ignored).lexically_normal().parent_path();
     if (!whole.has_filename()) return std::nullopt;
     return std::pair(whole.parent_path().string(), whole.filename().string());
   }

@@ -228,6 +228,12 @@ std::unique_ptr<LabelVolume> open_remote(const std::string& address, const OpenO
   return format.open_store(place, options);
 }
 
+/// False for a path that cannot be looked at; opening it as a file says why.
+bool is_folder(const std::filesystem::path& path) {
+  std::error_code ignored;
+  return std::filesystem::is_directory(path, ignored);
+}
+
 std::unique_ptr<LabelVolume> open_whole(const std::filesystem::path& path,
                                         const OpenOptions& options) {
   if (is_remote_address(path.string())) return open_remote(path.string(), options);
@@ -235,7 +241,7 @@ std::unique_ptr<LabelVolume> open_whole(const std::filesystem::path& path,
     check_understood(kRawFormat, path, options);
     return open_raw(open_raw_bytes(path, *options.raw), options);
   }
-  if (std::filesystem::is_directory(path)) {
+  if (is_folder(path)) {
     const VolumeFormat& format = format_of_folder(path);
     check_understood(format, path, options);
     return format.open_store != nullptr ? format.open_store(path, options)
@@ -295,7 +301,7 @@ namespace {
 
 std::size_t count_scales(const std::filesystem::path& path, const OpenOptions& options) {
   const bool is_remote = is_remote_address(path.string());
-  if (options.raw || (!is_remote && !std::filesystem::is_directory(path))) return 0;
+  if (options.raw || (!is_remote && !is_folder(path))) return 0;
   const Place place = is_remote ? remote_place(path.string(), cache_of(options)) : Place(path);
   const VolumeFormat& format = is_remote ? format_of_remote(place) : format_of_folder(path);
   return format.count_scales == nullptr ? 0 : format.count_scales(place, options);

@@ -94,7 +94,11 @@ void append_label_table(AtomicFile& file, const LabelTable& table, const LabelNa
 
 std::optional<LabelMap> read_label_table(const std::filesystem::path& mesh) {
   const std::filesystem::path path = label_table_path(mesh);
-  if (!std::filesystem::exists(path)) return std::nullopt;
+  // Where the table cannot be looked at, opening it says why; a name that is too long has none.
+  std::error_code failed;
+  const auto type = std::filesystem::status(path, failed).type();
+  const bool is_too_long = failed == std::errc::filename_too_long;
+  if (type == std::filesystem::file_type::not_found || is_too_long) return std::nullopt;
   const std::unique_ptr<ByteSource> source = open_bytes(path);
   constexpr std::uint64_t kMaxBytes = 1 << 30;
   const std::optional<std::string> content = read_whole(*source, kMaxBytes);
