@@ -46,7 +46,9 @@ engine::RunHooks run_hooks(const mwmesh::Options& options, const mwmesh::Hooks& 
   out.store.workdir = checked_path(options.workdir, "workdir");
   out.store.resume = options.resume;
   out.keep.folder = checked_path(options.keep, "keep");
-  out.keep.use = options.from_kept ? engine::KeepUse::kUpdate : engine::KeepUse::kBegin;
+  out.keep.use = options.from_kept ? engine::KeepUse::kUpdate
+                 : options.resume  ? engine::KeepUse::kGoOn
+                                   : engine::KeepUse::kBegin;
   if (options.keep_bytes > 0) out.keep.bytes = options.keep_bytes;
   for (const mwmesh::Box& box : options.changed) {
     out.keep.changed.push_back(
@@ -62,12 +64,11 @@ engine::RunHooks run_hooks(const mwmesh::Options& options, const mwmesh::Hooks& 
 
 }  // namespace
 
-io::InputSteps input_steps(const mwmesh::Options& options) {
+io::InputSteps input_steps(const mwmesh::Options& options, bool has_signed_labels) {
   io::InputSteps steps;
   for (const auto& [from, to] : options.merge) {
-    // Signed labels come in two's complement, so the sign is that of the bits; a volume whose
-    // labels are unsigned has none of 2^63 or more that one would merge into.
-    const bool is_negative = static_cast<std::int64_t>(to) < 0;
+    // Signed labels come in two's complement, so the sign is that of the bits.
+    const bool is_negative = has_signed_labels && static_cast<std::int64_t>(to) < 0;
     steps.merge.push_back({.from = {from}, .to = to, .to_is_negative = is_negative});
   }
   if (options.drop_specks > io::SpeckRule::kMax) {
@@ -96,13 +97,16 @@ std::uint64_t memory_of(const mwmesh::Options& options) {
   return options.memory > 0 ? options.memory : engine::default_memory_budget();
 }
 
-engine::MeshJob mesh_job(const mwmesh::Settings& settings, const mwmesh::Options& options,
-                         const mwmesh::Hooks& hooks) {
-  if (options.resume && options.workdir.empty()) {
-    throw Error(ErrorKind::kUsage, "--resume: needs the --workdir of the run that ended early");
+engine::MeshJob mesh_job(const io::VolumeInfo& labels, const mwmesh::Settings& settings,
+                         const mwmesh::Options& options, const mwmesh::Hooks& hooks) {
+  if (options.resume && options.workdir.empty() && options.keep.empty()) {
+    throw Error(ErrorKind::kUsage,
+                "--resume: needs the --workdir or the --keep of the run that ended early");
   }
   if (options.keep.empty() && (options.from_kept || !options.changed.empty())) {
-    throw Error(ErrorKind::kUsage, "--from: needs the folder that a run has kept something in");
+    throw Error(ErrorKind::kUsage, std::string(options.from_kept ? "--from" : "--changed") +
+                                       ": needs the folder that a run has kept something in, name "
+                                       "it with --keep");
   }
   engine::MeshSettings values = mesh_settings(settings);
   std::shared_ptr<const io::LabelVolume> sizes;
@@ -110,7 +114,7 @@ engine::MeshJob mesh_job(const mwmesh::Settings& settings, const mwmesh::Options
     sizes = io::open_volume(image);
   }
   return {
-      .steps = input_steps(options),
+      .steps = input_steps(options, io::has_signed_labels(labels)),
       .settings = std::move(values),
       .size_image = std::move(sizes),
       .samples = samples_of(options),
@@ -124,7 +128,7 @@ engine::MeshJob mesh_job(const mwmesh::Settings& settings, const mwmesh::Options
       .finds_parts = options.report,
       .certify = certify_of(options.certify),
       .is_measured = options.report,
-      .wants_delta = options.from_kept && options.report,
+      .delta = options.from_kept && options.report ? engine::Delta::kIfKnown : engine::Delta::kNo,
       .folder = io::scratch_folder(),
       .run = run_hooks(options, hooks),
       .stop = stop_function(hooks)};

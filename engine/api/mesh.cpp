@@ -40,8 +40,10 @@ class WriterSink : public io::MeshSink {
 };
 
 /// Returns a job with its images opened.
-engine::MeshJob job_of(const Settings& settings, const Options& options, const Hooks& hooks) {
-  engine::MeshJob job = mw::api::mesh_job(settings, options, hooks);
+engine::MeshJob job_of(const Volume& volume, const Settings& settings, const Options& options,
+                       const Hooks& hooks) {
+  engine::MeshJob job =
+      mw::api::mesh_job(VolumeAccess::labels(volume).info(), settings, options, hooks);
   for (engine::SampleImage& sample : job.samples) {
     sample.image =
         io::open_volume(mw::api::checked_path(sample.file, "sample"), {.dataset = sample.dataset});
@@ -91,7 +93,7 @@ Mesh mesh(const Volume& volume, const Settings& settings, const Options& options
           const Hooks& hooks) {
   return mw::api::guarded([&] {
     io::MeshDataSink sink;
-    std::string report = run_into(sink, {}, volume, job_of(settings, options, hooks));
+    std::string report = run_into(sink, {}, volume, job_of(volume, settings, options, hooks));
     Mesh mesh = mw::api::library_mesh(std::move(sink.mesh()));
     mesh.report = std::move(report);
     return mesh;
@@ -102,7 +104,7 @@ std::string mesh_to(MeshWriter& writer, const Volume& volume, const Settings& se
                     const Options& options, const Hooks& hooks) {
   return mw::api::guarded([&] {
     WriterSink sink(writer);
-    return run_into(sink, {}, volume, job_of(settings, options, hooks));
+    return run_into(sink, {}, volume, job_of(volume, settings, options, hooks));
   });
 }
 
@@ -114,10 +116,17 @@ std::string mesh_to_file(const std::filesystem::path& path, const Volume& volume
     if (!options.sample.empty() && file.materials.empty()) io::require_place_for_values(path);
     const bool has_wedges = !options.cohesive.empty();
     if (has_wedges) io::require_place_for_wedges(path, io::parse_element(file.element));
-    engine::MeshJob job = job_of(settings, options, hooks);
+    engine::MeshJob job = job_of(volume, settings, options, hooks);
     job.folder = mw::api::checked_path(path).parent_path();
+    bool is_delivered = false;
+    job.delivered = [&] { is_delivered = true; };
     const auto sink = mw::api::open_file(path, file, !options.sample.empty(), has_wedges);
-    return run_into(*sink, path, volume, job);
+    try {
+      return run_into(*sink, path, volume, job);
+    } catch (const Error& error) {
+      if (!is_delivered || error.kind() != ErrorKind::kCancelled) throw;
+      throw Error(error.kind(), error.what() + ("; " + path.string() + " is complete"));
+    }
   });
 }
 
@@ -131,8 +140,10 @@ std::string mesh_to_file(const std::filesystem::path& path, const Volume& volume
 Verdict verify(const Mesh& mesh, const Volume& volume, const Options& options, const Hooks& hooks) {
   return mw::api::guarded([&] {
     const std::function<void()> stop = mw::api::stop_function(hooks);
-    const engine::VerifyJob job{.volume = VolumeAccess::labels(volume),
-                                .steps = mw::api::input_steps(options),
+    const io::LabelVolume& labels = VolumeAccess::labels(volume);
+    const bool is_signed = io::has_signed_labels(labels.info());
+    const engine::VerifyJob job{.volume = labels,
+                                .steps = mw::api::input_steps(options, is_signed),
                                 .choice = mw::api::label_choice(options),
                                 .threads = mw::api::threads_of(options),
                                 .memory = mw::api::memory_of(options),

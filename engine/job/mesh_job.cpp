@@ -80,8 +80,8 @@ void check_changed(const std::vector<Box3>& changed) {
 /// several processes the one that speaks leaves them.
 class KeptInput {
  public:
-  /// ERRORS: those of KeepFolder and KeptLabels; mw::Error(kUsage) when a delta is wanted and no
-  /// run before was complete.
+  /// ERRORS: those of KeepFolder and KeptLabels; mw::Error(kUsage) when the labels before are those
+  /// of a volume of another shape, and for Delta::kOn when no run before was complete.
   KeptInput(const io::LabelVolume& opened, const MeshJob& job) : counted_(opened) {
     const KeepOptions& options = job.run.keep;
     const bool speaks = job.run.processes == nullptr || job.run.processes->speaks();
@@ -106,8 +106,12 @@ class KeptInput {
   [[nodiscard]] const std::shared_ptr<KeepFolder>& folder() const { return folder_; }
   [[nodiscard]] std::uint64_t voxels_read() const { return counted_.voxels(); }
 
+  /// Tells whether there is a run to compare with.
+  [[nodiscard]] bool knows_delta() const { return before_.has_value(); }
+
   /// Returns what the edit did to the volume and to the mesh.  `after` is what the steps of the job
   /// made of the labels; before, the steps of the run that was complete last did so.
+  /// REQUIRES: knows_delta().
   [[nodiscard]] io::Json delta(const io::LabelVolume& after, const MeshJob& job,
                                const MeshSize& size) const {
     MeshSize old_size;
@@ -143,15 +147,22 @@ class KeptInput {
 
   void open_before(const MeshJob& job) {
     const KeepOptions& options = job.run.keep;
-    if (options.changed.empty() && !job.wants_delta) return;
-    before_ = KeptLabels::open(folder_->path() / kLabelsFile, counted_.info().shape);
+    if (options.changed.empty() && job.delta == Delta::kNo) return;
+    const std::filesystem::path file = folder_->path() / kLabelsFile;
+    before_ = KeptLabels::open(file, counted_.info().shape);
     if (before_) return;
     const std::string folder = folder_->path().string();
-    if (job.wants_delta) {
+    if (std::error_code ignored; std::filesystem::exists(file, ignored)) {
+      throw Error(ErrorKind::kUsage,
+                  folder +
+                      ": was kept of a volume of another shape; give that volume, edited, or "
+                      "delete the folder and begin it by --keep");
+    }
+    if (job.delta == Delta::kOn) {
       throw Error(ErrorKind::kUsage,
                   "--delta: no run was complete in " + folder + ", there is nothing before");
     }
-    if (options.say) {
+    if (options.say && !options.changed.empty()) {
       options.say(folder +
                   ": no run was complete here, so all labels are read, not only --changed");
     }
@@ -384,7 +395,10 @@ report::FinishedRun mesh(const io::LabelVolume& opened, const MeshJob& asked, io
     throw;
   }
   const MeshSize size{run.engine.vertices, run.engine.tets};
-  if (job.wants_delta) run.delta = kept.delta(input.volume(), job, size);
+  if (job.delivered) job.delivered();
+  if (job.delta != Delta::kNo && kept.knows_delta()) {
+    run.delta = kept.delta(input.volume(), job, size);
+  }
   kept.finish(job.steps, size);
   if (run.engine.keep) run.engine.keep->voxels_read = kept.voxels_read();
   if (connected) run.connected = connected->facts();

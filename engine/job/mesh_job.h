@@ -23,6 +23,13 @@ enum class Certify {
   kOff,
 };
 
+/// Whether to tell what changed since the run that is updated.
+enum class Delta {
+  kNo,
+  kIfKnown,  ///< tells it unless no run was complete in the folder
+  kOn,
+};
+
 struct MeshJob {
   io::InputSteps steps;
   MeshSettings settings;
@@ -32,15 +39,16 @@ struct MeshJob {
   ConnectOptions connect;  ///< what is left out of the mesh, and doubled in it, when it is written
   bool finds_parts = false;  ///< whether parts and hinges are counted where the mesh stays as it is
   Certify certify = Certify::kAuto;
-  bool is_measured = false;      ///< whether quality and shape are measured, for a report
-  bool wants_delta = false;      ///< whether to tell what changed since the run that is updated
+  bool is_measured = false;  ///< whether quality and shape are measured, for a report
+  Delta delta = Delta::kNo;
   std::filesystem::path folder;  ///< of temporary files
   /// Threads, memory, work folder, other processes and callbacks.  mesh() sets what is written and
   /// the identity of the run.
   RunHooks run{.threads = 0};
-  /// These two do not change the result.
+  /// These three do not change the result.
   std::function<void()> stop = [] {};                    ///< called often, by any thread; may throw
   std::function<void(std::size_t labels)> labels_known;  ///< optional; called before marches
+  std::function<void()> delivered;  ///< optional; called when all of the mesh is in the sink
 };
 
 /// What a certificate takes of a run's memory budget, which is a quarter at most.

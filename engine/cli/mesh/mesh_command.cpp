@@ -111,6 +111,14 @@ void open_samples(const MeshRequest& request, std::vector<engine::SampleImage>& 
   }
 }
 
+/// Returns what is there when a run ends while it finds out what changed, and how to go on.
+std::string way_to_delta(const MeshRequest& request) {
+  const std::string folder = request.job.run.keep.folder.string();
+  return io::text(request.output.string(), " is complete, ", request.delta.string(),
+                  " is not written; mesh again with --from ", folder, " and --delta, for which ",
+                  folder, " still has the labels before");
+}
+
 /// Meshes the volume, and says where the work is when a run that ends early leaves some.
 report::FinishedRun mesh_into(const MeshRequest& request, const io::LabelVolume& volume,
                               MeshFiles& files) {
@@ -128,8 +136,16 @@ report::FinishedRun mesh_into(const MeshRequest& request, const io::LabelVolume&
   run.progress = [&](const engine::RunProgress& at) { progress.show(at); };
   if (files.trace) run.trace = [&](const engine::TraceEvent& e) { files.trace->add(e); };
   run.store.kept = [&] { work = engine::way_on(run); };
+  bool is_delivered = false;
+  job.delivered = [&] {
+    is_delivered = job.delta == engine::Delta::kOn;
+    if (is_delivered) work = way_to_delta(request);
+  };
   try {
     return engine::mesh(volume, job, files.all());
+  } catch (const Error& error) {
+    if (!is_delivered) throw;
+    throw Error(error.kind(), error.what() + ("; " + work));
   } catch (const Interrupted&) {
     throw Interrupted{work};
   } catch (const engine::StoppedAfterSave&) {

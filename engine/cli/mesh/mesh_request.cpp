@@ -325,7 +325,7 @@ void settle_keep(MeshRequest& request) {
     throw Error(ErrorKind::kUsage,
                 "--changed: says nothing where --object finds the box anew, leave it out");
   }
-  request.job.wants_delta = !request.delta.empty();
+  request.job.delta = request.delta.empty() ? engine::Delta::kNo : engine::Delta::kOn;
   const Index3 first = request.volume.crop ? request.volume.crop->lo : Index3{};
   for (Box3& box : keep.changed) box = {box.lo - first, box.hi - first};
   keep.folder = updates ? request.from : request.keep;

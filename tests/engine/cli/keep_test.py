@@ -114,7 +114,7 @@ class Keep(unittest.TestCase):
         told = self.done("mesh", "v.npy", "-o", "m.vtu", "--from", "k", "--keep-bytes", "1KB",
                          *SETTINGS)
         self.assertIn("have to stay", told.stderr)
-        self.refused(2, "name it with keep", "mesh", "v.npy", "-o", "m.vtu", "--keep-bytes", "1GB")
+        self.refused(2, "name it with --keep", "mesh", "v.npy", "-o", "m.vtu", "--keep-bytes", "1GB")
 
     def test_what_is_not_told_is_not_seen(self):
         """Counter-test: windows that are skipped wrongly give another mesh, which these tests see."""
@@ -217,6 +217,28 @@ class Keep(unittest.TestCase):
         with open("r.json", encoding="utf-8") as file:
             mesh = json.load(file)["output"]
         self.assertEqual(delta["mesh"]["after"]["tets"], mesh["tets"])
+
+    def test_an_interrupt_while_changes_are_told(self):
+        self.mesh("--keep", "k")
+        self.volume[5:8, 6:9, 7:10] = 3
+        self.save()
+        before = os.stat("m.vtu").st_ino
+        # The mesh is renamed into its place, so the inode tells when it is complete.
+        with subprocess.Popen([PROGRAM, "mesh", "v.npy", "-o", "m.vtu", *SETTINGS, "--from", "k",
+                               "--delta", "d.json"], stdout=subprocess.DEVNULL,
+                              stderr=subprocess.PIPE, text=True) as run:
+            while run.poll() is None and os.stat("m.vtu").st_ino == before:
+                pass
+            run.send_signal(signal.SIGINT)
+            said = run.communicate()[1]
+        if run.returncode == 0:
+            return  # it was done before the signal came
+        self.assertEqual(run.returncode, 75, said)
+        self.assertIn("m.vtu is complete, d.json is not written", said)
+        self.expect_fresh()
+        self.mesh("--from", "k", "--delta", "d.json")
+        with open("d.json", encoding="utf-8") as file:
+            self.assertEqual(json.load(file)["box"], {"from": [7, 6, 5], "to": [10, 9, 8]})
 
     def test_kills_in_between(self):
         rng = random.Random(7)
