@@ -57,6 +57,7 @@ class Session:
         self._keep = keep
         usual = "zyx" if settings.get("affine") is None else "xyz"
         self._is_zyx = (settings.get("axes") or usual) == "zyx"
+        self._refused = []  # boxes of updates that raised, which may be in the folder all the same
         self._last = self._run()
 
     def __reduce_ex__(self, protocol):
@@ -81,10 +82,12 @@ class Session:
 
         Returns the new :class:`Mesh` and the delta, a dict: "box" and "voxels_changed"; "labels"
         that gained or lost voxels, with voxels and Betti numbers before and after; "contacts" whose
-        faces changed in number; and the size of the "mesh".
+        faces changed in number; and the size of the "mesh".  When it raises, array and mesh are as
+        they were, and the next update first makes the folder so, too.
         """
         before = self._array
         after = self._edited(*edit)
+        self._restore()
         spans = _extent(before != after)
         box = [(0, 1), (0, 1), (0, 1)] if spans is None else spans
         if self._is_zyx:
@@ -95,12 +98,22 @@ class Session:
             self._last = self._run(from_kept=True, changed=[changed])
         except BaseException:
             self._array = before
+            self._refused.append(changed)
             raise
         return self._last, self._last.report["delta"]
 
+    def _restore(self):
+        """Makes the folder that of the array again, after updates that raised.  The run of such an
+        update may have been complete, as where the function for progress raised at the end; only
+        a run tells."""
+        if self._refused:
+            self._run(from_kept=True, changed=self._refused, report=False, progress=False)
+            self._refused = []
+
     def _run(self, **arguments):
         from . import mesh
-        return mesh(self._array, keep=self._keep, order="colour", **arguments, **self._settings)
+        return mesh(self._array, keep=self._keep,
+                    **{**self._settings, "order": "colour", **arguments})
 
     def _edited(self, *edit):
         if len(edit) == 1:

@@ -838,6 +838,18 @@ class Runs(InFolder):
         self.assertGreater(mesh.report["engine"]["windows_resumed"], 0)
         self.assertEqual(mesh.digest, mwmesh.mesh(volume, window=16).digest)
 
+    def test_a_kept_folder_of_a_run_that_was_interrupted(self):
+        def stop(done, total, _seconds):
+            if 2 * done > total:
+                raise StopIteration
+
+        volume = grains((40, 40, 40))
+        settings = {"order": "colour", "window": 16, "keep": self.path("kept")}
+        with self.assertRaises(StopIteration):
+            mwmesh.mesh(volume, threads=1, progress=stop, **settings)
+        made = mwmesh.mesh(volume, from_kept=True, **settings)
+        self.assertEqual(made.digest, mwmesh.mesh(volume, order="colour", window=16).digest)
+
     def test_memory_is_text_or_bytes(self):
         mesh = mwmesh.mesh(grains(), memory="512MiB")
         self.assertEqual(mesh.report["settings"]["memory"], 512 << 20)
@@ -952,7 +964,7 @@ class Errors(InFolder):
         self.check(mwmesh.UsageError, "object, trust_paths: for files", labels, object=1,
                    trust_paths=True)
         self.check(mwmesh.ResourceError, "of 1.5MiB is too small", labels, memory=3 << 19)
-        self.check(mwmesh.InputError, "shape", labels[:0])
+        self.check(mwmesh.UsageError, "shape", labels[:0])
         self.check(mwmesh.InputError, "1.5", np.full((2, 2, 2), 1.5))
         self.check(mwmesh.InputError, "nowhere.npy", self.path("nowhere.npy"))
 
@@ -1051,6 +1063,31 @@ class Sessions(InFolder):
         session = mwmesh.Session(grains(), affine=None, axes=None, window=8)
         session.update(((2, 3, 4), (5, 6, 6)), 1)
         self.expect_fresh(session)
+
+    def test_updates_that_raise_leave_no_labels_behind(self):
+        class Refused(Exception):
+            pass
+
+        fails = False
+
+        def refuse_the_end(done, total, _seconds):
+            if fails and done == total:
+                raise Refused
+
+        volume = grains((20, 16, 12))
+        with_progress = mwmesh.Session(volume, window=8, threads=1, progress=refuse_the_end)
+        mesh = with_progress.mesh
+        for label in (50, 51, 52):
+            fails = True
+            with self.assertRaises(Refused):
+                with_progress.update(((3, 3, 3), (6, 6, 6)), label)
+            fails = False
+            self.assertTrue(np.array_equal(with_progress.array, volume))
+            self.assertIs(with_progress.mesh, mesh)
+            volume[8:10, 8:10, 8:10] = label + 10
+            mesh, delta = with_progress.update(((8, 8, 8), (10, 10, 10)), label + 10)
+            self.assertEqual(delta["voxels_changed"], 8)
+            self.assertEqual(mesh.digest, mwmesh.mesh(volume, order="colour", window=8).digest)
 
     def test_a_session_cannot_be_copied(self):
         session = mwmesh.Session(grains(), window=8)
