@@ -42,7 +42,7 @@ SizeSettings before_halvings(SizeSettings sizes, int times) {
 
 Halving::Halving(int times, io::MeshSink& below, const MeshJob& job, const io::LabelTable& table,
                  std::vector<double> sizes)
-    : below_(below), table_(table) {
+    : below_(below), table_(table), stop_(job.stop) {
   if (times > 0 && job.is_measured) quality_.emplace();
   if (times > 0 && !sizes.empty()) edges_.emplace(table.size(), std::move(sizes));
   for (int i = 0; i < times; ++i) {
@@ -53,6 +53,8 @@ Halving::Halving(int times, io::MeshSink& below, const MeshJob& job, const io::L
 }
 
 void Halving::see(const std::array<io::Position, 4>& corners, RawLabel label) {
+  constexpr std::uint64_t kTetsBetween = 4096;
+  if (tets_ % kTetsBetween == 0) stop_();
   if (quality_) quality_->add(tets_, corners);
   if (edges_) edges_->add(table_.dense(label), corners);
   ++tets_;

@@ -4,6 +4,7 @@
 // has each tet cut into eight.
 #pragma once
 
+#include <functional>
 #include <memory>
 #include <optional>
 #include <vector>
@@ -28,8 +29,9 @@ namespace mw::engine {
 /// The sinks that cut, one behind the other, and the figures of what they write.
 class Halving {
  public:
-  /// With times 0 the mesh is passed on as it is.  sizes are by dense label, 0 where none is asked;
-  /// if empty, edges are not measured.  REQUIRES: below and table outlive it.
+  /// With times 0 the mesh is passed on as it is.  The job's stop() is called often while tets are
+  /// cut.  sizes are by dense label, 0 where none is asked; if empty, edges are not measured.
+  /// REQUIRES: below and table outlive it.
   Halving(int times, io::MeshSink& below, const MeshJob& job, const io::LabelTable& table,
           std::vector<double> sizes);
 
@@ -44,6 +46,7 @@ class Halving {
 
   io::MeshSink& below_;
   const io::LabelTable& table_;
+  std::function<void()> stop_;
   std::vector<std::unique_ptr<io::HalvedSink>> cuts_;  ///< the last one that cuts comes first
   std::optional<audit::QualityMeter> quality_;
   std::optional<LongestEdges> edges_;

@@ -29,7 +29,7 @@ struct VerifyJob {
   int threads = 0;                        ///< 0: all cores
   std::uint64_t memory = 0;               ///< bytes
   std::filesystem::path folder;           ///< of temporary files
-  std::function<void()> between = [] {};  ///< called after each tile; may throw
+  std::function<void()> between = [] {};  ///< called often, by any thread; may throw
 };
 
 /// Checks P1 to P4 and P8 of the mesh that deliver() writes into a sink, from begin to finish, for

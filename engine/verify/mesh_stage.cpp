@@ -91,7 +91,9 @@ class MeshStage {
   [[nodiscard]] TileFindings look_at(std::uint32_t tile) const {
     const LoadedMesh loaded = mesh_.load(tile);
     const audit::MeshTile view = loaded.view();
+    task_.between();
     const audit::MeshStars stars(view);
+    task_.between();
     TileFindings out{.names = loaded.names};
     out.validity = audit::tally_validity(stars, {.frame = validity_.frame,
                                                  .shape = validity_.shape,
@@ -100,17 +102,22 @@ class MeshStage {
     if (!loaded.written.empty()) {
       out.turned = audit::changed_orientations(view, loaded.written, mesh_.is_mirrored());
     }
+    task_.between();
     if (validity_.has_gaps) {
       take_regions(loaded, stars, out);
     } else {
       take_parts(loaded, stars, out);
     }
+    task_.between();
     out.quality = audit::tally_quality(view);
     out.shape = audit::measure_shape(stars);
+    task_.between();
     out.volumes = audit::tally_volumes(view, loaded.names.size(), lattice_);
     out.places = audit::places_of_mesh(view, loaded.names.size(), validity_.frame, validity_.shape);
     out.faces = audit::tally_faces(view, validity_.frame, validity_.shape, task_.options.periodic);
+    task_.between();
     if (pieces_ != nullptr) take_triangles(stars, out);
+    task_.between();
     if (junctions_ != nullptr) {
       out.junctions = audit::mesh_junctions(stars, loaded.names.size());
       loaded.names.to_whole(out.junctions);

@@ -18,7 +18,7 @@ struct VerifyTask {
   /// interfaces needs more, and for parts of labels (verify_mesh()).
   std::uint64_t memory_bytes = std::uint64_t{256} << 20U;
   std::filesystem::path folder;           ///< of temporary files
-  std::function<void()> between = [] {};  ///< called after each tile; may throw
+  std::function<void()> between = [] {};  ///< called often, by any thread; may throw
 };
 
 /// Checks a mesh against its volume.  A thread has no more in memory than a tile of the mesh, and

@@ -118,7 +118,9 @@ class VolumeStage {
     const double halo = pieces_ == nullptr ? 1 : reach + pieces_->radius();
     LoadedVoxels loaded = load(around(box, halo));
     VoxelFindings out;
+    task_.between();
     take_parts(box, loaded, out);
+    task_.between();
     if (pieces_ != nullptr) out.distances = measure(box, reach, std::move(loaded));
     return out;
   }
