@@ -72,11 +72,25 @@ double value_of(const Tally& tally, Statistic statistic) {
   return tally.first + tally.sum / tally.volume;
 }
 
+/// Throws if an image that has the voxels of the labels' file lacks some of those that are meshed.
+void require_all_voxels(const SampleImage& sample, const io::VolumeInfo& labels) {
+  const Index3 has = sample.image->info().shape, needs = labels.first + labels.shape;
+  if (has.x >= needs.x && has.y >= needs.y && has.z >= needs.z) return;
+  io::fail_input(sample.file, {},
+                 io::text("has ", has.x, " x ", has.y, " x ", has.z,
+                          " voxels, and the labels reach to ", needs.x, " x ", needs.y, " x ",
+                          needs.z, ": it does not say where it lies, so it must have theirs"),
+                 "give an image on the grid of the labels, or one in a format that has a place");
+}
+
 /// Returns where the image is in the world of the labels.  An image without a place has the voxels
 /// of the labels' file.
 io::VolumeSpace space_in(const SampleImage& sample, const io::VolumeInfo& labels) {
   const io::VolumeInfo& image = sample.image->info();
-  if (!image.is_placed) return moved_to(labels.space, Index3{} - labels.first);
+  if (!image.is_placed) {
+    require_all_voxels(sample, labels);
+    return moved_to(labels.space, Index3{} - labels.first);
+  }
   const std::string &own = image.space.unit, &wanted = labels.space.unit;
   if (!own.empty() && !wanted.empty() && own != wanted) {
     throw Error(ErrorKind::kUsage,
