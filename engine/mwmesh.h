@@ -10,7 +10,8 @@
 //
 // Arrays of three are (x, y, z).  Labels are 64-bit numbers; those of signed volumes are in two's
 // complement.  All functions may be called by several threads at once, also on the same Volume.
-// All of them throw Error; what callbacks throw passes through.
+// All of them throw Error.  What callbacks throw passes through, except std::bad_alloc,
+// std::length_error and std::filesystem::filesystem_error, which become an Error, too.
 #pragma once
 
 #include <array>
@@ -71,21 +72,22 @@ struct Space {
   Vector spacing{1, 1, 1};  ///< edges of a voxel, positive
   Vector origin{0, 0, 0};   ///< first corner of the first voxel
   std::array<Vector, 3> axes{{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}};
-  std::string unit;           ///< "mm", "um", "nm" and so on; empty if unknown
+  std::string unit{};         ///< "mm", "um", "nm" and so on; empty if unknown
   std::string frame = "own";  ///< "own", "ras" or "lps"
 };
 
 /// Returns the space of an array whose indices of voxels `affine` (three rows of a 4 x 4 matrix)
-/// takes to the world; as in NIfTI, they stand for centres.  frame is "own", "ras" or "lps".
-/// spacing has the edges of a voxel where a file states them beside the matrix.
-/// ERRORS: kInput for axes that are not at right angles.
+/// takes to the world; as in NIfTI, they stand for centres.  frame is "own", "ras" or "lps", or
+/// "voxel" to keep nothing but the edges of a voxel.  spacing has these edges where a file states
+/// them beside the matrix.
+/// ERRORS: kInput for numbers that are not finite, and for axes that are 0 or not at right angles.
 [[nodiscard]] Space space_of_affine(const std::array<std::array<double, 4>, 3>& affine,
                                     const std::string& frame = "own",
                                     const std::optional<Vector>& spacing = {});
 
 struct LabelName {
   std::uint64_t label = 0;
-  std::string name;  ///< may be empty
+  std::string name{};  ///< may be empty
   /// Red, green, blue and opacity; empty if unknown.
   std::optional<std::array<std::uint8_t, 4>> colour{};
 };
@@ -112,12 +114,12 @@ struct RegionVolume {
   std::vector<LabelName> names{};
   /// Writes the labels of the box, x fastest.  Many threads call it at once, and it is asked for
   /// each voxel about three times.  What it throws ends the run.
-  std::function<void(const Box& box, std::span<std::uint64_t> out)> read;
+  std::function<void(const Box& box, std::span<std::uint64_t> out)> read{};
 };
 
 /// A file or folder of any format that `mwmesh info` reads, or the address of a remote volume.
 struct VolumeFile {
-  std::filesystem::path path;
+  std::filesystem::path path{};
   std::string dataset{};            ///< an array of the file; if empty, convention chooses one
   std::optional<int> scale{};       ///< level of a pyramid; 0 is the finest
   std::optional<Vector> spacing{};  ///< instead of the file's
@@ -141,10 +143,11 @@ struct VolumeFile {
 
 class VolumeAccess;
 
-/// A labelled volume, which is cheap to copy.
+/// A labelled volume, which is cheap to copy.  One that was moved from has nothing in it, and all
+/// that is asked of it is kUsage.
 class Volume {
  public:
-  /// ERRORS: kUsage for an empty or too large shape, or a space that makes no sense.
+  /// ERRORS: kUsage for an empty or too large shape, or a type or space that makes no sense.
   [[nodiscard]] static Volume of(const ArrayVolume& array);
   [[nodiscard]] static Volume of(const RegionVolume& region);
   /// ERRORS: kInput naming file, field, reason and way out; kUsage for options that do not fit it.
@@ -172,8 +175,8 @@ class Volume {
 /// Returns the label with this number or name: "7", "-1", "Liver".  A number is that label, even if
 /// another label is called so.  A name stands for the label whose name is written the same, or else
 /// for the one whose name differs in capitals alone; text in double quotes is always a name.
-/// ERRORS: kUsage for a number that no label of the volume can be, and for a name that no label or
-/// that several labels have.
+/// ERRORS: kUsage for a number below 0 where labels are not signed, for one of 2^63 or more where
+/// they are, and for a name that no label or that several labels have.
 [[nodiscard]] std::uint64_t find_label(const Volume& volume, std::string_view text);
 
 /// Returns the text of a setting with numbers in the place of names, "Liver|3=2,*=5".  Names that
@@ -186,10 +189,10 @@ class Volume {
 
 /// A setting that the mesh depends on; see `mwmesh mesh --help` for all of them.
 struct SettingInfo {
-  std::string name;  ///< "max_distance"
-  std::string help;
-  std::string fallback;              ///< the default
-  std::vector<std::string> choices;  ///< all that it may be; empty for a number or a list
+  std::string name{};  ///< "max_distance"
+  std::string help{};
+  std::string fallback{};              ///< the default
+  std::vector<std::string> choices{};  ///< all that it may be; empty for a number or a list
 };
 
 /// What the mesh depends on beside the volume.
@@ -221,20 +224,20 @@ enum class Certify {
 struct Options {
   /// These steps come before anything else reads the labels: each key of merge becomes its value,
   /// then components of fewer voxels than drop_specks take the label around them.
-  std::map<std::uint64_t, std::uint64_t> merge;
+  std::map<std::uint64_t, std::uint64_t> merge{};
   std::uint64_t drop_specks = 0;  ///< in voxels; 0 drops none
   bool specks_joined_by_corners = false;
   /// The labels of the mesh, or empty for all; the others are meshed but left out.
-  std::vector<std::uint64_t> labels;
-  std::optional<std::uint64_t> background;  ///< the only label that is left out
+  std::vector<std::uint64_t> labels{};
+  std::optional<std::uint64_t> background{};  ///< the only label that is left out
   /// The parts (tets that faces join) that the mesh keeps: "all", "largest", or the least number of
   /// tets of a part.
   std::string parts = "all";
   /// Interfaces whose vertices are doubled so that they open, "1|2,1|3"; "*" means all.
-  std::string split;
+  std::string split{};
   /// Interfaces, written as in split, that are split and get wedges of no thickness between their
   /// two sides, from the first label of a pair to the second (wedges()).
-  std::string cohesive;
+  std::string cohesive{};
   bool open_hinges = false;  ///< vertices at which parts hang are doubled, so that they come apart
   int threads = 0;           ///< 1 to 1,024, or 0 for all cores
   /// Bytes that the run may take; the mesh in memory, and the volume's arrays, come on top.  0
@@ -242,23 +245,26 @@ struct Options {
   std::uint64_t memory = 0;
   /// The folder for spilled blocks and for the checkpoint that resume goes on from; if empty, there
   /// is neither.  The run makes the folder and removes it after success.
-  std::filesystem::path workdir;
+  std::filesystem::path workdir{};
+  /// Whether to go on from what a run that ended early left in workdir, or in keep.
   bool resume = false;
   /// A folder, used instead of workdir, in which the run keeps what later runs of the edited volume
   /// need not do again; if empty, nothing is kept.  It needs the setting order=colour.
-  std::filesystem::path keep;
+  std::filesystem::path keep{};
   /// The most bytes that this folder takes when a run ends, until another run says otherwise; what
   /// was dropped is made again when needed.  0 keeps the limit of an earlier run, if any.
   std::uint64_t keep_bytes = 0;
   /// Whether an earlier run of the same settings has kept something there; only windows that the
   /// edit reaches are then meshed again.  The mesh is that of a run that begins afresh; the report
-  /// tells what the edit did ("delta").
+  /// tells what the edit did ("delta"), unless no run was complete there.
   bool from_kept = false;
-  /// With from_kept, boxes of voxels that hold all changes since the run before, and that alone are
-  /// read; if empty, everything may have changed.
-  std::vector<Box> changed;
+  /// With from_kept, boxes of voxels that hold all changes since the last run that returned, and
+  /// that alone are read; if empty, everything may have changed.  A run that threw may have kept
+  /// its labels all the same, so its boxes must be there, too.
+  std::vector<Box> changed{};
   /// Images whose values tets get, as `mwmesh mesh --sample` has them: "NAME=FILE" or
-  /// "NAME=FILE:mode", several joined by ';'.  The voxels of a .npy file are those of the volume.
+  /// "NAME=FILE:mode", several joined by ';'.  The voxels of a .npy file are those of the volume,
+  /// none of which it may lack.
   std::string sample{};
   Certify certify = Certify::kAuto;
   bool report = true;  ///< if false, quality and shape are not measured, and reports are empty
@@ -270,29 +276,34 @@ struct Options {
 struct Progress {
   std::uint64_t done = 0;   ///< windows that are finished
   std::uint64_t total = 0;  ///< windows of the run
-  std::optional<double> seconds_left;
+  std::optional<double> seconds_left{};
 };
 
 /// Callbacks that watch a run; none of them changes the mesh.  Any thread may call them, but only
 /// cancel is called by several threads at once.
 struct Hooks {
-  std::function<void(const Progress& progress)> progress;  ///< after each window
-  /// Is asked often; when it returns true, the run ends with kCancelled.
-  std::function<bool()> cancel;
+  /// After each window; then, while the mesh is written, some more times with all windows done.
+  std::function<void(const Progress& progress)> progress{};
+  /// Is asked often; when it returns true, the run ends with kCancelled.  It may take seconds until
+  /// it is asked again where a cube of 64 voxels has millions of tets.
+  std::function<bool()> cancel{};
 };
 
 /// A mesh in memory.
 struct Mesh {
-  std::vector<Vector> points;                      ///< world coordinates
-  std::vector<std::array<std::uint64_t, 4>> tets;  ///< rows of points; positive orientation
-  std::vector<std::uint64_t> labels;               ///< by tet
+  std::vector<Vector> points{};                      ///< world coordinates
+  std::vector<std::array<std::uint64_t, 4>> tets{};  ///< rows of points; positive orientation
+  std::vector<std::uint64_t> labels{};               ///< by tet
   bool labels_are_signed = false;
-  std::vector<LabelName> names;  ///< of labels that are in the mesh
+  std::vector<LabelName> names{};  ///< of labels that are in the mesh
   /// For each name a number for each tet (Options::sample, or from a file); NaN if unknown.
   std::map<std::string, std::vector<double>> values{};
-  std::string report;  ///< JSON, the keys of `mwmesh mesh --report`; empty when there is none
-  std::string record;  ///< one line of JSON about the run that made it, which files keep
+  /// JSON, the keys of `mwmesh mesh --report`; empty when there is none.  Its "settings" are those
+  /// of Settings, with threads, memory and workdir.
+  std::string report{};
+  std::string record{};  ///< one line of JSON about the run that made it, which files keep
   /// Whether each eight tets in turn are the straight parts of a curved tet, as from read_mesh().
+  /// Such a mesh cannot be written as "tet10-curved".
   bool in_parts = false;
 };
 
@@ -356,8 +367,8 @@ void write_mesh(const Mesh& mesh, const std::filesystem::path& path,
 struct Wedges {
   /// Rows of points: three of the facet under the wedge, whose normal points to the other side,
   /// then the three above them in the same order, which may be equal where an interface ends.
-  std::vector<std::array<std::uint64_t, 6>> rows;
-  std::vector<std::array<std::uint64_t, 2>> labels;  ///< under the wedge, and on top of it
+  std::vector<std::array<std::uint64_t, 6>> rows{};
+  std::vector<std::array<std::uint64_t, 2>> labels{};  ///< under the wedge, and on top of it
 };
 /// Returns the wedges between the two sides of the interfaces that Options::cohesive named, by
 /// interface.
@@ -369,15 +380,16 @@ struct Wedges {
 [[nodiscard]] std::string digest(const Mesh& mesh);
 
 struct Check {
-  std::string name;
+  std::string name{};
   bool passed = false;
-  std::string detail;
+  std::string detail{};
 };
 
 struct Verdict {
   bool passed = false;
-  std::vector<Check> checks;
-  std::string report;  ///< JSON, the keys of `mwmesh verify --report`
+  std::vector<Check> checks{};
+  /// JSON, the keys of `mwmesh verify --report` without version, settings and performance.
+  std::string report{};
 };
 
 /// Checks a mesh against its volume, with the bounds that the mesh's record tells (1.5 voxels and a

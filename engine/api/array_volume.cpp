@@ -8,7 +8,6 @@
 
 #include "engine/api/types.h"
 #include "io/file/errors.h"
-#include "io/volume/checks.h"
 #include "io/volume/decode.h"
 
 namespace mw::api {
@@ -20,19 +19,36 @@ constexpr io::ByteOrder kMachine =
 static_assert(static_cast<int>(io::VoxelType::kU8) == static_cast<int>(mwmesh::VoxelType::kU8) &&
               static_cast<int>(io::VoxelType::kF64) == static_cast<int>(mwmesh::VoxelType::kF64));
 
+Index3 shape_of(const mwmesh::Index& shape) {
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    if (shape[axis] >= 1 && shape[axis] <= kMaxAxisVoxels) continue;
+    throw Error(ErrorKind::kUsage,
+                io::text("shape (", std::string_view("xyz").substr(axis, 1),
+                         "): must be from 1 to ", kMaxAxisVoxels, " voxels, got ", shape[axis]));
+  }
+  return {shape[0], shape[1], shape[2]};
+}
+
+io::VoxelType type_of(mwmesh::VoxelType type) {
+  if (type >= mwmesh::VoxelType::kU8 && type <= mwmesh::VoxelType::kF64) {
+    return static_cast<io::VoxelType>(type);
+  }
+  throw Error(ErrorKind::kUsage, "type: is none of VoxelType");
+}
+
 /// Returns what an ArrayVolume or a RegionVolume says of itself.
 template <class Told>
 io::VolumeInfo info_of(const Told& told) {
-  return {.shape = io::checked_shape(kArray, "shape", told.shape),
+  return {.shape = shape_of(told.shape),
           .space = io_space(told.space),
-          .type = static_cast<io::VoxelType>(told.type),
+          .type = type_of(told.type),
           .format = kArray,
           .names = io_names(told.names)};
 }
 
 mwmesh::Index strides_of(const mwmesh::ArrayVolume& array) {
   if (array.strides != mwmesh::Index{}) return array.strides;
-  const std::int64_t x = io::byte_size(static_cast<io::VoxelType>(array.type));
+  const std::int64_t x = io::byte_size(type_of(array.type));
   return {x, x * array.shape[0], x * array.shape[0] * array.shape[1]};
 }
 

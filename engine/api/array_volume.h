@@ -10,8 +10,8 @@ namespace mw::api {
 
 class ArrayReader : public io::LabelVolume {
  public:
-  /// ERRORS: mw::Error(kUsage) without data; kInput for a shape that makes no sense; those of
-  /// io_space().
+  /// ERRORS: mw::Error(kUsage) without data, and for a type, a shape or a space that makes no
+  /// sense.
   explicit ArrayReader(const mwmesh::ArrayVolume& array);
 
   [[nodiscard]] const io::VolumeInfo& info() const override { return info_; }

@@ -17,13 +17,15 @@ std::string library_name(const std::string& name) {
   return out;
 }
 
+constexpr const char* kPreset = "preset";
+
 const engine::Setting& find(std::string_view name) {
-  std::vector<std::string> all;
-  std::string listed;
+  std::vector<std::string> all{kPreset};
+  std::string listed = std::string("; there are ") + kPreset;
   for (const engine::Setting& setting : engine::setting_table()) {
     all.push_back(library_name(setting.name));
     if (all.back() == name) return setting;
-    listed += (listed.empty() ? "; there are " : ", ") + all.back();
+    listed += ", " + all.back();
   }
   const std::string near = engine::did_you_mean(name, all);
   throw Error(ErrorKind::kUsage,
@@ -41,8 +43,6 @@ void set(std::string_view name, engine::MeshSettings& settings, const std::strin
     throw Error(error.kind(), std::string(name) + ": " + reason);
   }
 }
-
-constexpr const char* kPreset = "preset";
 
 const engine::Preset& find_preset(const std::string& name) {
   if (const engine::Preset* preset = engine::find_preset(name)) return *preset;

@@ -3,6 +3,7 @@
 // Spaces, boxes, names and meshes of the library as io has them.
 #include "engine/api/types.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include "engine/api/guarded.h"
@@ -23,14 +24,35 @@ io::WorldFrame frame_of(const std::string& name) {
   throw Error(ErrorKind::kUsage, "frame " + name + ": expected own, ras or lps");
 }
 
+void check_axes(const std::array<mwmesh::Vector, 3>& axes) {
+  constexpr double kMost = 1e-4;  // what io::placed() straightens
+  for (std::size_t i = 0; i < 3; ++i) {
+    const mwmesh::Vector &a = axes[i], &b = axes[(i + 1) % 3];
+    const bool is_unit = std::abs(std::hypot(a[0], a[1], a[2]) - 1) < kMost;
+    if (!is_unit) throw Error(ErrorKind::kUsage, "axes must have unit length");
+    if (std::abs(a[0] * b[0] + a[1] * b[1] + a[2] * b[2]) <= kMost) continue;
+    throw Error(ErrorKind::kUsage,
+                "axes must be at right angles: resample a sheared volume onto a grid that has "
+                "them, or leave the axes out");
+  }
+}
+
+/// Throws if a column of an affine, or what it adds, is no place in the world.
+void check_affine(const std::array<std::array<double, 4>, 3>& affine) {
+  for (std::size_t k = 0; k < 4; ++k) {
+    const double length = std::hypot(affine[0][k], affine[1][k], affine[2][k]);
+    if (std::isfinite(length) && (length > 0 || k == 3)) continue;
+    throw Error(ErrorKind::kInput,
+                io::text("affine: column ", k + 1, " must be finite",
+                         k == 3 ? "" : " and not 0, as it is the edge of a voxel"));
+  }
+}
+
 }  // namespace
 
 io::VolumeSpace io_space(const mwmesh::Space& space) {
   io::check_place(space.spacing, space.origin);
-  for (const mwmesh::Vector& axis : space.axes) {
-    if (std::abs(std::hypot(axis[0], axis[1], axis[2]) - 1) < 1e-4) continue;
-    throw Error(ErrorKind::kUsage, "axes must have unit length");
-  }
+  check_axes(space.axes);
   io::FileSpace told{.lengths = space.spacing,
                      .first = space.origin,
                      .first_is_centre = false,
@@ -101,6 +123,32 @@ std::unique_ptr<io::MeshSink> open_file(const std::filesystem::path& path,
   return io::open_mesh_sink(checked_path(path), io::parse_element(file.element), extras);
 }
 
+namespace {
+
+/// Writes points, tets and values in batches, between which a sink may ask whether to go on.
+void write_rows(const mwmesh::Mesh& mesh, bool values, io::MeshSink& sink) {
+  constexpr std::size_t kBatch = 1 << 16;  // a multiple of the parts of a curved tet
+  const std::span points(mesh.points);
+  for (std::size_t at = 0; at < points.size(); at += kBatch) {
+    sink.write_vertices(points.subspan(at, std::min(kBatch, points.size() - at)));
+  }
+  const std::span tets(mesh.tets);
+  const std::span labels(mesh.labels);
+  std::vector<double> rows;
+  for (std::size_t at = 0; at < tets.size(); at += kBatch) {
+    const std::size_t count = std::min(kBatch, tets.size() - at);
+    sink.write_tets(tets.subspan(at, count), labels.subspan(at, count));
+    if (!values) continue;
+    rows.clear();
+    for (std::size_t t = at; t < at + count; ++t) {
+      for (const auto& [name, column] : mesh.values) rows.push_back(column[t]);
+    }
+    sink.write_values(rows);
+  }
+}
+
+}  // namespace
+
 void deliver(const mwmesh::Mesh& mesh, io::MeshSink& sink, bool values) {
   if (mesh.labels.size() != mesh.tets.size()) {
     throw Error(ErrorKind::kUsage, "mesh: there must be one label a tet");
@@ -116,6 +164,11 @@ void deliver(const mwmesh::Mesh& mesh, io::MeshSink& sink, bool values) {
                                          std::to_string(mesh.points.size()));
     }
   }
+  if (mesh.in_parts && mesh.tets.size() % kTetParts.size() != 0) {
+    throw Error(ErrorKind::kUsage,
+                io::text("mesh: in_parts needs eight tets for each curved one, and there are ",
+                         mesh.tets.size()));
+  }
   io::MeshHeader header{.tets = mesh.tets.size(),
                         .labels_signed = mesh.labels_are_signed,
                         .names = io_names(mesh.names),
@@ -125,14 +178,7 @@ void deliver(const mwmesh::Mesh& mesh, io::MeshSink& sink, bool values) {
     for (const auto& [name, column] : mesh.values) header.values.push_back(name);
   }
   sink.begin(header);
-  sink.write_vertices(mesh.points);
-  sink.write_tets(mesh.tets, mesh.labels);
-  std::vector<double> row;
-  for (std::size_t t = 0; t < mesh.tets.size() && !header.values.empty(); ++t) {
-    row.clear();
-    for (const auto& [name, column] : mesh.values) row.push_back(column[t]);
-    sink.write_values(row);
-  }
+  write_rows(mesh, !header.values.empty(), sink);
   sink.finish();
 }
 
@@ -143,15 +189,19 @@ namespace mwmesh {
 Space space_of_affine(const std::array<std::array<double, 4>, 3>& affine, const std::string& frame,
                       const std::optional<Vector>& spacing) {
   return mw::api::guarded([&] {
+    mw::api::check_affine(affine);
+    const bool is_voxel = frame == "voxel";
     mw::io::FileSpace told{.first = mw::io::Vector3{affine[0][3], affine[1][3], affine[2][3]},
-                           .frame = mw::api::frame_of(frame),
+                           .frame = is_voxel ? mw::io::WorldFrame::kOwn : mw::api::frame_of(frame),
                            .steps_field = "affine",
                            .first_field = "affine"};
     for (std::size_t i = 0; i < 3; ++i) {
       for (std::size_t k = 0; k < 3; ++k) told.steps[i][k] = affine[k][i];
     }
     if (spacing) told.lengths = *spacing;
-    return mw::api::library_space(mw::io::placed(mw::api::kArray, told, {}));
+    mw::io::OpenOptions options;
+    if (is_voxel) options.frame = mw::io::FrameChoice::kVoxel;
+    return mw::api::library_space(mw::io::placed(mw::api::kArray, told, options));
   });
 }
 

@@ -12,7 +12,7 @@ namespace mw::api {
 /// What errors call a volume that is no file.
 inline constexpr const char* kArray = "array";
 
-/// ERRORS: mw::Error(kUsage) for lengths, kInput for angles that make no sense.
+/// ERRORS: mw::Error(kUsage) for lengths and angles that make no sense.
 [[nodiscard]] io::VolumeSpace io_space(const mwmesh::Space& space);
 [[nodiscard]] mwmesh::Space library_space(const io::VolumeSpace& space);
 [[nodiscard]] Box3 io_box(const mwmesh::Box& box);

@@ -99,11 +99,14 @@ void Volume::read(const Box& box, std::span<std::uint64_t> out) const {
     const io::LabelVolume& labels = VolumeAccess::labels(*this);
     const mw::Box3 wanted = mw::api::io_box(box);
     const mw::Box3 common = mw::intersection(wanted, {{0, 0, 0}, labels.info().shape});
-    if (common != wanted || static_cast<std::uint64_t>(wanted.voxels()) != out.size()) {
+    const bool is_inverted =
+        wanted.lo.x > wanted.hi.x || wanted.lo.y > wanted.hi.y || wanted.lo.z > wanted.hi.z;
+    if (is_inverted || common != wanted ||
+        static_cast<std::uint64_t>(wanted.voxels()) != out.size()) {
       throw mw::Error(mw::ErrorKind::kUsage,
                       "read: expected a box in the volume, and room for its voxels");
     }
-    labels.read(wanted, out);
+    if (!out.empty()) labels.read(wanted, out);
   });
 }
 

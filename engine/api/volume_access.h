@@ -22,11 +22,14 @@ class Volume::Content {
 /// The only class that looks behind a Volume.
 class VolumeAccess {
  public:
+  /// ERRORS: Error(kUsage) for a volume that was moved from; the same holds for shared().
   [[nodiscard]] static const mw::io::LabelVolume& labels(const Volume& volume) {
-    return *volume.content_->volume();
+    return *shared(volume);
   }
-  [[nodiscard]] static std::shared_ptr<const mw::io::LabelVolume> shared(const Volume& volume) {
-    return volume.content_->volume();
+  [[nodiscard]] static const std::shared_ptr<const mw::io::LabelVolume>& shared(
+      const Volume& volume) {
+    if (volume.content_ != nullptr) return volume.content_->volume();
+    throw Error(ErrorKind::kUsage, "volume: it was moved from, so there is nothing in it");
   }
   [[nodiscard]] static Volume wrap(std::shared_ptr<const mw::io::LabelVolume> volume) {
     return Volume(std::make_shared<const Volume::Content>(std::move(volume)));

@@ -261,6 +261,141 @@ TEST(Library, TellsProgressAndCanBeCancelled) {
   EXPECT_FALSE(std::filesystem::exists(options.workdir));
 }
 
+/// Runs into a folder, and cancels half-way.
+void keep_half(const Volume& volume, const Settings& settings, const Options& options) {
+  std::atomic<bool> enough = false;
+  const Hooks stop{.progress = [&](const Progress& at) { enough = 2 * at.done > at.total; },
+                   .cancel = [&] { return enough.load(); }};
+  failure(ErrorKind::kCancelled, [&] { (void)mesh(volume, settings, options, stop); });
+}
+
+TEST(Library, GoesOnWithAKeptFolderOfARunThatWasCancelled) {
+  const mw::test::TempFolder folder;
+  const auto labels = synth("voronoi", {40, 40, 40}, 9, 1);
+  const Volume volume = volume_of(labels, {40, 40, 40});
+  const Settings settings = Settings().set("window", "16").set("order", "colour");
+  const std::string expected = digest(mesh(volume, settings));
+  Options options{.keep = folder.path() / "kept"};
+  keep_half(volume, settings, options);
+  EXPECT_THAT(failure(ErrorKind::kUsage, [&] { (void)mesh(volume, settings, options); }),
+              HasSubstr("by from_kept"));
+  options.from_kept = true;
+  const Mesh made = mesh(volume, settings, options);
+  EXPECT_EQ(digest(made), expected);
+  EXPECT_FALSE(json::parse(made.report).contains("delta"));
+  const auto edited = synth("voronoi", {40, 40, 40}, 8, 1);
+  EXPECT_TRUE(json::parse(mesh(volume_of(edited, {40, 40, 40}), settings, options).report)
+                  .contains("delta"));
+  EXPECT_THAT(failure(ErrorKind::kUsage,
+                      [&] {
+                        (void)mesh(volume_of(edited, {20, 40, 40}), settings, options);
+                      }),
+              HasSubstr("another shape"));
+  // Or in the way of the program's --resume.
+  options = {.resume = true, .keep = folder.path() / "second"};
+  keep_half(volume, settings, options);
+  const Mesh resumed = mesh(volume, settings, options);
+  EXPECT_EQ(digest(resumed), expected);
+  EXPECT_GT(json::parse(resumed.report)["engine"]["remesh"]["marches"][0]["skipped"], 0);
+}
+
+TEST(Library, SaysWhatIsCompleteWhenItIsCancelledLate) {
+  const mw::test::TempFolder folder;
+  const auto labels = grains();
+  const Volume volume = volume_of(labels);
+  const Settings settings = Settings().set("order", "colour");
+  Options options{.keep = folder.path() / "kept"};
+  (void)mesh(volume, settings, options);
+  options.from_kept = true;
+  const std::filesystem::path file = folder.path() / "m.vtu";
+  const Hooks stop{.cancel = [&] { return std::filesystem::exists(file); }};
+  EXPECT_THAT(
+      failure(ErrorKind::kCancelled, [&] { mesh_to_file(file, volume, settings, options, stop); }),
+      HasSubstr("m.vtu is complete"));
+  EXPECT_FALSE(read_mesh(file).tets.empty());
+}
+
+TEST(Library, MergesLargeLabelsWithoutSign) {
+  auto labels = grains();
+  const std::uint64_t large = ~std::uint64_t{0};
+  std::replace(labels.begin(), labels.end(), std::uint64_t{2}, large);
+  const Options options{.merge = {{1, large}}};
+  const Mesh made = mesh(volume_of(labels), {}, options);
+  EXPECT_THAT(made.labels, testing::Contains(large));
+  EXPECT_THAT(made.labels, testing::Not(testing::Contains(1U)));
+  EXPECT_TRUE(verify(made, volume_of(labels), options).passed);
+}
+
+TEST(Library, RefusesWhatIsNoVolume) {
+  const auto labels = grains();
+  ArrayVolume array{.data = labels.data(), .type = VoxelType::kU64, .shape = kShape};
+  const auto refusal = [&] { return failure(ErrorKind::kUsage, [&] { (void)Volume::of(array); }); };
+  for (const std::int64_t bad : {0, -1, (1 << 20) + 1}) {
+    array.shape = {22, bad, 20};
+    EXPECT_THAT(refusal(), HasSubstr("shape (y)"));
+  }
+  array.shape = kShape;
+  array.space.axes[0] = {0.6, 0.8, 0};
+  EXPECT_THAT(refusal(), HasSubstr("right angles"));
+  array.space = {};
+  array.type = static_cast<VoxelType>(42);
+  EXPECT_THAT(refusal(), HasSubstr("type"));
+  Volume volume = volume_of(labels);
+  const Volume taken = std::move(volume);
+  EXPECT_EQ(taken.shape(), kShape);
+  failure(ErrorKind::kUsage, [&] { (void)volume.shape(); });  // NOLINT(bugprone-use-after-move)
+  failure(ErrorKind::kUsage, [&] { (void)mesh(volume); });
+}
+
+TEST(Library, ReadsBoxesThatAreOnes) {
+  const auto labels = grains();
+  const Volume volume = volume_of(labels);
+  std::vector<std::uint64_t> out(8, 77);
+  failure(ErrorKind::kUsage, [&] { volume.read({{4, 4, 0}, {2, 2, 2}}, out); });
+  failure(ErrorKind::kUsage, [&] { volume.read({{10, 4, 0}, {4, 4, 4}}, {}); });
+  EXPECT_THAT(out, testing::Each(77));
+  volume.read({{4, 4, 4}, {4, 4, 4}}, {});
+}
+
+TEST(Library, CurvesTetsOnce) {
+  const mw::test::TempFolder folder;
+  const auto labels = grains();
+  Mesh made = mesh(volume_of(labels));
+  write_mesh(made, folder.path() / "m.vtu", "tet10-curved");
+  const Mesh parts = read_mesh(folder.path() / "m.vtu");
+  ASSERT_TRUE(parts.in_parts);
+  EXPECT_THAT(failure(ErrorKind::kUsage,
+                      [&] { write_mesh(parts, folder.path() / "n.vtu", "tet10-curved"); }),
+              HasSubstr("not curved again"));
+  write_mesh(parts, folder.path() / "n.vtu", "tet10");
+  made.in_parts = true;
+  made.tets.resize(made.tets.size() / 8 * 8 + 1);
+  made.labels.resize(made.tets.size());
+  EXPECT_THAT(failure(ErrorKind::kUsage, [&] { (void)digest(made); }), HasSubstr("in_parts"));
+}
+
+TEST(Library, AsksOftenWhetherToGoOn) {
+  const auto labels = grains();
+  const Volume volume = volume_of(labels);
+  std::atomic<int> asked = 0;
+  const Hooks hooks{.cancel = [&] {
+    ++asked;
+    return false;
+  }};
+  // Sizes far below a voxel: most of the time goes into cutting tets.
+  const Options plain{.certify = Certify::kOff, .report = false};
+  const Mesh coarse = mesh(volume, Settings().set("size", "1.4"), plain, hooks);
+  const int before = asked.exchange(0);
+  const Mesh fine = mesh(volume, Settings().set("size", "0.7"), plain, hooks);
+  EXPECT_GT(fine.tets.size(), 4 * coarse.tets.size());
+  EXPECT_GT(asked, before + static_cast<int>(fine.tets.size() / 8192));
+  asked = 0;
+  EXPECT_TRUE(verify(coarse, volume, {}, hooks).passed);
+  EXPECT_GT(asked, 8);
+  const Hooks stop{.cancel = [&] { return true; }};
+  failure(ErrorKind::kCancelled, [&] { (void)verify(coarse, volume, {}, stop); });
+}
+
 TEST(Library, VerifiesMeshes) {
   const auto labels = grains();
   const Volume volume = volume_of(labels);
@@ -314,6 +449,10 @@ TEST(LibrarySettings, AreThoseOfTheProgram) {
   EXPECT_EQ(settings.set("max_distance", "none").get("max_distance"), "none");
   EXPECT_THAT(failure(ErrorKind::kUsage, [&] { settings.set("max_distanse", "1"); }),
               HasSubstr("did you mean max_distance?"));
+  EXPECT_THAT(failure(ErrorKind::kUsage, [&] { settings.set("prest", "fine"); }),
+              HasSubstr("did you mean preset?"));
+  EXPECT_THAT(failure(ErrorKind::kUsage, [&] { settings.set("zzzz", "1"); }),
+              HasSubstr("there are preset, window"));
   const auto refusal = [&](const char* name, const char* text) {
     return failure(ErrorKind::kUsage, [&] { settings.set(name, text); });
   };
@@ -359,6 +498,30 @@ TEST(LibraryNumbers, AreRefusedAsByTheProgram) {
   failure(ErrorKind::kUsage, [] { (void)picture({}, 15, 900); });
 }
 
+#pragma GCC diagnostic push
+#pragma GCC diagnostic error "-Wmissing-field-initializers"
+
+TEST(Library, MembersThatAreNotNamedDoNotWarn) {
+  EXPECT_EQ(Options{.threads = 2}.merge.size(), 0U);
+  EXPECT_FALSE(Hooks{.cancel = [] { return false; }}.progress);
+  EXPECT_FALSE(Hooks{.progress = [](const Progress&) {}}.cancel);
+  EXPECT_EQ(Progress{.done = 1}.seconds_left, std::nullopt);
+  EXPECT_EQ(LabelName{.label = 1}.name, "");
+  EXPECT_EQ((Box{.lo = {1, 1, 1}}.hi), Index{});
+  EXPECT_EQ((Space{.spacing = {1, 1, 2}}.frame), "own");
+  EXPECT_EQ(VolumeFile{.dataset = "a"}.path, "");
+  EXPECT_EQ((ArrayVolume{.shape = {1, 1, 1}}.data), nullptr);
+  EXPECT_FALSE((RegionVolume{.shape = {1, 1, 1}}.read));
+  EXPECT_EQ(FileOptions{.deck = true}.element, "tet4");
+  EXPECT_TRUE(Mesh{.points = {}}.tets.empty());
+  EXPECT_TRUE(Wedges{.rows = {}}.labels.empty());
+  EXPECT_FALSE(Check{.name = "a"}.passed);
+  EXPECT_FALSE(Verdict{.report = "a"}.passed);
+  EXPECT_EQ(SettingInfo{.name = "a"}.help, "");
+}
+
+#pragma GCC diagnostic pop
+
 TEST(LibraryNumbers, PathsHaveNoZeroByte) {
   const std::string path("a\0b", 3);
   const auto labels = grains();
@@ -381,6 +544,16 @@ TEST(LibrarySpace, OfAnAffine) {
   failure(ErrorKind::kInput, [] {
     (void)space_of_affine({{{1, 0.5, 0, 0}, {0, 1, 0, 0}, {0, 0, 1, 0}}});
   });
+  const Space plain = space_of_affine({{{2, 0.6, 0, 5}, {0, 0.8, 0, 6}, {0, 0, 3, 7}}}, "voxel");
+  EXPECT_EQ(plain.spacing, (Vector{2, 1, 3}));
+  EXPECT_EQ(plain.origin, Vector{});
+  for (const double bad : {0.0, std::nan("")}) {
+    EXPECT_THAT(failure(ErrorKind::kInput,
+                        [&] {
+                          (void)space_of_affine({{{1, 0, 0, 0}, {0, bad, 0, 0}, {0, 0, 1, 0}}});
+                        }),
+                HasSubstr("affine: column 2"));
+  }
 }
 
 TEST(LibraryErrors, AreWordedForCallers) {
@@ -390,11 +563,56 @@ TEST(LibraryErrors, AreWordedForCallers) {
   EXPECT_EQ(failure(ErrorKind::kInput, [] { (void)read_mesh("/nowhere/m.vtu"); }).find("mwmesh:"),
             std::string::npos);
   failure(ErrorKind::kUsage, [] { (void)Volume::of(ArrayVolume{.shape = {2, 2, 2}}); });
-  failure(ErrorKind::kInput, [] {
-    const int one = 1;
-    (void)Volume::of(ArrayVolume{.data = &one, .shape = {2, 0, 2}});
-  });
   failure(ErrorKind::kUsage, [] { (void)synth("cubes", {2, 2, 2}, 2, 1); });
+  failure(ErrorKind::kResource, [] { (void)synth("noise", {1 << 20, 1 << 20, 1 << 20}, 2, 1); });
+  EXPECT_EQ(mw::api::library_words("go on by --from, or (--from)"),
+            "go on by from_kept, or (from_kept)");
+  const auto labels = grains();
+  EXPECT_THAT(
+      failure(ErrorKind::kUsage, [&] { (void)mesh(volume_of(labels), {}, {.keep_bytes = 9}); }),
+      HasSubstr("keep_bytes: is the size of a folder"));
+  EXPECT_THAT(
+      failure(ErrorKind::kUsage, [&] { (void)mesh(volume_of(labels), {}, {.from_kept = true}); }),
+      HasSubstr("from_kept: needs the folder"));
+}
+
+TEST_F(LibraryTest, FailsAsAnErrorWherePathsCannotBeLookedAt) {
+  const std::string loop = folder() / "loop";
+  std::filesystem::create_symlink(loop, loop);
+  const auto labels = grains();
+  const Volume volume = volume_of(labels);
+  const Settings colour = Settings().set("order", "colour");
+  for (const std::string& path : {(folder() / (std::string(300, 'a') + ".npy")).string(), loop}) {
+    const auto expect_named = [&](ErrorKind kind, const std::function<void()>& work) {
+      EXPECT_THAT(failure(kind, work), HasSubstr(path));
+    };
+    expect_named(ErrorKind::kInput, [&] { (void)Volume::open({.path = path}); });
+    expect_named(ErrorKind::kInput, [&] { (void)mesh(volume, {}, {.sample = "a=" + path}); });
+    expect_named(ErrorKind::kUsage, [&] { (void)mesh(volume, colour, {.keep = path}); });
+    expect_named(ErrorKind::kUsage,
+                 [&] { (void)mesh(volume, colour, {.keep = path, .from_kept = true}); });
+    expect_failure(3, "info '" + path + "'", path);
+    try {
+      (void)mesh(volume, {}, {.workdir = path});
+      ADD_FAILURE() << path;
+    } catch (const Error& error) {
+      EXPECT_THAT(error.what(), HasSubstr(path));
+    }
+  }
+}
+
+TEST(LibraryErrors, ImagesWithoutAPlaceHaveTheVoxelsOfTheVolume) {
+  const mw::test::TempFolder folder;
+  // An array of NumPy of one voxel.
+  std::string head = "{'descr': '|u1', 'fortran_order': False, 'shape': (1, 1, 1), }";
+  head.resize(117, ' ');
+  std::ofstream(folder.path() / "one.npy", std::ios::binary)
+      << std::string("\x93NUMPY\x01\x00\x76\x00", 10) << head << "\n\x07";
+  const auto labels = grains();
+  const std::string sample = "a=" + (folder.path() / "one.npy").string();
+  EXPECT_THAT(
+      failure(ErrorKind::kInput, [&] { (void)mesh(volume_of(labels), {}, {.sample = sample}); }),
+      HasSubstr("has 1 x 1 x 1 voxels"));
 }
 
 }  // namespace
