@@ -1065,29 +1065,26 @@ class Sessions(InFolder):
         self.expect_fresh(session)
 
     def test_updates_that_raise_leave_no_labels_behind(self):
-        class Refused(Exception):
-            pass
+        run = mwmesh.mesh
 
-        fails = False
-
-        def refuse_the_end(done, total, _seconds):
-            if fails and done == total:
-                raise Refused
+        def run_and_be_interrupted(*arguments, **settings):
+            run(*arguments, **settings)
+            raise KeyboardInterrupt
 
         volume = grains((20, 16, 12))
-        with_progress = mwmesh.Session(volume, window=8, threads=1, progress=refuse_the_end)
-        mesh = with_progress.mesh
-        for label in (50, 51, 52):
-            fails = True
-            with self.assertRaises(Refused):
-                with_progress.update(((3, 3, 3), (6, 6, 6)), label)
-            fails = False
-            self.assertTrue(np.array_equal(with_progress.array, volume))
-            self.assertIs(with_progress.mesh, mesh)
+        session = mwmesh.Session(volume, window=8)
+        mesh = session.mesh
+        for label in (50, 51):
+            for box in (((3, 3, 3), (6, 6, 6)), ((12, 2, 2), (14, 4, 4))):
+                with unittest.mock.patch.object(mwmesh, "mesh", run_and_be_interrupted), \
+                        self.assertRaises(KeyboardInterrupt):
+                    session.update(box, label)
+            self.assertTrue(np.array_equal(session.array, volume))
+            self.assertIs(session.mesh, mesh)
             volume[8:10, 8:10, 8:10] = label + 10
-            mesh, delta = with_progress.update(((8, 8, 8), (10, 10, 10)), label + 10)
+            mesh, delta = session.update(((8, 8, 8), (10, 10, 10)), label + 10)
             self.assertEqual(delta["voxels_changed"], 8)
-            self.assertEqual(mesh.digest, mwmesh.mesh(volume, order="colour", window=8).digest)
+            self.assertEqual(mesh.digest, run(volume, order="colour", window=8).digest)
 
     def test_a_session_cannot_be_copied(self):
         session = mwmesh.Session(grains(), window=8)
