@@ -3,6 +3,7 @@
 """One volume, edited again and again."""
 
 import tempfile
+import threading
 
 import numpy as np
 
@@ -57,6 +58,8 @@ class Session:
         self._keep = keep
         usual = "zyx" if settings.get("affine") is None else "xyz"
         self._is_zyx = (settings.get("axes") or usual) == "zyx"
+        self._turn = threading.RLock()  # held by the thread that updates
+        self._is_updating = False
         self._refused = []  # boxes of updates that raised, which may be in the folder all the same
         self._last = self._run()
 
@@ -83,8 +86,19 @@ class Session:
         Returns the new :class:`Mesh` and the delta, a dict: "box" and "voxels_changed"; "labels"
         that gained or lost voxels, with voxels and Betti numbers before and after; "contacts" whose
         faces changed in number; and the size of the "mesh".  When it raises, array and mesh are as
-        they were, and the next update first makes the folder so, too.
+        they were, and the next update first makes the folder so, too.  Updates from several threads
+        come one after the other.
         """
+        with self._turn:
+            if self._is_updating:
+                raise UsageError("update: a function that an update calls may not update again")
+            self._is_updating = True
+            try:
+                return self._update(edit)
+            finally:
+                self._is_updating = False
+
+    def _update(self, edit):
         before = self._array
         after = self._edited(*edit)
         self._restore()

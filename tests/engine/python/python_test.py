@@ -3,6 +3,7 @@
 """The Python package as its users call it; numpy alone is the oracle."""
 
 import ast
+import concurrent.futures
 import copy
 import csv
 import doctest
@@ -1029,6 +1030,29 @@ class Sessions(InFolder):
         for edit in ((session.array.copy(),), (((1, 1, 1), (2, 2, 2)), session.array[1, 1, 1])):
             mesh, delta = session.update(*edit)
             self.assertEqual((mesh.digest, delta["voxels_changed"]), (digest, 0))
+
+    def test_updates_of_two_threads_come_one_after_the_other(self):
+        session = mwmesh.Session(grains(), window=8)
+        boxes = [((k, 2, 2), (k + 3, 6, 6)) for k in (1, 5, 9)]
+        with concurrent.futures.ThreadPoolExecutor(3) as threads:
+            done = [threads.submit(session.update, box, 77) for box in boxes]
+        for update in done:
+            update.result()
+        expected = grains()
+        for (x0, y0, z0), (x1, y1, z1) in boxes:
+            expected[z0:z1, y0:y1, x0:x1] = 77
+        np.testing.assert_array_equal(session.array, expected)
+        self.assertEqual(session.mesh.digest, mwmesh.mesh(expected, window=8, order="colour").digest)
+
+    def test_an_update_may_not_update(self):
+        session = mwmesh.Session(grains(), window=8, progress=lambda *_: nested())
+        def nested():
+            raised.append(1)
+            session.update(((0, 0, 0), (1, 1, 1)), 5)
+        raised = []
+        with self.assertRaisesRegex(mwmesh.UsageError, "may not update again"):
+            session.update(((1, 2, 2), (4, 6, 6)), 77)
+        self.assertTrue(raised)
 
     def test_ten_edits_give_the_meshes_of_fresh_runs(self):
         random = np.random.default_rng(5)
