@@ -342,8 +342,9 @@ class Mesh:
     def save(self, path, element="tet4", values=True, materials=None, deck=False,
              pairs=None):
         """Writes a file of any format of ``mwmesh convert``, which appears under its name only once
-        it is whole.  element: "tet4", "tet10" or "tet10-curved".  values: False leaves out the
-        values of tets, for which some formats have no place.  materials: "NAME=N" or
+        it is whole.  element: "tet4", "tet10" or "tet10-curved", which a mesh that was read from
+        curved tets cannot be again.  values: False leaves out the values of tets, for which some
+        formats have no place.  materials: "NAME=N" or
         "NAME=N:LO:HI" makes N sets of elements by ranges of a value.  deck: with a job for CalculiX (.inp) or FEBio (.feb).
         pairs: a file (.csv, or .inp with equations) for the nodes on the faces of a mesh that was
         made with ``periodic``, and those that they are images of."""
