@@ -303,7 +303,7 @@ struct Mesh {
   std::string report{};
   std::string record{};  ///< one line of JSON about the run that made it, which files keep
   /// Whether each eight tets in turn are the straight parts of a curved tet, as from read_mesh().
-  /// Such a mesh cannot be written as "tet10-curved".
+  /// A mesh of such parts cannot be written as "tet10-curved".
   bool in_parts = false;
 };
 

@@ -76,7 +76,7 @@ void add_keep_options(OptionSet& options, MeshRequest& request) {
                .implied = implied_by_keep});
   options.add({.name = "changed",
                .value = "X0,Y0,Z0,X1,Y1,Z1",
-               .help = "with --from: where INPUT has changed since its last mesh, repeatable [anywhere]",
+               .help = "with --from: box changed since the last mesh, repeatable [anywhere]",
                .group = kRunGroup,
                .listed = Listed::kInHelpAll,
                .repeats = true,

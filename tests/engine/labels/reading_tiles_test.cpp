@@ -166,7 +166,7 @@ TEST(LabelCounts, OfPartsAddUpToThoseOfTheWhole) {
   }
 }
 
-/// The same labels may be stored in chunks of any size.  What is counted decides on the mesh.
+/// Labels may be stored in chunks of any size.  What is counted decides on the mesh.
 TEST(LabelCounts, DoNotDependOnHowTheVolumeIsStored) {
   std::mt19937 random(62);
   for (std::uint32_t i = 0; i < 20; ++i) {
