@@ -17,6 +17,7 @@
 #include "engine/job/volume_delta.h"
 #include "engine/keep/keep_folder.h"
 #include "engine/keep/kept_labels.h"
+#include "engine/keep/results_id.h"
 #include "engine/labels/fingerprint.h"
 #include "engine/labels/label_scan.h"
 #include "engine/labels/score_crossings.h"
@@ -188,8 +189,8 @@ constexpr const char* kCountScale = "count scale";
 
 /// Returns what a run shares with the one that it goes on from, beside what the engine adds.
 std::string identity_of(const report::FinishedRun& run) {
-  std::string out =
-      io::text("version = ", version(), "\nlabel fingerprint = ", run.fingerprint, "\n");
+  std::string out = io::text("version = ", version(), "\nresults = ", results_id(),
+                             "\nlabel fingerprint = ", run.fingerprint, "\n");
   if (run.count) out += io::text(kCountScale, " = ", run.count->scale, "\n");
   return out;
 }

@@ -131,12 +131,6 @@ void KeepFolder::settle(const std::string& settings) const {
   }
   const std::string before = settings_in(path_ / kSettingsFile);
   if (before == settings) return;
-  const auto results = saved_value(path_, "results");
-  if (results && settings.find("results = " + *results + "\n") == settings.npos) {
-    refuse(path_,
-           "was made by another build of mwmesh, whose results may differ; use that one, or delete "
-           "the folder and begin it by --keep");
-  }
   const std::string different = differences(before, settings);
   if (different.empty()) {
     refuse(path_, io::text("its ", kSettingsFile, " is damaged: delete the folder and use --keep"));

@@ -130,6 +130,8 @@ bool KeptFacts::any() const {
 
 /// REQUIRES: saving_ is held.
 void KeptFacts::write_group() {
+  if (broken_) return;
+  broken_ = true;  // until all went well
   std::vector<WindowRecord> group;
   std::vector<Extent> superseded;
   {
@@ -138,12 +140,16 @@ void KeptFacts::write_group() {
     superseded = std::exchange(superseded_, {});
     group_since_ = Clock::now();
   }
-  if (group.empty()) return;
-  bytes_.sync();
   std::vector<std::uint64_t> places;
-  for (const WindowRecord& record : group) places.push_back(log_->append(encode(record).written()));
-  log_->sync();
+  if (!group.empty()) {
+    bytes_.sync();
+    for (const WindowRecord& record : group) {
+      places.push_back(log_->append(encode(record).written()));
+    }
+    log_->sync();
+  }
   const std::lock_guard lock(mutex_);
+  broken_ = false;
   for (std::size_t i = 0; i < group.size(); ++i) record_at_[group[i].window] = places[i] + 1;
   records_ += group.size();
   for (const Extent& extent : superseded) bytes_.release(extent);

@@ -87,6 +87,7 @@ class KeptFacts {
   std::mutex saving_;  ///< taken before mutex_; guards the log's end
   std::unique_ptr<RecordLog> log_;
   std::uint64_t records_ = 0;  ///< records in the log
+  bool broken_ = false;        ///< a group could not be written; no other may follow
 };
 
 }  // namespace mw::engine

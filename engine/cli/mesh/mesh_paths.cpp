@@ -56,6 +56,10 @@ void require_names_used_once(const MeshRequest& request) {
   for (const auto& output : written) {
     const fs::path& path = output.second;
     if (path.empty()) continue;
+    std::error_code ignored;
+    if (fs::is_directory(path, ignored)) {
+      refuse(output.first, path, "this is a folder; give the name of a file");
+    }
     const auto is_it = [&](const fs::path& other) { return is_same_file(path, other); };
     if (std::any_of(taken.begin(), taken.end(), is_it)) {
       refuse(output.first, path, "name used twice");

@@ -31,6 +31,9 @@ class Session:
     keep
         a new folder for what is kept, which stays afterwards and is also that of ``mwmesh mesh
         --from``; None: a temporary one, which goes with the session.
+    from_kept
+        whether to begin with what an earlier session or run has left in keep; the array is read
+        whole, and may have been edited meanwhile.
     settings
         everything else that :func:`mesh` takes, except report and the order of windows.
 
@@ -43,15 +46,17 @@ class Session:
     [6, 6, 6]
     """
 
-    def __init__(self, array, *, keep=None, **settings):
+    def __init__(self, array, *, keep=None, from_kept=False, **settings):
         if not isinstance(array, np.ndarray) or array.ndim != 3:
             raise unexpected("array", "a numpy array of three axes", type(array).__name__)
-        for name in ("from_kept", "changed", "report", "workdir", "resume", "order"):
+        for name in ("changed", "report", "workdir", "resume", "order"):
             if name in settings:
                 raise UsageError(f"{name}: a session settles that itself")
         self._array = np.array(array, order="C")
         self._settings = settings
         self._folder = None
+        if from_kept and keep is None:
+            raise UsageError("from_kept: needs the folder of an earlier session, name it with keep")
         if keep is None:
             self._folder = tempfile.TemporaryDirectory(prefix="mwmesh-session-")
             keep = self._folder.name
@@ -61,7 +66,7 @@ class Session:
         self._turn = threading.RLock()  # held by the thread that updates
         self._is_updating = False
         self._refused = []  # boxes of updates that raised, which may be in the folder all the same
-        self._last = self._run()
+        self._last = self._run(from_kept=from_kept)
 
     def __reduce_ex__(self, protocol):
         raise UsageError("a session has a folder of its own and cannot be copied; "

@@ -72,11 +72,13 @@ class Workdir : public WorkFiles {
 [[nodiscard]] bool is_identity_of(const std::filesystem::path& path, const std::string& settings);
 
 /// Returns "window was 32 and is 64; ..." for lines "name = value" that differ; empty if none does.
+/// Where results_id() differs, which is the value of "results", it says that and nothing else.
 [[nodiscard]] std::string differences(const std::string& before, const std::string& now);
 
 /// Returns a line "name = value" for shape, type and space of the volume and for each entry of
 /// setting_table().  The caller adds what it knows of the program and the labels (StoreOptions):
-/// mwmesh adds its version and a fingerprint of the labels after --crop, --merge and --drop-specks.
+/// mwmesh adds its version and results_id(), and a fingerprint of the labels after --crop, --merge
+/// and --drop-specks.
 ///
 /// It leaves out what does not change the tets of the work folder: which labels are written, how,
 /// with which names and nodes; threads, memory and how often work is saved.  It also leaves out the

@@ -106,6 +106,8 @@ TEST_F(UsageTest, RefusesContradictions) {
   expect_failure(2, "mesh v.npy -o w.vtu --dtype u8", "--shape");
   expect_failure(2, "mesh v.npy -o w.vtu --shape 20,20,20", "--dtype");
   expect_failure(2, "mesh v.npy -o w.vtu --labels 1,99", "no label 99");
+  expect_failure(2, "mesh v.npy -o w.vtu --report .", "--report .: this is a folder");
+  expect_failure(2, "mesh v.npy -o w.vtu --html ..", "--html ..: this is a folder");
   expect_failure(2, "mesh -v.npy -o w.vtu", "./-v.npy");
   expect_failure(2, "mesh -hello.npy -o w.vtu", "./-hello.npy");
 }

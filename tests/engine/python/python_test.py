@@ -1044,6 +1044,19 @@ class Sessions(InFolder):
         np.testing.assert_array_equal(session.array, expected)
         self.assertEqual(session.mesh.digest, mwmesh.mesh(expected, window=8, order="colour").digest)
 
+    def test_a_session_goes_on_with_the_folder_of_another(self):
+        labels = grains()
+        with self.assertRaises(mwmesh.UsageError):
+            mwmesh.Session(labels, from_kept=True, window=8)
+        mwmesh.Session(labels, keep=self.path("kept"), window=8).update(((1, 2, 2), (4, 6, 6)), 77)
+        labels[2:6, 2:6, 1:5] = 77  # one voxel more along x
+        session = mwmesh.Session(labels, keep=self.path("kept"), from_kept=True, window=8)
+        self.expect_fresh(session)
+        remesh = session.mesh.report["engine"]["remesh"]
+        self.assertTrue(any(march["skipped"] > 0 for march in remesh["marches"]))
+        session.update(((9, 9, 9), (12, 12, 12)), 5)
+        self.expect_fresh(session)
+
     def test_an_update_may_not_update(self):
         sessions = []
         def nested(*_):
