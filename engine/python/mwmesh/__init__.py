@@ -187,7 +187,8 @@ def _progress(wanted):
         from tqdm.auto import tqdm
     except ImportError:
         if wanted:
-            raise
+            raise MissingPackageError(
+                "progress: True needs the package tqdm; install it, or give a function") from None
         return None
     return _Bar(tqdm)
 

@@ -11,7 +11,8 @@ import numpy as np
 from . import _core
 from ._errors import MissingPackageError, UsageError
 from ._values import label as label_bits
-from ._values import file_options, name_rows, numbers, path_bytes, whole_numbers
+from ._values import (file_options, name_rows, numbers, path_bytes, unexpected, whole,
+                      whole_numbers)
 
 #: The corners of a tet's faces, seen counterclockwise from outside.
 _FACES = np.array([[1, 2, 3], [0, 3, 2], [0, 1, 3], [0, 2, 1]])
@@ -242,25 +243,28 @@ class Mesh:
         if name not in self.values:
             raise UsageError(f"materials: tets have no values '{name}'")
         most = 10_000
+        count = whole(count, "count")
         if not 1 <= count <= most:
             raise UsageError(f"materials: expected a count from 1 to {most}")
         values, volumes = self.values[name], self.tet_volumes()
         known = ~np.isnan(values)
         if bounds is None:
             bounds = (values[known].min(), values[known].max()) if known.any() else (0, 0)
-        elif not bounds[0] < bounds[1]:
-            raise UsageError("materials: the first of the bounds is below the second")
-        low, high = map(float, bounds)
+            low, high = map(float, bounds)
+        else:
+            low, high = numbers(bounds, "bounds", "two finite numbers, the lower first", (2,)).tolist()
+            if not -np.inf < low < high < np.inf:
+                raise unexpected("bounds", "two finite numbers, the lower first", bounds)
         begins = low + (high - low) * (np.arange(count) / count)
         last = np.searchsorted(begins, values[known], side="right")
-        numbers = np.zeros(len(values), np.int32)
-        numbers[known] = np.clip(last, 1, count)
-        tets = np.bincount(numbers, minlength=count + 1)[1:]
-        sums = np.bincount(numbers, volumes, count + 1)[1:]
-        weighted = np.bincount(numbers, np.where(known, values, 0) * volumes, count + 1)[1:]
+        rows = np.zeros(len(values), np.int32)
+        rows[known] = np.clip(last, 1, count)
+        tets = np.bincount(rows, minlength=count + 1)[1:]
+        sums = np.bincount(rows, volumes, count + 1)[1:]
+        weighted = np.bincount(rows, np.where(known, values, 0) * volumes, count + 1)[1:]
         means = np.full(count, np.nan)
         np.divide(weighted, sums, out=means, where=tets > 0)
-        return Materials(numbers, begins, np.append(begins[1:], high), means, tets, sums)
+        return Materials(rows, begins, np.append(begins[1:], high), means, tets, sums)
 
     def _facets(self):
         if "facets" in self._known:

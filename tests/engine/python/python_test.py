@@ -643,6 +643,11 @@ class Values(InFolder):
             mesh.materials("density", 3)
         with self.assertRaisesRegex(mwmesh.UsageError, "from 1 to 10000"):
             mesh.materials("hu", 0)
+        for count, bounds, named in (("x", None, "count"), (2.5, None, "count"), (3, 7, "bounds"),
+                                     (3, (1, 0), "bounds"), (3, (0, np.nan), "bounds"),
+                                     (3, (0, 1, 2), "bounds")):
+            with self.assertRaisesRegex(mwmesh.UsageError, named):
+                mesh.materials("hu", count, bounds)
         with self.assertRaisesRegex(mwmesh.UsageError, "no place for values"):
             mesh.save(self.path("m.bdf"))
         mesh.save(self.path("m.bdf"), values=False)
@@ -871,6 +876,11 @@ class Errors(InFolder):
         self.assertIn(piece, str(caught.exception))
         self.assertNotIn("--", str(caught.exception))
         self.assertIsInstance(caught.exception, mwmesh.Error)
+
+    def test_a_bar_needs_its_package(self):
+        with unittest.mock.patch.dict(sys.modules, {"tqdm": None, "tqdm.auto": None}):
+            self.check(mwmesh.MissingPackageError, "tqdm", grains(), progress=True)
+            mwmesh.mesh(grains())
 
     def test_values_that_make_no_sense_name_their_argument(self):
         labels = grains()
