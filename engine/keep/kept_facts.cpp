@@ -30,12 +30,13 @@ std::uint64_t sectors_of(const Extent& extent) {
 }
 
 /// Removes the folder of another process.  Its lock goes last, since without it the other files
-/// would count as somebody else's after a kill.
+/// would count as somebody else's after a kill or a power cut.
 void remove_part(const std::filesystem::path& part) {
   std::error_code ignored;  // what stays holds no records, and the next run removes it
   for (const auto& entry : std::filesystem::directory_iterator(part, ignored)) {
     if (entry.path().filename() != kLockFile) std::filesystem::remove(entry.path(), ignored);
   }
+  io::sync_folder(part);
   std::filesystem::remove(part / kLockFile, ignored);
   std::filesystem::remove(part, ignored);
 }

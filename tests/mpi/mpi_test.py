@@ -361,6 +361,19 @@ class SharedRuns(unittest.TestCase):
                 self.expect_same(2, expected, "--certify", "off", *resume)
                 (self.folder / "shared.vtkhdf").unlink()
 
+    def test_files_of_others_stay_in_a_folder_that_is_named_as_the_work_folder(self):
+        self.synth("voronoi", "16,16,16", 3)
+        for name in ("epochs", "gen-0000/thesis", "gen-0001/rank-0000/blocks", "lock"):
+            with self.subTest(name):
+                path = self.folder / "u" / name
+                path.parent.mkdir(parents=True)
+                path.write_text("precious")
+                refused = self.run_shared(2, "--workdir", self.folder / "u")
+                self.assertEqual(refused.returncode, 2, refused.stderr)
+                self.assertIn("is no work folder of mwmesh-mpi", refused.stderr)
+                self.assertEqual(path.read_text(), "precious")
+                shutil.rmtree(self.folder / "u")
+
     def test_saved_work_is_not_overwritten_or_mixed(self):
         chance = random.Random(SEED)
         self.synth("voronoi", "64,64,80", 40)

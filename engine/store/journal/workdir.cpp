@@ -238,8 +238,9 @@ void Workdir::remove_files() const {
   }
   for (const char* name : kFiles) {
     fs::remove(path_ / name, ignored);
-    // A journal that a power cut brings back without the others would look like saved work.
-    if (name == kJournalFile) io::sync_folder(path_);
+    // A journal that a power cut brings back without the others would look like saved work, and any
+    // file without the lock like somebody else's.
+    if (name == kJournalFile || name == kSettingsFile) io::sync_folder(path_);
   }
   ::rmdir(path_.c_str());  // a link to the folder stays, as somebody else made it
 }

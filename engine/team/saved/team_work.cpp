@@ -11,6 +11,7 @@
 #include "engine/store/journal/work_file.h"
 #include "io/file/errors.h"
 #include "io/file/sink/atomic_file.h"
+#include "io/file/sink/partial_file.h"
 
 namespace mw::engine {
 namespace {
@@ -130,10 +131,12 @@ void TeamWork::lock_for_all() {
 TeamWork::~TeamWork() {
   std::error_code others_are_there;
   own_.reset();
+  fs::remove(folder_of(generation_), others_are_there);
   if (lock_.valid() && !fs::exists(folder_ / kEpochsFile, others_are_there)) {
+    // Without the lock a file that a power cut brings back would look like somebody else's.
+    io::sync_folder(folder_);
     fs::remove(folder_ / kLockFile, others_are_there);
   }
-  fs::remove(folder_of(generation_), others_are_there);
   fs::remove(folder_, others_are_there);
 }
 
