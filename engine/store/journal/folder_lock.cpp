@@ -31,11 +31,29 @@ bool is_at(const io::FileDescriptor& file, const fs::path& path) {
          held.st_ino == named.st_ino && held.st_dev == named.st_dev;
 }
 
-/// Writes the mark where it is missing: a run may have been killed before it wrote all of it.
+/// Returns the content of a lock file; one byte more than the mark has where it is longer, nothing
+/// where it cannot be read.
+std::string content_of(const fs::path& path) {
+  std::string out(kMark.size() + 1, '\0');
+  std::ifstream in(path, std::ios::binary);
+  in.read(out.data(), static_cast<std::streamsize>(out.size()));
+  out.resize(static_cast<std::size_t>(in.gcount()));
+  return out;
+}
+
+/// True for what a kill or a power cut leaves of the mark while it is written: bytes that have not
+/// reached the disk are missing or 0.
+bool is_part_of_mark(std::string_view content) {
+  if (content.size() > kMark.size()) return false;
+  return std::equal(content.begin(), content.end(), kMark.begin(),
+                    [](char byte, char marked) { return byte == 0 || byte == marked; });
+}
+
+/// Writes the mark where it is not whole.
 void mark(const io::FileDescriptor& file, const fs::path& path) {
-  struct stat held {};
-  if (::fstat(file.get(), &held) != 0) io::fail_output(path.string(), "look at", errno);
-  if (held.st_size == static_cast<off_t>(kMark.size())) return;
+  std::string content(kMark.size(), '\0');
+  const ssize_t size = ::pread(file.get(), content.data(), content.size(), 0);
+  if (size == static_cast<ssize_t>(kMark.size()) && content == kMark) return;
   if (::pwrite(file.get(), kMark.data(), kMark.size(), 0) != static_cast<ssize_t>(kMark.size()) ||
       ::fsync(file.get()) != 0) {
     io::fail_output(path.string(), "write", errno);
@@ -46,9 +64,9 @@ void mark(const io::FileDescriptor& file, const fs::path& path) {
 }  // namespace
 
 bool is_of_runs(const fs::path& folder) {
-  std::ifstream in(folder / kLockFile);
-  std::string line;
-  if (std::getline(in, line)) return line + "\n" == kMark;
+  const std::string content = content_of(folder / kLockFile);
+  if (content == kMark) return true;
+  if (!is_part_of_mark(content)) return false;
   std::error_code failed;
   const fs::directory_iterator entries(folder, failed);
   if (failed) return false;

@@ -294,6 +294,26 @@ TEST_F(WorkdirTest, LeavesFilesOfOthersAloneThatAreCalledLikeOurs) {
   }
 }
 
+/// A power cut leaves bytes of 0 where the mark had not reached the disk.
+TEST_F(WorkdirTest, TakesOverALockWhoseMarkIsNotWhole) {
+  fs::create_directory(path());
+  EXPECT_TRUE(lock_folder(path()).has_value());
+  std::ifstream in(path() / kLockFile);
+  const std::string mark{std::istreambuf_iterator<char>(in), {}};
+  ASSERT_FALSE(mark.empty());
+  for (const std::string& left : {std::string(), mark.substr(0, 9), std::string(mark.size(), '\0'),
+                                  mark.substr(0, 9) + std::string(mark.size() - 9, '\0')}) {
+    fs::create_directory(path());
+    std::ofstream(path() / kLockFile) << left;
+    EXPECT_TRUE(is_of_runs(path()));
+    EXPECT_TRUE(lock_folder(path()).has_value());
+    std::ofstream(path() / kBlocksFile) << "some bytes";
+    EXPECT_TRUE(is_of_runs(path())) << "the lock is whole again";
+    { const Workdir workdir(path(), false, kSettings); }
+    EXPECT_FALSE(fs::exists(path()));
+  }
+}
+
 TEST_F(WorkdirTest, LeavesALinkToTheFolder) {
   fs::create_directory(folder() / "elsewhere");
   fs::create_directory_symlink("elsewhere", path());
