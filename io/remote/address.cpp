@@ -3,8 +3,11 @@
 // Addresses as text (RFC 3986).
 #include "io/remote/address.h"
 
+#include <curl/curl.h>
+
 #include <algorithm>
 #include <array>
+#include <memory>
 
 #include "io/file/errors.h"
 
@@ -94,6 +97,28 @@ std::string amazon_address(std::string_view bucket, std::string_view path) {
   return text("https://", bucket, ".s3.amazonaws.com", path);
 }
 
+struct FreeUrl {
+  void operator()(CURLU* url) const { curl_url_cleanup(url); }
+};
+
+/// Returns scheme, host and port of an address; empty when it is none.  The library that sends the
+/// requests takes it apart, as another reading of a strange address could name another host.
+std::string server_of(const std::string& address) {
+  const std::unique_ptr<CURLU, FreeUrl> url(curl_url());
+  if (!url || curl_url_set(url.get(), CURLUPART_URL, address.c_str(), 0) != CURLUE_OK) return {};
+  std::string out;
+  for (const CURLUPart part : {CURLUPART_SCHEME, CURLUPART_HOST, CURLUPART_PORT}) {
+    char* found = nullptr;
+    if (curl_url_get(url.get(), part, &found, CURLU_DEFAULT_PORT) != CURLUE_OK) return {};
+    out += text(found, " ");
+    curl_free(found);
+  }
+  std::transform(out.begin(), out.end(), out.begin(), [](char c) {
+    return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
+  });
+  return out;
+}
+
 }  // namespace
 
 bool is_remote_address(std::string_view address) {
@@ -143,6 +168,11 @@ std::optional<std::pair<std::string, std::string>> split_address(const std::stri
   const std::size_t slash = address.rfind('/');
   if (host == address.size() || slash < host) return std::nullopt;
   return std::pair(address.substr(0, slash), decoded(address.substr(slash + 1)));
+}
+
+bool is_same_server(const std::string& a, const std::string& b) {
+  const std::string server = server_of(a);
+  return a == b || (!server.empty() && server == server_of(b));
 }
 
 bool is_open_to_all(const std::string& address) {

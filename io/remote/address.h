@@ -28,6 +28,9 @@ namespace mw::io {
 [[nodiscard]] std::optional<std::pair<std::string, std::string>> split_address(
     const std::string& address);
 
+/// Whether two web addresses have the same scheme, host and port.
+[[nodiscard]] bool is_same_server(const std::string& a, const std::string& b);
+
 /// Whether others can read on the way what is sent there, as with http:// to another machine.
 [[nodiscard]] bool is_open_to_all(const std::string& address);
 

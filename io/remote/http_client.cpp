@@ -154,30 +154,6 @@ std::string certificates() {
   return {};
 }
 
-struct FreeUrl {
-  void operator()(CURLU* url) const { curl_url_cleanup(url); }
-};
-
-/// Returns scheme, host and port of an address, which tell servers apart; empty when it is none.
-std::string origin_of(const std::string& address) {
-  const std::unique_ptr<CURLU, FreeUrl> url(curl_url());
-  if (!url || curl_url_set(url.get(), CURLUPART_URL, address.c_str(), 0) != CURLUE_OK) return {};
-  std::string out;
-  for (const CURLUPart part : {CURLUPART_SCHEME, CURLUPART_HOST, CURLUPART_PORT}) {
-    char* found = nullptr;
-    if (curl_url_get(url.get(), part, &found, CURLU_DEFAULT_PORT) != CURLUE_OK) return {};
-    out += text(found, " ");
-    curl_free(found);
-  }
-  return out;
-}
-
-/// Whether a request, to which others may have led, is to the server of the first address.
-bool is_of_server(const std::string& address, const std::string& first) {
-  const std::string origin = origin_of(address);
-  return address == first || (!origin.empty() && is_same_letters(origin, origin_of(first)));
-}
-
 struct FreeHandle {
   void operator()(CURL* handle) const { curl_easy_cleanup(handle); }
 };
@@ -475,7 +451,7 @@ struct Hop {
 void set_up(CURL* curl, const HttpLimits& limits, const Hop& hop) {
   static const std::string kCertificates = certificates();
   const bool is_safe = hop.first.starts_with("https://");
-  const bool may_know = is_of_server(hop.address, hop.first) && !is_open_to_all(hop.address);
+  const bool may_know = is_same_server(hop.address, hop.first) && !is_open_to_all(hop.address);
   curl_easy_reset(curl);
   curl_easy_setopt(curl, CURLOPT_URL, hop.address.c_str());
   curl_easy_setopt(curl, CURLOPT_PROTOCOLS_STR, is_safe ? "https" : "http,https");
@@ -510,7 +486,8 @@ HttpClient::Verdict HttpClient::Exchange::perform(CURL* curl, const HttpLimits& 
   std::string at = address;
   for (long followed = 0; followed <= limits.redirects; ++followed) {
     set_up(curl, limits, {at, address});
-    const CURLcode code = transfer(curl, is_of_server(at, address) ? authorization : std::string());
+    const CURLcode code =
+        transfer(curl, is_same_server(at, address) ? authorization : std::string());
     const std::string next = code == CURLE_OK ? redirect_of(curl) : std::string();
     if (next.empty()) return judge(code);
     at = next;

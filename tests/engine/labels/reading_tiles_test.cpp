@@ -144,18 +144,23 @@ TEST(LabelContacts, AreThoseOfAPlainLoop) {
 
 // What parts count adds up to what the whole counts.
 
+audit::test::SmallVolume random_of_many_tiles(std::mt19937& random, std::uint32_t kind) {
+  const Index3 shape{1 + below(random, 80), 1 + below(random, 60), 1 + below(random, 90)};
+  return audit::test::random_volume_of(
+      random, static_cast<audit::test::VolumeKind>(kind % audit::test::kVolumeKinds), shape,
+      1 + below(random, 5));
+}
+
 TEST(LabelCounts, OfPartsAddUpToThoseOfTheWhole) {
   std::mt19937 random(61);
   for (std::uint32_t i = 0; i < 40; ++i) {
-    const Index3 shape{1 + below(random, 80), 1 + below(random, 60), 1 + below(random, 90)};
-    const auto kind = static_cast<audit::test::VolumeKind>(i % audit::test::kVolumeKinds);
-    const auto small = audit::test::random_volume_of(random, kind, shape, 1 + below(random, 5));
+    const auto small = random_of_many_tiles(random, i);
     const test::MemoryVolume memory(small, {});
     const io::LabelTable table = io::collect_labels(memory);
     const io::DenseVolume volume(memory, table);
     const PreparedLabels whole(volume, {.start = StartMesh::kDense});
     const int parts = 1 + static_cast<int>(below(random, 6));
-    LabelCounts sum(shape, table.size());
+    LabelCounts sum(small.shape, table.size());
     for (int part = 0; part < parts; ++part) {
       const LabelCounts more = counts_of_part(volume, 1 + part % 3, {part, parts});
       sum.faces.add(0, more.faces.counts());
@@ -170,9 +175,7 @@ TEST(LabelCounts, OfPartsAddUpToThoseOfTheWhole) {
 TEST(LabelCounts, DoNotDependOnHowTheVolumeIsStored) {
   std::mt19937 random(62);
   for (std::uint32_t i = 0; i < 20; ++i) {
-    const Index3 shape{1 + below(random, 80), 1 + below(random, 60), 1 + below(random, 90)};
-    const auto kind = static_cast<audit::test::VolumeKind>(i % audit::test::kVolumeKinds);
-    const auto small = audit::test::random_volume_of(random, kind, shape, 1 + below(random, 5));
+    const auto small = random_of_many_tiles(random, i);
     const test::MemoryVolume memory(small, {});
     const io::LabelTable table = io::collect_labels(memory);
     const LabelCounts plain = counts_of_part(io::DenseVolume(memory, table), 1, {});

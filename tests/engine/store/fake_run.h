@@ -16,6 +16,15 @@ namespace mw::engine::test {
   return RunLayout(std::move(grids));
 }
 
+/// As if the next users of all blocks were in this process.
+class KeepsAll : public BlockRouter {
+ public:
+  [[nodiscard]] bool stays(const BlockVersion& /*version*/) const override { return true; }
+  void send(const BlockVersion& /*version*/, BlockPin /*block*/) override {}
+  void committed(std::span<const BlockVersion> /*versions*/) override {}
+  [[nodiscard]] bool is_carrying() const override { return false; }
+};
+
 /// What a window writes: its own place and the content of all it took decide.
 inline std::vector<BlockMesh> fake_work(const RunLayout& layout, const WindowKey& key,
                                         const std::vector<std::optional<BlockMesh>>& taken) {

@@ -233,15 +233,6 @@ TEST(RunStore, WritesNoGroupAfterOneThatFailed) {
   EXPECT_EQ(files.operations, operations);
 }
 
-/// All next users of blocks are here.
-class KeepsAll : public BlockRouter {
- public:
-  [[nodiscard]] bool stays(const BlockVersion& /*version*/) const override { return true; }
-  void send(const BlockVersion& /*version*/, BlockPin /*block*/) override {}
-  void committed(std::span<const BlockVersion> /*versions*/) override {}
-  [[nodiscard]] bool is_carrying() const override { return false; }
-};
-
 /// The old blocks have left by then, and the new ones are not there: what is here must not be
 /// recorded, or a resumed run would go on from blocks that no window has left.
 TEST(RunStore, RecordsNothingAfterMemoryRanOutInTheMiddleOfACommit) {

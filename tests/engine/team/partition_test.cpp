@@ -141,15 +141,6 @@ TEST(LineOwners, HaveVisitedAllBlocksOfTheirLinesLast) {
 
 // Budget of blocks that are on their way here.
 
-/// Whether the next user of a version is here, asked by nobody in these tests.
-class Nobody : public BlockRouter {
- public:
-  [[nodiscard]] bool stays(const BlockVersion& /*version*/) const override { return true; }
-  void send(const BlockVersion& /*version*/, BlockPin /*block*/) override {}
-  void committed(std::span<const BlockVersion> /*versions*/) override {}
-  [[nodiscard]] bool is_carrying() const override { return false; }
-};
-
 struct Receiver {
   explicit Receiver(std::uint64_t limit)
       : budget(limit), store(layout, budget, nullptr, {}, &router) {}
@@ -158,7 +149,7 @@ struct Receiver {
 
   RunLayout layout = fake_layout();
   MemoryBudget budget;
-  Nobody router;
+  KeepsAll router;
   RunStore store;
 };
 

@@ -59,5 +59,18 @@ TEST(AddressTest, PlainHttpIsOpenBeyondThisMachine) {
   }
 }
 
+TEST(AddressTest, ServersDifferByAllBeforeTheirPaths) {
+  const std::string first = "https://host.org/a/b";
+  for (const char* same : {"https://host.org/a/b", "https://HOST.org/c?d=e", "HTTPS://host.org:443",
+                           "https://host.org:443/a#f"}) {
+    EXPECT_TRUE(is_same_server(first, same)) << same;
+  }
+  for (const char* other :
+       {"http://host.org/a/b", "https://host.org:8443/a/b", "https://host.org.evil.com/a/b",
+        "https://evil.com/host.org/a/b", "https://host.org@evil.com/a/b", "", "/a/b", "host.org"}) {
+    EXPECT_FALSE(is_same_server(first, other)) << other;
+  }
+}
+
 }  // namespace
 }  // namespace mw::io
