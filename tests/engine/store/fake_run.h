@@ -16,7 +16,7 @@ namespace mw::engine::test {
   return RunLayout(std::move(grids));
 }
 
-/// As if the next users of all blocks were in this process.
+/// Answers that every block stays in this process, so nothing is ever sent.
 class KeepsAll : public BlockRouter {
  public:
   [[nodiscard]] bool stays(const BlockVersion& /*version*/) const override { return true; }
