@@ -116,7 +116,7 @@ class KeptInput {
   [[nodiscard]] io::Json delta(const io::LabelVolume& after, const MeshJob& job,
                                const MeshSize& size) const {
     MeshSize old_size;
-    std::istringstream text(folder_->text(kMeshFile));
+    std::istringstream text(before_->note());
     const bool is_known = !(text >> old_size.vertices >> old_size.tets).fail();
     const PatchedVolume unpatched(counted_, *before_, {});
     const io::PreparedInput before(unpatched, steps_in(text),
@@ -132,8 +132,8 @@ class KeptInput {
   /// Must be called once the run is complete.
   void finish(const io::InputSteps& steps, const MeshSize& size) {
     if (folder_ == nullptr) return;
+    after_->append(io::text(size.vertices, " ", size.tets, "\n") + text_of(steps));
     after_->commit();
-    folder_->put_text(kMeshFile, io::text(size.vertices, " ", size.tets, "\n") + text_of(steps));
     folder_->end_change();
   }
 

@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <array>
 #include <cerrno>
+#include <numeric>
 #include <sstream>
 
 #include "engine/store/journal/folder_lock.h"
@@ -25,11 +26,24 @@ namespace fs = std::filesystem;
 constexpr const char* kSettingsFile = "settings.txt";
 constexpr const char* kChangingFile = "changing";
 constexpr const char* kPartPrefix = "part-";
-constexpr std::array<const char*, 9> kFiles{kLockFile,    kSettingsFile, kVersionsFile,
+constexpr std::array<const char*, 8> kFiles{kLockFile,    kSettingsFile, kVersionsFile,
                                             kWindowsFile, kLabelsFile,   kChosenFile,
-                                            kLimitFile,   kMeshFile,     kChangingFile};
+                                            kLimitFile,   kChangingFile};
 
 constexpr const char* kSpilled = ".blocks.partial-spilled";
+
+/// Beyond this number of boxes the one around them takes their place, so that the file stays small.
+constexpr std::size_t kMostBoxes = 1 << 14;
+
+/// Returns the boxes of a file, none if it does not exist.  ERRORS: DamagedWork.
+std::vector<Box3> boxes_in(const fs::path& path) {
+  std::vector<Box3> out;
+  if (!fs::exists(path)) return out;
+  std::istringstream text(settings_in(path));
+  for (Box3 b; text >> b.lo.x >> b.lo.y >> b.lo.z >> b.hi.x >> b.hi.y >> b.hi.z;) out.push_back(b);
+  if (out.empty() || !text.eof()) throw DamagedWork(kChangingFile, "it does not list boxes");
+  return out;
+}
 
 bool is_kept_file(std::string_view name) {
   return std::find(kFiles.begin(), kFiles.end(), name) != kFiles.end();
@@ -164,10 +178,9 @@ void KeepFolder::put_text(const char* name, const std::string& text) const {
 
 std::vector<Box3> KeepFolder::begin_change(const std::vector<Box3>& boxes) const {
   std::vector<Box3> all = boxes;
-  std::istringstream before(settings_in(path_ / kChangingFile));
-  for (Box3 box; before >> box.lo.x >> box.lo.y >> box.lo.z >> box.hi.x >> box.hi.y >> box.hi.z;) {
-    all.push_back(box);
-  }
+  const std::vector<Box3> before = boxes_in(path_ / kChangingFile);
+  all.insert(all.end(), before.begin(), before.end());
+  if (all.size() > kMostBoxes) all = {std::reduce(all.begin(), all.end(), all[0], hull)};
   io::AtomicFile file(path_ / kChangingFile);
   for (const Box3& b : all) {
     file.append(

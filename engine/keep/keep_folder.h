@@ -19,11 +19,10 @@ namespace mw::engine {
 ///     settings.txt  what the facts here depend on beside the labels: lines "name = value"
 ///     versions      bytes of blocks (window_pack.h), where the records say
 ///     windows       what went into windows and came out (record_log.h, window_records.h)
-///     labels        the labels of the run that was complete last (kept_labels.h)
+///     labels        the run that was complete last: its labels, how large its mesh was, and what
+///                   it did with the labels before it meshed them (kept_labels.h)
 ///     chosen.txt    what the last run chose by itself
 ///     limit.txt     bytes that all this may take when a run ends; if missing, any number
-///     mesh.txt      the run that was complete last: how large its mesh was, and what it did with
-///                   the labels before it meshed them
 ///     changing      boxes in which incomplete runs may have seen other labels, a line each
 ///     part-N        the folder of process N (kept_part()), with the same files; the first process
 ///                   takes it over when the run ends, or when the next one begins
@@ -72,7 +71,7 @@ class KeepFolder : public WorkFiles {
 
 /// The version of what is in the files.  It is one of the settings, so a folder of another version
 /// is refused.
-inline constexpr int kFolderFormat = 3;
+inline constexpr int kFolderFormat = 4;
 
 /// Returns where a process of a run keeps what it does: in `folder` itself if it is rank 0.
 [[nodiscard]] std::filesystem::path kept_part(const std::filesystem::path& folder, int rank);
@@ -82,6 +81,5 @@ inline constexpr const char* kWindowsFile = "windows";
 inline constexpr const char* kLabelsFile = "labels";
 inline constexpr const char* kChosenFile = "chosen.txt";
 inline constexpr const char* kLimitFile = "limit.txt";
-inline constexpr const char* kMeshFile = "mesh.txt";
 
 }  // namespace mw::engine

@@ -5,6 +5,7 @@
 #include <fcntl.h>
 
 #include <algorithm>
+#include <array>
 
 #include "engine/store/journal/work_file.h"
 #include "engine/window/window_grid.h"
@@ -18,7 +19,7 @@ namespace mw::engine {
 namespace {
 
 constexpr std::uint64_t kLabelsMagic = 0x534C4542414C574DU;  // "MWLABELS"
-constexpr std::uint64_t kVersion = 1;
+constexpr std::uint64_t kVersion = 2;
 constexpr std::size_t kHeadNumbers = 10;
 constexpr int kLabelPackLevel = 1;
 
@@ -106,6 +107,17 @@ std::vector<RawLabel> KeptLabels::read(Index3 tile) const {
     // It is reported below.
   }
   fail_damaged("a tile cannot be unpacked");
+}
+
+std::string KeptLabels::note() const {
+  std::uint64_t end = 0;
+  for (const Place& place : places_) end = std::max(end, place.offset + place.size);
+  std::string out;
+  for (std::array<std::byte, 4096> part;;) {
+    const std::size_t bytes = io::read_all(file_.get(), end + out.size(), part).bytes;
+    out.append(reinterpret_cast<const char*>(part.data()), bytes);
+    if (bytes < part.size()) return out;
+  }
 }
 
 void write_kept_labels(const io::LabelVolume& volume, io::AtomicFile& file) {

@@ -1,11 +1,13 @@
 // SPDX-FileCopyrightText: The mwmesh authors
 // SPDX-License-Identifier: Apache-2.0
-// The labels of a run, packed, so that a later run need only read what has changed.
+// The labels of a run, packed, so that a later run need only read what has changed, and a note
+// about that run.
 #pragma once
 
 #include <atomic>
 #include <filesystem>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "engine/labels/reading_tiles.h"
@@ -20,6 +22,7 @@ namespace mw::engine {
 ///     "MWLABELS", version 1; x y z of the shape and of ReadingTiles' chunk, and whether z is
 ///     fastest; tiles; each tile's offset and size; CRC-32 of all that: numbers of 8 bytes
 ///     tiles, frames of Zstandard of 8 bytes a voxel
+///     the note, up to the end of the file
 class KeptLabels {
  public:
   /// Returns nothing where there is no such file, or one for another shape.
@@ -30,6 +33,8 @@ class KeptLabels {
   [[nodiscard]] const ReadingTiles& tiles() const { return tiles_; }
   /// Returns the labels of a tile, x fastest.  Thread-safe.  ERRORS: DamagedWork.
   [[nodiscard]] std::vector<RawLabel> read(Index3 tile) const;
+  /// Returns what the writer of the file added behind the tiles.
+  [[nodiscard]] std::string note() const;
 
  private:
   friend void write_kept_labels(const io::LabelVolume& volume, io::AtomicFile& file);
@@ -46,7 +51,8 @@ class KeptLabels {
   std::vector<Place> places_;
 };
 
-/// Writes the file that KeptLabels opens.  It reads the volume once, and holds two tiles in memory.
+/// Writes the file that KeptLabels opens; a note may be appended to it.  It reads the volume once,
+/// and holds two tiles in memory.
 void write_kept_labels(const io::LabelVolume& volume, io::AtomicFile& file);
 
 /// A volume that is read in some boxes only; everywhere else the labels are those that were kept.

@@ -37,23 +37,23 @@ constexpr std::chrono::seconds kBeat{1};
 constexpr std::uint64_t kAlive = ~std::uint64_t{0};
 constexpr std::uint64_t kLeaving = ~std::uint64_t{1};
 
-/// MPI counts bytes with an int.
-int as_int(std::size_t bytes) {
-  if (bytes > std::size_t{1} << 30U) {
-    throw Error(ErrorKind::kInternal, "a message of more than 1 GiB");
-  }
-  return static_cast<int>(bytes);
-}
+/// The most bytes of one block of a type, since MPI counts them with an int.
+constexpr std::size_t kBlockBytes = std::size_t{1} << 30U;
 
 /// Returns a type that sends head and bytes as one message, wherever they lie in memory.
-MPI_Datatype type_of(const MessageHead& head, const void* bytes, std::size_t size) {
-  std::array<int, 2> lengths{static_cast<int>(sizeof(MessageHead)), as_int(size)};
-  std::array<MPI_Aint, 2> at{};
-  MPI_Get_address(head.data(), &at[0]);
-  MPI_Get_address(bytes, &at[1]);
-  std::array<MPI_Datatype, 2> types{MPI_BYTE, MPI_BYTE};
+MPI_Datatype type_of(const MessageHead& head, const std::byte* bytes, std::size_t size) {
+  std::vector<int> lengths;
+  std::vector<MPI_Aint> at;
+  const auto add = [&](const void* block, std::size_t length) {
+    lengths.push_back(static_cast<int>(length));
+    MPI_Get_address(block, &at.emplace_back());
+  };
+  add(head.data(), sizeof(MessageHead));
+  for (std::size_t done = 0; done < size; done += kBlockBytes) {
+    add(bytes + done, std::min(kBlockBytes, size - done));
+  }
   MPI_Datatype out = MPI_DATATYPE_NULL;
-  MPI_Type_create_struct(size > 0 ? 2 : 1, lengths.data(), at.data(), types.data(), &out);
+  MPI_Type_create_hindexed(static_cast<int>(at.size()), lengths.data(), at.data(), MPI_BYTE, &out);
   MPI_Type_commit(&out);
   return out;
 }
@@ -242,8 +242,8 @@ class MpiExchange::Transport {
       MPI_Status status;
       MPI_Improbe(MPI_ANY_SOURCE, MPI_ANY_TAG, MPI_COMM_WORLD, &there, &handle, &status);
       if (there == 0) return any;
-      int size = 0;
-      MPI_Get_count(&status, MPI_BYTE, &size);
+      MPI_Count size = 0;
+      MPI_Get_elements_x(&status, MPI_BYTE, &size);
       Receiving& r = receives_.emplace_back();
       r.message.from = status.MPI_SOURCE;
       const std::size_t bytes = static_cast<std::size_t>(size) - sizeof(MessageHead);

@@ -55,6 +55,10 @@ std::optional<std::int64_t> parse_integer(std::string_view word) {
   return parse<std::int64_t>(word);
 }
 
+std::optional<std::uint64_t> parse_count(std::string_view word) {
+  return parse<std::uint64_t>(word);
+}
+
 std::optional<double> parse_real(std::string_view word) {
   return parse<double>(word);
 }

@@ -22,6 +22,7 @@ namespace mw::io {
 /// Returns the decimal number that takes the whole word, with or without a + in front; nothing when
 /// the word is no number or the type cannot hold it.  Reals may be "nan" and "inf".
 [[nodiscard]] std::optional<std::int64_t> parse_integer(std::string_view word);
+[[nodiscard]] std::optional<std::uint64_t> parse_count(std::string_view word);
 [[nodiscard]] std::optional<double> parse_real(std::string_view word);
 
 /// Returns the numbers of all words of a text; nothing when one word is no number.

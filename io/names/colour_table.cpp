@@ -4,7 +4,6 @@
 #include "io/names/colour_table.h"
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 #include <map>
 
@@ -12,38 +11,25 @@
 #include "io/file/text_numbers.h"
 
 namespace mw::io {
-namespace {
-
-template <class T>
-std::optional<T> parsed(std::string_view text) {
-  T number{};
-  const auto [stop, verdict] = std::from_chars(text.data(), text.data() + text.size(), number);
-  if (verdict != std::errc{} || stop != text.data() + text.size()) return std::nullopt;
-  return number;
-}
-
-std::string_view without_plus(std::string_view text) {
-  return text.starts_with('+') && !text.starts_with("+-") ? text.substr(1) : text;
-}
-
-}  // namespace
 
 std::optional<RawLabel> label_of(std::string_view text) {
-  text = without_plus(trimmed(text));
+  text = trimmed(text);
   if (text.ends_with(".0")) text.remove_suffix(2);
-  if (!text.starts_with('-')) return parsed<std::uint64_t>(text);
-  const auto below = parsed<std::int64_t>(text);
+  if (!text.starts_with('-')) return parse_count(text);
+  const auto below = parse_integer(text);
   if (!below) return std::nullopt;
   return static_cast<RawLabel>(*below);
 }
 
 std::optional<double> number_of(std::string_view text) {
-  const auto number = parsed<double>(without_plus(trimmed(text)));
+  const auto number = parse_real(trimmed(text));
   return number && std::isfinite(*number) ? number : std::nullopt;
 }
 
 std::optional<std::uint8_t> byte_of(std::string_view text) {
-  return parsed<std::uint8_t>(without_plus(trimmed(text)));
+  const auto number = parse_count(trimmed(text));
+  if (!number || *number > 255) return std::nullopt;
+  return static_cast<std::uint8_t>(*number);
 }
 
 std::optional<std::uint8_t> byte_of_share(double share) {

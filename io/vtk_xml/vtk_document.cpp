@@ -4,10 +4,10 @@
 #include "io/vtk_xml/vtk_document.h"
 
 #include <algorithm>
-#include <charconv>
 #include <new>
 
 #include "io/file/errors.h"
+#include "io/file/text_numbers.h"
 
 namespace mw::io {
 namespace {
@@ -126,13 +126,8 @@ std::uint64_t VtkDocument::number(pugi::xml_node node, const char* attribute,
                                   std::optional<std::uint64_t> fallback) const {
   const pugi::xml_attribute found = node.attribute(attribute);
   if (!found && fallback) return *fallback;
-  std::string_view digits = found.as_string();
-  digits.remove_prefix(std::min(digits.find_first_not_of(' '), digits.size()));
-  digits.remove_suffix(digits.size() - (digits.find_last_not_of(' ') + 1));
-  std::uint64_t value = 0;
-  const char* const end = digits.data() + digits.size();
-  const auto [stop, error] = std::from_chars(digits.data(), end, value);
-  if (found && error == std::errc() && stop == end) return value;
+  const std::string_view digits = trimmed(found.as_string());
+  if (const auto value = parse_count(digits)) return *value;
   fail_input(file(), text(node.name(), " ", attribute),
              found ? text("'", digits.substr(0, 40), "' is no whole number") : "missing",
              "the file is damaged");

@@ -39,12 +39,6 @@ class Metric {
   /// Edge lengths of a voxel.
   [[nodiscard]] Vec3 voxel() const { return unit_ * kUnitsPerVoxel; }
 
-  /// Area of a voxel's face across an axis.
-  [[nodiscard]] double face_area(unsigned axis) const {
-    const Vec3 edges = voxel();
-    return edges.prod() / edges[static_cast<int>(axis)];
-  }
-
   /// The lattice point nearest to origin + offset.  ERRORS: none; offsets are clamped to the
   /// largest extent of a tetrahedron, beyond which no move is accepted anyway, and an offset that
   /// is not a number counts as this extent.

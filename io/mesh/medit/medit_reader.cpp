@@ -3,7 +3,6 @@
 // Reads an ASCII MEDIT .mesh file.
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 #include <functional>
 #include <string>
@@ -12,6 +11,7 @@
 
 #include "io/file/errors.h"
 #include "io/file/source/byte_source.h"
+#include "io/file/text_numbers.h"
 #include "io/mesh/medit/medit.h"
 #include "io/mesh/mesh_record.h"
 
@@ -26,16 +26,6 @@ constexpr std::size_t kMaxNameCommentBytes = 1 << 13;
 
 bool is_blank(int c) {
   return c == ' ' || (c >= '\t' && c <= '\r');
-}
-
-std::string_view without_plus(std::string_view word) {
-  return word.starts_with('+') && !word.starts_with("+-") ? word.substr(1) : word;
-}
-
-template <class T>
-bool parse_all(std::string_view word, T& number) {
-  const auto [stop, verdict] = std::from_chars(word.data(), word.data() + word.size(), number);
-  return verdict == std::errc{} && stop == word.data() + word.size();
 }
 
 /// Reads words, which are separated by blanks, tabs and line ends of any kind; '#' begins a comment
@@ -117,9 +107,9 @@ std::string_view TokenScanner::next() {
 
 double TokenScanner::next_real(std::string_view expected) {
   const std::string_view word = next();
-  double number = 0;
-  if (!parse_all(without_plus(word), number) || !std::isfinite(number)) fail_word(expected, word);
-  return number;
+  const std::optional<double> number = parse_real(word);
+  if (!number || !std::isfinite(*number)) fail_word(expected, word);
+  return *number;
 }
 
 std::uint64_t TokenScanner::next_count(std::string_view expected) {
@@ -132,12 +122,11 @@ std::uint64_t TokenScanner::next_count(std::string_view expected) {
 std::uint64_t TokenScanner::next_integer(std::string_view expected, bool& negative) {
   const std::string_view word = next();
   negative = word.starts_with('-');
-  std::int64_t below = 0;
-  std::uint64_t above = 0;
-  if (!(negative ? parse_all(word, below) : parse_all(without_plus(word), above))) {
-    fail_word(expected, word);
+  if (const auto below = negative ? parse_integer(word) : std::nullopt) {
+    return static_cast<std::uint64_t>(*below);
   }
-  return negative ? static_cast<std::uint64_t>(below) : above;
+  if (const auto above = parse_count(word)) return *above;
+  fail_word(expected, word);
 }
 
 void TokenScanner::fail_word(std::string_view expected, std::string_view word) const {

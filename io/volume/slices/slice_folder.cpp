@@ -5,11 +5,11 @@
 
 #include <algorithm>
 #include <cctype>
-#include <charconv>
 #include <cstdint>
 #include <limits>
 
 #include "io/file/errors.h"
+#include "io/file/text_numbers.h"
 #include "io/volume/checks.h"
 #include "io/volume/png/open_png.h"
 #include "io/volume/tiff/open_tiff.h"
@@ -51,13 +51,6 @@ std::vector<std::string_view> runs_of(std::string_view name) {
   return runs;
 }
 
-std::optional<std::int64_t> number_of(std::string_view run) {
-  std::int64_t number = 0;
-  const auto [stop, verdict] = std::from_chars(run.data(), run.data() + run.size(), number);
-  if (verdict != std::errc{} || stop != run.data() + run.size()) return std::nullopt;
-  return number;
-}
-
 /// Returns the only run in which the names differ, if it is a number in all of them.
 std::optional<std::size_t> numbered_run(const std::vector<std::string>& names) {
   const auto first = runs_of(names.front());
@@ -67,7 +60,7 @@ std::optional<std::size_t> numbered_run(const std::vector<std::string>& names) {
     if (runs.size() != first.size()) return std::nullopt;
     for (std::size_t i = 0; i < runs.size(); ++i) {
       if (runs[i] == first[i]) continue;
-      if (!number_of(runs[i]) || !number_of(first[i]) || found.value_or(i) != i) {
+      if (!parse_integer(runs[i]) || !parse_integer(first[i]) || found.value_or(i) != i) {
         return std::nullopt;
       }
       found = i;
@@ -93,7 +86,7 @@ std::optional<NumberGap> find_gap(const std::vector<std::string>& names) {
   const auto run = numbered_run(names);
   if (!run) return std::nullopt;
   std::vector<std::int64_t> numbers;
-  for (const std::string& name : names) numbers.push_back(*number_of(runs_of(name)[*run]));
+  for (const std::string& name : names) numbers.push_back(*parse_integer(runs_of(name)[*run]));
   std::int64_t step = std::numeric_limits<std::int64_t>::max();
   for (std::size_t i = 1; i < numbers.size(); ++i) {
     step = std::min(step, numbers[i] - numbers[i - 1]);

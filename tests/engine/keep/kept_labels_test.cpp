@@ -46,9 +46,12 @@ TEST(PatchedVolume, IsTheNewVolumeWhereTheBoxesHaveAllChanges) {
     const MemoryVolume old_volume(before, {});
     io::AtomicFile file(path);
     write_kept_labels(old_volume, file);
+    const std::string note(below(random, 10'000), 'n');
+    file.append(note);
     file.commit();
     const auto kept = KeptLabels::open(path, before.shape);
     ASSERT_TRUE(kept.has_value());
+    EXPECT_EQ(kept->note(), note);
     test::SmallVolume after = before;
     Box3 changed;
     const std::string done = test::Editor(random).edit(after, changed);
