@@ -16,6 +16,7 @@
 #include "engine/system/tbb_for.h"
 #include "kernels/core/index.h"
 #include "kernels/size/thickness.h"
+#include "kernels/source/crossing.h"
 #include "kernels/source/face_graph.h"
 #include "kernels/start/carrier_faces.h"
 #include "kernels/start/cells/cell.h"
@@ -157,7 +158,7 @@ PreparedLabels::PreparedLabels(const io::DenseVolume& volume, const MeshSettings
   const bool has_scores = volume.raw().scores() != nullptr;
   if (wants_source(settings, has_scores)) {
     source_.emplace(original_.bricks(), folder,
-                    has_scores ? SourceSurface::Kind::kCrossings : SourceSurface::Kind::kFiltered);
+                    has_scores ? crossing_form(score_layers(volume)) : kFilteredForm);
     find_source(threads);
     volume.raw().drop_buffers();
   }
@@ -286,7 +287,7 @@ void PreparedLabels::find_source(int threads) {
   tbb_for_each_index(threads, tiles_of(original_.bricks()), [&](Index3 t) {
     const Index3 lo = scaled(t, kBricksPerTile);
     const Box3 bricks = clipped({lo, lo + scaled({1, 1, 1}, kBricksPerTile)}, original_.bricks());
-    if (source_->kind() == SourceSurface::Kind::kCrossings) return find_crossings_in(bricks);
+    if (has_crossings()) return find_crossings_in(bricks);
     find_source_in(bricks);
   });
 }

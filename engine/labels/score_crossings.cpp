@@ -41,16 +41,14 @@ struct ScoreBox {
 class Crossings {
  public:
   Crossings(const io::DenseVolume& volume, const LabelBox& labels, const Box3& box)
-      : volume_(volume), scores_(*volume.raw().scores()), box_(box) {
-    const Index3 lattice = volume.info().shape, shape = scores_.shape();
-    layers_ = {lattice.x / shape.x, lattice.y / shape.y, lattice.z / shape.z};
+      : volume_(volume), scores_(*volume.raw().scores()), box_(box), layers_(score_layers(volume)) {
     collect_faces(labels);
     for (const auto& [label, at] : by_label_) add_scores(label, at);
   }
 
   [[nodiscard]] SourceSurface surface() const {
     const SourceSurface::Part part{.box = box_, .faces = upper_faces_, .planes = planes()};
-    return {box_, [&](auto visit) { visit(part); }, SourceSurface::Kind::kCrossings};
+    return {box_, [&](auto visit) { visit(part); }, crossing_form(layers_)};
   }
 
  private:
@@ -130,13 +128,14 @@ class Crossings {
   }
 
   [[nodiscard]] std::vector<PackedPlane> planes() const {
+    const PlaneForm form = crossing_form(layers_);
     std::vector<PackedPlane> out;
     for (const CrossedFace& face : faces_) {
       const ScoreDifference none{};  // it has no crossing
       const SourcePlane crossing =
           find_crossing(has_scores(face) ? face.difference : none, face.axis);
       const LayeredFace place{.axis = face.axis, .layers = layers_, .centre = centre_of(face)};
-      out.push_back(pack(on_lattice(crossing, place), kCrossingBits));
+      out.push_back(pack(on_lattice(crossing, place), form));
     }
     return out;
   }
@@ -144,13 +143,18 @@ class Crossings {
   const io::DenseVolume& volume_;
   const io::LabelScores& scores_;
   Box3 box_;
-  Index3 layers_{1, 1, 1};
+  Index3 layers_;
   std::vector<UpperFaces> upper_faces_;
   std::vector<CrossedFace> faces_;
   std::map<Label, ScoresAtFaces> by_label_;
 };
 
 }  // namespace
+
+Index3 score_layers(const io::DenseVolume& volume) {
+  const Index3 lattice = volume.info().shape, shape = volume.raw().scores()->shape();
+  return {lattice.x / shape.x, lattice.y / shape.y, lattice.z / shape.z};
+}
 
 SourceSurface score_crossings(const io::DenseVolume& volume, const LabelBox& labels,
                               const Box3& box) {

@@ -12,6 +12,10 @@
 
 namespace mw::engine {
 
+/// Returns how many voxels of the lattice a voxel of scores has along each axis.
+/// REQUIRES: a volume with scores.
+[[nodiscard]] Index3 score_layers(const io::DenseVolume& volume);
+
 /// Finds the crossings of all faces between two labels of a box of the lattice.  Faces whose labels
 /// have no scores, or do not follow from the scores, are their own crossings.
 /// volume is that of the lattice, whose shape is a multiple of the scores'.  labels are those of

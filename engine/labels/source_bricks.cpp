@@ -15,9 +15,9 @@ struct Head {
 }  // namespace
 
 SourceBricks::SourceBricks(Index3 bricks, const std::filesystem::path& folder,
-                           SourceSurface::Kind kind)
+                           const PlaneForm& form)
     : bricks_(bricks),
-      kind_(kind),
+      form_(form),
       offsets_(static_cast<std::size_t>(bricks.product()), kNoFaces),
       file_(folder) {}
 
@@ -62,7 +62,7 @@ SourceSurface SourceBricks::read(const Box3& box) const {
               if (offset != kNoFaces) visit(part(offset));
             });
           },
-          kind_};
+          form_};
 }
 
 }  // namespace mw::engine

@@ -20,9 +20,9 @@ class SourceBricks {
  public:
   /// bricks is their number along each axis.  The temporary file goes into `folder`.
   SourceBricks(Index3 bricks, const std::filesystem::path& folder,
-               SourceSurface::Kind kind = SourceSurface::Kind::kFiltered);
+               const PlaneForm& form = kFilteredForm);
 
-  [[nodiscard]] SourceSurface::Kind kind() const { return kind_; }
+  [[nodiscard]] const PlaneForm& form() const { return form_; }
   /// Stores what belongs to a brick's voxels.  A brick that is not written has no faces.
   void write(Index3 brick, const SourceSurface& surface, const Box3& voxels);
   /// REQUIRES: a box within the volume.
@@ -34,7 +34,7 @@ class SourceBricks {
   static constexpr std::uint64_t kNoFaces = ~std::uint64_t{0};
 
   Index3 bricks_;
-  SourceSurface::Kind kind_;
+  PlaneForm form_;
   std::vector<std::uint64_t> offsets_;
   std::atomic<std::uint64_t> file_size_ = 0;
   io::UnlinkedFile file_;

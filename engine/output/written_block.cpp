@@ -92,12 +92,14 @@ void give_rows(std::vector<io::TetRows>& tets, std::span<const std::uint64_t> ro
 
 io::MeshHeader header_of(const io::DenseVolume& volume, const LabelSelection& selection,
                          std::uint64_t tets, const std::optional<io::MeshPromises>& promises) {
-  io::MeshHeader out{
-      .tets = tets,
-      .labels_signed = volume.table().is_signed(),
-      .names = written_names(volume, selection),
-      .record = {
-          .box = box_of(volume.info()), .promises = promises, .frame = volume.info().space.frame}};
+  const io::VolumeSpace& space = volume.info().space;
+  io::MeshHeader out{.tets = tets,
+                     .labels_signed = volume.table().is_signed(),
+                     .names = written_names(volume, selection),
+                     .record = {.box = box_of(volume.info()),
+                                .promises = promises,
+                                .frame = space.frame,
+                                .unit = io::nm_in(space.unit) ? space.unit : std::string()}};
   tell_choice(selection, volume.table(), out.record);
   return out;
 }

@@ -18,6 +18,7 @@ constexpr const char* kSmooth = "smooth";
 constexpr const char* kVoxel = "voxel";
 constexpr const char* kNone = "none";
 constexpr const char* kFrame = "frame";
+constexpr const char* kUnit = "unit";
 constexpr const char* kOnly = "only_labels";
 constexpr const char* kWithout = "without_labels";
 constexpr const char* kPartial = "partial_labels";
@@ -84,6 +85,12 @@ bool word_in(const JsonFields& fields, const char* key, std::string_view first,
   const std::string word = fields.text(key);
   if (word != first && word != second) fields.fail(key, text("is \"", word, "\""));
   return word == first;
+}
+
+std::string unit_in(const JsonFields& fields) {
+  std::string unit = fields.text(kUnit);
+  if (!nm_in(unit)) fields.fail(kUnit, text("is \"", unit, "\""));
+  return unit;
 }
 
 int halvings_in(const JsonFields& fields) {
@@ -158,6 +165,7 @@ std::string record_text(const MeshRecord& record) {
   if (record.box) out["box"] = box_json(*record.box);
   if (record.promises) out["promises"] = promises_json(*record.promises);
   if (record.frame != WorldFrame::kOwn) out[kFrame] = name(record.frame);
+  if (!record.unit.empty()) out[kUnit] = record.unit;
   add_labels(record.only_labels, kOnly, out);
   add_labels(record.without_labels, kWithout, out);
   add_labels(record.partial_labels, kPartial, out);
@@ -179,6 +187,7 @@ MeshRecord parse_record(std::string_view text, std::string_view file) {
                        ? WorldFrame::kRas
                        : WorldFrame::kLps;
   }
+  if (fields.has(kUnit)) record.unit = unit_in(fields);
   record.only_labels = labels_in(fields, kOnly);
   record.without_labels = labels_in(fields, kWithout);
   record.partial_labels = labels_in(fields, kPartial);

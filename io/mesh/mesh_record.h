@@ -64,6 +64,7 @@ struct MeshRecord {
   std::optional<MeshBox> box;  ///< the volume's, whether all its labels are in the mesh or not
   std::optional<MeshPromises> promises;
   WorldFrame frame = WorldFrame::kOwn;  ///< the frame of coordinates
+  std::string unit;                     ///< of coordinates, one that nm_in() knows; else empty
   // The labels of the volume that the mesh holds alone, or that it lacks; at most one list has any.
   std::vector<RawLabel> only_labels;
   std::vector<RawLabel> without_labels;
@@ -85,10 +86,10 @@ inline constexpr std::size_t kMaxRecordBytes = std::size_t{1} << 24U;
 /// {"box": {"origin": [...], "x": [...], "y": [...], "z": [...]}, "promises": {"max_distance": 1.5,
 /// "quality_floor": 0.2, "topology": "labels", "surface": "smooth", "optimizer": "none",
 /// "periodic": "xy", "halvings": 1},
-/// "frame": "ras", "only_labels": [...], "without_labels": [...], "partial_labels": [...],
-/// "doubled_vertices": true, "curved": true, "cohesive": [1, 2, 1, 3]}, without what is not known;
-/// empty when nothing is.  "cohesive" has the labels under and on top of wedges by turns, or is
-/// true for all interfaces.  Labels are signed numbers of 64 bits.  The text is ASCII without a
+/// "frame": "ras", "unit": "mm", "only_labels": [...], "without_labels": [...], "partial_labels":
+/// [...], "doubled_vertices": true, "curved": true, "cohesive": [1, 2, 1, 3]}, without what is not
+/// known; empty when nothing is.  "cohesive" has the labels under and on top of wedges by turns, or
+/// is true for all interfaces.  Labels are signed numbers of 64 bits.  The text is ASCII without a
 /// line end, and gives back numbers to the bit.
 [[nodiscard]] std::string record_text(const MeshRecord& record);
 

@@ -20,6 +20,14 @@ const char* name(WorldFrame frame) {
   return frame == WorldFrame::kRas ? "ras" : frame == WorldFrame::kLps ? "lps" : "own";
 }
 
+std::optional<double> nm_in(std::string_view unit) {
+  if (unit == "nm") return 1;
+  if (unit == "um") return 1e3;
+  if (unit == "mm") return 1e6;
+  if (unit == "m") return 1e9;
+  return std::nullopt;
+}
+
 bool is_upright(const VolumeSpace& space) {
   return space.axes == VolumeSpace{}.axes;
 }

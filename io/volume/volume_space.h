@@ -5,7 +5,9 @@
 
 #include <array>
 #include <cstdint>
+#include <optional>
 #include <string>
+#include <string_view>
 
 #include "kernels/core/index.h"
 
@@ -44,6 +46,9 @@ struct VolumeSpace {
   std::string unit;  ///< "mm", "um", "nm", "m" and so on; empty: unknown
   WorldFrame frame = WorldFrame::kOwn;
 };
+
+/// Returns how many nanometres "nm", "um", "mm" or "m" has; nothing for other texts.
+[[nodiscard]] std::optional<double> nm_in(std::string_view unit);
 
 /// Whether the array's axes are those of the world: then coordinates are origin + spacing * corner.
 [[nodiscard]] bool is_upright(const VolumeSpace& space);

@@ -38,11 +38,12 @@ DistanceGuard::Piece DistanceGuard::piece(FaceSamples samples, Label low) const 
 Vec3 DistanceGuard::on_source(FaceSamples samples, const Piece& piece) const {
   const PackedPlane packed = source_->at(lower_voxel(samples), piece.axis);
   const Vec3 from_centre = piece.middle - in_voxels(face_centre(samples));
-  if (source_->kind() == SourceSurface::Kind::kFiltered) {
+  const PlaneForm& form = source_->form();
+  if (!form.along_axis) {
     const SourcePlane plane = unpack(packed);
     return piece.middle + (plane.height - plane.normal.dot(from_centre)) * plane.normal;
   }
-  const SourcePlane crossing = unpack(packed, kCrossingBits);
+  const SourcePlane crossing = unpack(packed, form);
   Vec3 out = piece.middle - crossing.normal.dot(from_centre) * crossing.normal;
   out[static_cast<int>(piece.axis)] += crossing.height;
   return out;

@@ -17,6 +17,7 @@
 
 namespace mw {
 
+/// A set of vertices that is emptied at once.
 class VertexMarks {
  public:
   explicit VertexMarks(std::size_t vertices) : marks_(vertices, 0) {}
@@ -28,7 +29,6 @@ class VertexMarks {
     marks_[v] = epoch_;
     return is_new;
   }
-  [[nodiscard]] bool contains(std::uint32_t v) const { return marks_[v] == epoch_; }
 
  private:
   std::vector<std::uint32_t> marks_;

@@ -93,6 +93,16 @@ float rounded_down(double value) {
   return static_cast<double>(near) > value ? std::nextafter(near, 0.0F) : near;
 }
 
+/// Beyond this number limits are rounded to rungs before they are spread.
+constexpr std::size_t kMostLimits = 64;
+
+/// Returns the values that occur, ascending.
+std::vector<float> distinct(std::vector<float> values) {
+  std::sort(values.begin(), values.end());
+  values.erase(std::unique(values.begin(), values.end()), values.end());
+  return values;
+}
+
 Index3 cubes_of(Index3 volume, std::int64_t edge) {
   const auto along = [edge](std::int64_t n) { return (n + edge - 1) / edge; };
   return {along(volume.x), along(volume.y), along(volume.z)};
@@ -164,10 +174,14 @@ double SizeField::rung_below(double limit) {
 }
 
 void SizeField::spread() {
-  const std::vector<float> own = values_;
-  std::vector<float> limits = own;
-  std::sort(limits.begin(), limits.end());
-  limits.erase(std::unique(limits.begin(), limits.end()), limits.end());
+  std::vector<float> own = values_;
+  std::vector<float> limits = distinct(own);
+  if (limits.size() > kMostLimits) {
+    for (float& value : own) {
+      if (value != kUnlimited) value = rounded_down(rung_below(static_cast<double>(value)));
+    }
+    limits = distinct(own);
+  }
   std::vector<float> squared(own.size());
   for (const float limit : limits) {
     if (limit == kUnlimited) break;

@@ -62,14 +62,14 @@ class SizeField {
   void add(const Box3& box, std::span<const Label> voxels);
   /// Limits a voxel, whatever its label.  Thread safety: as add().
   void limit_voxel(Index3 voxel, double limit);
-  /// Rounds a limit down to one of few, which is at most a twentieth less.  Each limit that is in
-  /// use costs spread() time.  REQUIRES: the limit is finite, and not much less than a voxel, since
-  /// each step on the way down is a twentieth.
+  /// Rounds a limit down to one of few, which is at most a twentieth less.  REQUIRES: the limit is
+  /// finite, and not much less than a voxel, since each step on the way down is a twentieth.
   [[nodiscard]] static double rung_below(double limit);
   /// Makes the limits hold for moves, flips and inner vertices as they are.
   void allow_no_stretch() { stretch_ = 1.0; }
   [[nodiscard]] double stretch() const { return stretch_; }
-  /// Finds the limits, once all voxels are known.  Cost: some 50 ns a cube and value in the list.
+  /// Finds the limits, once all voxels are known.  Where more than 64 limits differ, those around
+  /// labels are rung_below() what was asked; of_label() stays.  Cost: some 50 ns a cube and limit.
   void spread();
 
   /// The limit at a place, without those of labels.  A place outside the volume, where a vertex may

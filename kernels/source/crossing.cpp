@@ -41,7 +41,9 @@ bool is_finite(const ScoreDifference& d) {
 Vec3 upwards(const Vec3& direction, unsigned axis) {
   const double length = direction.norm();
   const bool points_up = direction[static_cast<int>(axis)] > 0.0;
-  if (!points_up || !std::isfinite(length)) return Vec3::Unit(static_cast<int>(axis));
+  constexpr double kTiny = 1e-150;  // the squares of shorter directions are no normal numbers
+  if (!points_up || !std::isfinite(length) || length < kTiny)
+    return Vec3::Unit(static_cast<int>(axis));
   return direction / length;
 }
 
@@ -61,6 +63,11 @@ SourcePlane find_crossing(const ScoreDifference& difference, unsigned axis) {
   return {upwards(-slope, axis), t - 0.5};
 }
 
+PlaneForm crossing_form(Index3 layers) {
+  const auto most = static_cast<double>(std::max({layers.x, layers.y, layers.z}));
+  return {.along_axis = true, .reach = 0.5 * most, .height_bits = 12, .normal_bits = 10};
+}
+
 SourcePlane on_lattice(const SourcePlane& crossing, const LayeredFace& face) {
   const auto k = static_cast<int>(face.axis);
   const Vec3 layers(static_cast<double>(face.layers.x), static_cast<double>(face.layers.y),
@@ -69,7 +76,8 @@ SourcePlane on_lattice(const SourcePlane& crossing, const LayeredFace& face) {
   Vec3 to_crossing = -face.centre;
   to_crossing[k] += crossing.height * layers[k];
   const double height = normal.dot(to_crossing) / normal[k];
-  return {normal, std::clamp(height, -kMaxSourceHeight, kMaxSourceHeight)};
+  const double reach = crossing_form(face.layers).reach;
+  return {normal, std::clamp(height, -reach, reach)};
 }
 
 }  // namespace mw

@@ -27,6 +27,12 @@ struct ScoreDifference {
 /// or infinite at both ends) give the face itself.
 [[nodiscard]] SourcePlane find_crossing(const ScoreDifference& difference, unsigned axis);
 
+/// Returns the form of crossings, whose heights are along the axes of their faces, where a voxel of
+/// scores has `layers` voxels of the lattice: a crossing is up to half a voxel of scores from its
+/// face.  Heights are good to half a unit of the lattice for one layer, and to that times the
+/// largest number of layers.
+[[nodiscard]] PlaneForm crossing_form(Index3 layers);
+
 /// A face of the lattice, where scores belong to voxels of several layers.
 struct LayeredFace {
   unsigned axis = 0;
@@ -37,7 +43,7 @@ struct LayeredFace {
 };
 
 /// Returns the crossing's plane with its height over the centre of a face of the lattice, along the
-/// axis.  ENSURES: a height within kMaxSourceHeight.
+/// axis.  ENSURES: a height within the reach of crossing_form(face.layers).
 [[nodiscard]] SourcePlane on_lattice(const SourcePlane& crossing, const LayeredFace& face);
 
 }  // namespace mw

@@ -13,33 +13,34 @@ namespace mw {
 /// The plane on which the interface is believed to lie near a voxel face, in voxels.
 struct SourcePlane {
   Vec3 normal = Vec3::Zero();  ///< unit normal to the face's upper side
-  double height = 0.0;         ///< height over the face's centre, along the normal
+  double height = 0.0;         ///< height over the face's centre, along what PlaneForm says
 };
 
 /// A plane as it is stored.  The highest bits hold the height, the next ones two coordinates of the
 /// normal on the octahedron; all are signed.
 using PackedPlane = std::uint32_t;
 
-/// How the bits of a packed plane are shared out.
-struct PlaneBits {
-  unsigned height = 8;
-  unsigned normal = 12;  ///< for each coordinate
+/// The largest height of planes that are computed from labels, in voxels: a plane that is sampled
+/// by voxels is never farther from a face.
+inline constexpr double kMaxSourceHeight = 0.5;
 
+/// What the heights of planes mean, and how the bits of a packed plane are shared out.
+struct PlaneForm {
+  bool along_axis = false;          ///< heights are along the axis of the face, not the normal
+  double reach = kMaxSourceHeight;  ///< the largest height, in voxels
+  unsigned height_bits = 8;
+  unsigned normal_bits = 12;  ///< for each coordinate
+
+  friend constexpr bool operator==(const PlaneForm&, const PlaneForm&) = default;
   [[nodiscard]] constexpr double height_steps() const {  ///< steps of the height in a voxel
-    return static_cast<double>((1U << height) - 2U);
+    return static_cast<double>((1U << (height_bits - 1U)) - 1U) / reach;
   }
   [[nodiscard]] constexpr double normal_steps() const {
-    return static_cast<double>((1U << (normal - 1U)) - 1U);
+    return static_cast<double>((1U << (normal_bits - 1U)) - 1U);
   }
 };
-/// The bits of planes that are computed from labels by filters (SourceSurface).
-inline constexpr PlaneBits kFilteredBits{};
-/// The bits of crossings, whose heights are along the axis of the face and good to half a unit of
-/// the lattice.
-inline constexpr PlaneBits kCrossingBits{.height = 12, .normal = 10};
-
-/// The largest height, in voxels: a plane that is sampled by voxels is never farther from a face.
-inline constexpr double kMaxSourceHeight = 0.5;
+/// The form of planes that are computed from labels by filters (SourceSurface).
+inline constexpr PlaneForm kFilteredForm{};
 
 namespace packed_plane {
 [[nodiscard]] inline std::int32_t rounded(double x) {
@@ -50,8 +51,9 @@ namespace packed_plane {
 }
 }  // namespace packed_plane
 
-/// REQUIRES: height within kMaxSourceHeight.
-[[nodiscard]] inline PackedPlane pack(const SourcePlane& plane, PlaneBits bits = kFilteredBits) {
+/// REQUIRES: height within the reach of the form.
+[[nodiscard]] inline PackedPlane pack(const SourcePlane& plane,
+                                      const PlaneForm& form = kFilteredForm) {
   using namespace packed_plane;
   const Vec3& n = plane.normal;
   const double sum = std::abs(n[0]) + std::abs(n[1]) + std::abs(n[2]);
@@ -64,19 +66,19 @@ namespace packed_plane {
   const auto field = [](double x, unsigned width) {
     return static_cast<std::uint32_t>(rounded(x)) & ((1U << width) - 1U);
   };
-  return field(plane.height * bits.height_steps(), bits.height) << (2U * bits.normal) |
-         field(u * bits.normal_steps(), bits.normal) << bits.normal |
-         field(v * bits.normal_steps(), bits.normal);
+  return field(plane.height * form.height_steps(), form.height_bits) << (2U * form.normal_bits) |
+         field(u * form.normal_steps(), form.normal_bits) << form.normal_bits |
+         field(v * form.normal_steps(), form.normal_bits);
 }
 
-[[nodiscard]] inline SourcePlane unpack(PackedPlane packed, PlaneBits bits = kFilteredBits) {
+[[nodiscard]] inline SourcePlane unpack(PackedPlane packed, const PlaneForm& form = kFilteredForm) {
   using namespace packed_plane;
   // A shift to the left moves a field's sign to the top, one to the right spreads it.
   const auto field = [packed](unsigned from_top, unsigned width) {
     return static_cast<double>(static_cast<std::int32_t>(packed << from_top) >> (32U - width));
   };
-  double u = field(bits.height, bits.normal) / bits.normal_steps();
-  double v = field(bits.height + bits.normal, bits.normal) / bits.normal_steps();
+  double u = field(form.height_bits, form.normal_bits) / form.normal_steps();
+  double v = field(form.height_bits + form.normal_bits, form.normal_bits) / form.normal_steps();
   const double w = 1.0 - std::abs(u) - std::abs(v);
   if (w < 0.0) {
     const double folded = (1.0 - std::abs(v)) * sign_of(u);
@@ -84,7 +86,7 @@ namespace packed_plane {
     u = folded;
   }
   const Vec3 n(u, v, w);
-  return {n / n.norm(), field(0, bits.height) / bits.height_steps()};
+  return {n / n.norm(), field(0, form.height_bits) / form.height_steps()};
 }
 
 }  // namespace mw

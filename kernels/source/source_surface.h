@@ -35,13 +35,9 @@ using UpperFaces = std::uint8_t;
 /// Where the interface is flat and across an axis planes are exactly those of the faces.
 ///
 /// Where labels come from scores the planes are crossings instead (kernels/source/crossing.h): then
-/// their heights are along the axes of their faces.
+/// their heights are along the axes of their faces (crossing_form()).
 class SourceSurface {
  public:
-  enum class Kind {
-    kFiltered,   ///< planes from labels
-    kCrossings,  ///< packed with kCrossingBits
-  };
   /// A surface without faces.
   SourceSurface() = default;
   /// Finds the planes of all faces between two labels in a box.
@@ -61,12 +57,12 @@ class SourceSurface {
   /// visit(part) for one part at a time.
   /// REQUIRES: no voxel is in two parts; parts may reach out of the box.
   template <typename EachPart>
-  SourceSurface(const Box3& box, EachPart each_part, Kind kind = Kind::kFiltered);
+  SourceSurface(const Box3& box, EachPart each_part, const PlaneForm& form = kFilteredForm);
   /// REQUIRES: within box().
   [[nodiscard]] Part part(const Box3& box) const;
 
   [[nodiscard]] const Box3& box() const { return box_; }
-  [[nodiscard]] Kind kind() const { return kind_; }
+  [[nodiscard]] const PlaneForm& form() const { return form_; }
   /// REQUIRES: a face between two labels that belongs to a voxel of box().
   [[nodiscard]] PackedPlane at(Index3 lower, unsigned axis) const {
     MW_ASSERT(box_.contains(lower));
@@ -84,7 +80,7 @@ class SourceSurface {
   void each_voxel(const Part& part, Visit visit);
 
   Box3 box_;
-  Kind kind_ = Kind::kFiltered;
+  PlaneForm form_ = kFilteredForm;
   /// For each voxel its UpperFaces, and above these bits the row of its first plane.
   std::vector<std::uint32_t> entries_;
   std::vector<PackedPlane> planes_;
@@ -105,8 +101,8 @@ void SourceSurface::each_voxel(const Part& part, Visit visit) {
 }
 
 template <typename EachPart>
-SourceSurface::SourceSurface(const Box3& box, EachPart each_part, Kind kind)
-    : box_(box), kind_(kind), entries_(static_cast<std::size_t>(box.voxels())) {
+SourceSurface::SourceSurface(const Box3& box, EachPart each_part, const PlaneForm& form)
+    : box_(box), form_(form), entries_(static_cast<std::size_t>(box.voxels())) {
   std::size_t count = 0;
   each_part([&](const Part& part) {
     each_voxel(part, [&](std::uint32_t& entry, UpperFaces faces, const PackedPlane*) {

@@ -30,6 +30,7 @@ class SurfaceJob {
         output_(output) {}
 
   void run() {
+    output_.begin(unit());
     if (request_.target == SurfaceTarget::kFile) {
       write(plans_of_file(), *output_.sink(0, {}));
     } else {
@@ -89,12 +90,20 @@ class SurfaceJob {
     return {std::move(plan)};
   }
 
+  /// Returns the unit of the mesh: what the user says, else what the mesh says, else nm.
+  [[nodiscard]] std::string unit() const {
+    if (!request_.unit.empty()) return request_.unit;
+    const std::string& told = source_.mesh.header().record.unit;
+    return told.empty() ? "nm" : told;
+  }
+
   void print_frame() const {
-    const io::WorldFrame frame = source_.mesh.header().record.frame;
-    const bool known = frame != io::WorldFrame::kOwn;
-    std::cout << "coordinates " << (known ? name(frame) : "in a frame that the mesh does not name");
+    const io::MeshRecord& record = source_.mesh.header().record;
+    const bool known = record.frame != io::WorldFrame::kOwn;
+    std::cout << "coordinates "
+              << (known ? name(record.frame) : "in a frame that the mesh does not name");
     if (request_.target == SurfaceTarget::kFolder) {
-      std::cout << ", taken to be in " << request_.folder.unit << " (--unit)";
+      std::cout << (unit() == record.unit ? ", in " : ", taken to be in ") << unit() << " (--unit)";
     }
     std::cout << "\n";
   }

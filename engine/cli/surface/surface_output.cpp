@@ -86,6 +86,7 @@ class FolderOutput : public SurfaceOutput {
  public:
   explicit FolderOutput(const SurfaceRequest& request) : folder_(request.output, request.folder) {}
 
+  void begin(const std::string& unit) override { folder_.use_unit(unit); }
   std::unique_ptr<io::SurfaceSink> sink(RawLabel label, const std::string&) override {
     return folder_.sink(label);
   }

@@ -20,6 +20,8 @@ inline constexpr const char* kLabelPlaceholder = "{label}";
 class SurfaceOutput {
  public:
   virtual ~SurfaceOutput() = default;
+  /// Must be called before all surfaces with the unit of their coordinates.
+  virtual void begin(const std::string& /*unit*/) {}
   /// Returns the sink of the next surface, which is that of `label`, written with these digits.
   /// ERRORS: those of SurfaceSink.
   [[nodiscard]] virtual std::unique_ptr<io::SurfaceSink> sink(RawLabel label,

@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <filesystem>
-#include <map>
 
 #include "engine/cli/options/shared_options.h"
 #include "engine/cli/options/values.h"
@@ -20,13 +19,6 @@ constexpr const char* kSurfaceGroup = "Which surfaces";
 
 [[noreturn]] void fail(const std::string& message) {
   throw Error(ErrorKind::kUsage, message);
-}
-
-double nm_of(const std::string& unit) {
-  const std::map<std::string, double> units{{"nm", 1}, {"um", 1e3}, {"mm", 1e6}, {"m", 1e9}};
-  const auto found = units.find(unit);
-  if (found == units.end()) fail("--unit " + unit + ": expected nm, um, mm or m");
-  return found->second;
 }
 
 std::vector<RawLabel> parse_label_list(const std::string& text) {
@@ -90,10 +82,10 @@ void set_target(const SurfaceFlags& flags, SurfaceRequest& request) {
     request.target = SurfaceTarget::kFolder;
     if (format == "draco") request.folder.kind = io::FragmentKind::kDraco;
     request.folder.closed = request.closed;
-    if (!flags.unit.empty()) {
-      request.folder.unit = flags.unit;
-      request.folder.nm_per_unit = nm_of(flags.unit);
+    if (!flags.unit.empty() && !io::nm_in(flags.unit)) {
+      fail("--unit " + flags.unit + ": expected nm, um, mm or m");
     }
+    request.unit = flags.unit;
     return;
   }
   if (!flags.unit.empty()) fail("--unit: only precomputed meshes have a unit, nm");
@@ -123,11 +115,12 @@ void add_output_options(OptionSet& options, SurfaceFlags& flags) {
                .help = "stl, ply, precomputed or draco [by the extension]",
                .group = kOutputGroup,
                .assign = into(flags.format)});
-  options.add({.name = "unit",
-               .value = "UNIT",
-               .help = "nm, um, mm or m: of the mesh, for precomputed meshes [nm]",
-               .group = kOutputGroup,
-               .assign = into(flags.unit)});
+  options.add(
+      {.name = "unit",
+       .value = "UNIT",
+       .help = "nm, um, mm or m: of the mesh, for precomputed meshes [as the mesh says, else nm]",
+       .group = kOutputGroup,
+       .assign = into(flags.unit)});
 }
 
 }  // namespace

@@ -36,7 +36,8 @@ struct SurfaceRequest {
   std::string mesh;
   std::string output;
   SurfaceTarget target = SurfaceTarget::kFile;
-  io::MeshFolderOptions folder;  ///< with kFolder
+  io::MeshFolderOptions folder;  ///< with kFolder; its unit is not known before the mesh is
+  std::string unit;              ///< with kFolder: of the mesh; empty: as the mesh says
   std::vector<RawLabel> labels;  ///< labels with a surface each; if empty, all, or the interfaces
   std::optional<std::array<RawLabel, 2>> pair;
   bool manifold = false;

@@ -85,12 +85,11 @@ void PvtuSink::begin(const MeshHeader& header) {
 void PvtuSink::write_piece(std::uint64_t number, std::span<const std::uint64_t> tets) {
   const MeshData& whole = mesh();
   const std::vector<std::uint64_t> rows = rows_of(whole, tets);
-  const VtuLayout layout = make_vtu_layout({.tets = tets.size(),
-                                            .labels_signed = whole.labels_signed,
-                                            .names = whole.names,
-                                            .record = {},
-                                            .values = header_.values},
-                                           rows.size(), Element::kTet4, VtuIds::kOfNodes);
+  MeshHeader header = header_;
+  header.tets = tets.size();
+  header.names = whole.names;
+  header.record = {};
+  const VtuLayout layout = make_vtu_layout(header, rows.size(), Element::kTet4, VtuIds::kOfNodes);
   AtomicFile file(folder_.path() / piece_name(stem_, number));
   const auto begin = [&](VtuLayout::Array array) { append(file, layout.length[array]); };
   file.append(layout.head);

@@ -122,13 +122,18 @@ void LegacySink::finish() {
   manifest.commit();
 }
 
+void MeshFolder::use_unit(const std::string& unit) {
+  unit_ = unit;
+  nm_per_unit_ = nm_in(unit).value();
+}
+
 std::unique_ptr<SurfaceSink> MeshFolder::sink(RawLabel label) {
   segments_.push_back(label);
   std::unique_ptr<SurfaceSink> sink;
   if (options_.kind == FragmentKind::kLegacy) {
-    sink = std::make_unique<LegacySink>(folder_.path() / text(label), options_.nm_per_unit);
+    sink = std::make_unique<LegacySink>(folder_.path() / text(label), nm_per_unit_);
   } else {
-    sink = std::make_unique<DracoSink>(draco_, label, options_.nm_per_unit);
+    sink = std::make_unique<DracoSink>(draco_, label, nm_per_unit_);
   }
   return std::make_unique<MeasuredSink>(std::move(sink), folder_.path(), options_.closed,
                                         figures_.emplace_back());
@@ -141,10 +146,10 @@ void MeshFolder::finish(const LabelNames& names) {
   }
   if (!segments_.empty()) {
     info[kProperties] = kProperties;
-    info["mwmesh_box"] = box_json(figures_, options_.nm_per_unit);
+    info["mwmesh_box"] = box_json(figures_, nm_per_unit_);
     std::filesystem::create_directory(folder_.path() / kProperties);
     write_json(folder_.path() / kProperties / "info",
-               properties_json(segments_, figures_, names, options_.unit));
+               properties_json(segments_, figures_, names, unit_));
   }
   write_json(folder_.path() / "info", info);
   folder_.commit();

@@ -39,8 +39,6 @@ enum class FragmentKind : std::uint8_t {
 /// How a folder is written.
 struct MeshFolderOptions {
   FragmentKind kind = FragmentKind::kLegacy;
-  std::string unit = "nm";           ///< of the mesh's coordinates
-  double nm_per_unit = 1;            ///< the format counts in nm
   bool closed = true;                ///< surfaces are closed, so that they have volumes
   std::size_t most_single = 10'000;  ///< kDraco: more segments than these go into shards
 };
@@ -54,6 +52,9 @@ class MeshFolder {
   MeshFolder(const std::filesystem::path& path, MeshFolderOptions options)
       : folder_(path), options_(std::move(options)), draco_(folder_.path()) {}
 
+  /// Says in which unit the coordinates of surfaces are; else they are in nm.
+  /// REQUIRES: no sink was asked for; nm_in() knows the unit.
+  void use_unit(const std::string& unit);
   /// Returns a sink for the surface of one label, not for interfaces.
   [[nodiscard]] std::unique_ptr<SurfaceSink> sink(RawLabel label);
   /// Writes what describes the whole, and commits.  REQUIRES: all sinks have finished.
@@ -62,6 +63,8 @@ class MeshFolder {
  private:
   AtomicFolder folder_;
   MeshFolderOptions options_;
+  std::string unit_ = "nm";
+  double nm_per_unit_ = 1;  ///< the format counts in nm
   DracoSegments draco_;
   std::vector<RawLabel> segments_;
   std::deque<SegmentFigures> figures_;  ///< of segments_; sinks refer to them

@@ -4,6 +4,7 @@
 """VTK, meshio and numpy read the surfaces of `mwmesh surface`, and find them whole."""
 import json
 import os
+import shutil
 import sys
 import unittest
 
@@ -178,6 +179,23 @@ class Surfaces(unittest.TestCase):
             self.assertAlmostEqual(volume / expected, 1, places=4)
             with open(f"parts/{label}.stl", "rb") as one, open(f"more/{label}.stl", "rb") as other:
                 self.assertEqual(one.read(), other.read())
+
+    def test_precomputed_knows_the_unit_of_the_mesh(self):
+        """A mesh of a volume in mm gives surfaces in nm, unless the user knows better."""
+        with open("mm.nrrd", "wb") as file:
+            file.write(b"NRRD0004\ntype: uint8\ndimension: 3\nsizes: 4 4 4\nencoding: raw\n"
+                       b"space dimension: 3\nspace units: \"mm\" \"mm\" \"mm\"\n"
+                       b"space directions: (1,0,0) (0,1,0) (0,0,1)\nspace origin: (0,0,0)\n\n"
+                       + bytes([1] * 32 + [2] * 32))
+        run("mesh", "mm.nrrd", "-o", "mm.vtu")
+        for unit, edge in ((), 4e6), (("--unit", "um"), 4e3):
+            run("surface", "mm.vtu", *unit, "-o", "meshes", "--labels", "1")
+            with open("meshes/1:0", encoding="utf-8") as file:
+                (fragment,) = json.load(file)["fragments"]
+            data = np.fromfile(f"meshes/{fragment}", np.uint8)
+            points = data[4 : 4 + 12 * int(data[:4].view("<u4")[0])].view("<f4")
+            self.assertAlmostEqual(float(points.max() - points.min()) / edge, 1, places=5)
+            shutil.rmtree("meshes")
 
     def test_precomputed(self):
         run("surface", "v.vtu", "--unit", "um", "-o", "meshes")

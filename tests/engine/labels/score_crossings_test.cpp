@@ -103,13 +103,13 @@ TEST(ScoreCrossings, AreThoseOfEachFace) {
     const io::DenseVolume dense(volume, table);
     const Box3 box = random_box(random, shape), all{{0, 0, 0}, shape};
     const SourceSurface found = score_crossings(dense, labels_around(volume, table, box), box);
-    ASSERT_EQ(found.kind(), SourceSurface::Kind::kCrossings);
+    ASSERT_EQ(found.form(), crossing_form({1, 1, 1}));
     for_each_index(box, [&](Index3 v) {
       for (unsigned axis = 0; axis < 3; ++axis) {
         const Index3 above = v + axis_vector(axis);
         if (!all.contains(above) || volume.label(v) == volume.label(above)) continue;
         const SourcePlane wanted = find_crossing(difference_at(volume, v, axis), axis);
-        EXPECT_EQ(found.at(v, axis), pack(wanted, kCrossingBits));
+        EXPECT_EQ(found.at(v, axis), pack(wanted, found.form()));
         ++faces;
       }
     });

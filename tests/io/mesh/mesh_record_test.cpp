@@ -26,6 +26,7 @@ MeshRecord random_record(unsigned seed) {
     }
   }
   record.frame = std::array{WorldFrame::kOwn, WorldFrame::kRas, WorldFrame::kLps}[seed / 3 % 3];
+  record.unit = std::array{"", "nm", "um", "mm", "m"}[seed % 5];
   const std::vector<RawLabel> labels{random(), random() % 9, ~RawLabel{0} - random() % 9};
   if (seed % 5 == 1) record.only_labels = labels;
   if (seed % 5 == 2) record.without_labels = labels;
@@ -96,7 +97,7 @@ TEST(MeshRecord, DamageIsTold) {
        R"({"promises": {"quality_floor": 0.1, "topology": "labels", "surface": "none"}})",
        R"({"promises": {"quality_floor": 0.1, "topology": "labels", "surface": "voxel",
                          "optimizer": "local"}})",
-       R"({"without_labels": [0.5]})", R"({"frame": "own"})", R"({"frame": 1})",
+       R"({"without_labels": [0.5]})", R"({"frame": "own"})", R"({"unit": "ft"})", R"({"frame": 1})",
        R"({"only_labels": 0})", R"({"only_labels": [1], "without_labels": [2]})"}) {
     expect_error(ErrorKind::kInput, {"m.vtu"},
                  [&] { static_cast<void>(parse_record(text, "m.vtu")); });

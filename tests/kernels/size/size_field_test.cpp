@@ -108,6 +108,26 @@ TEST(SizeField, IsWhatItsDefinitionSays) {
   EXPECT_GT(large, 1);
 }
 
+TEST(SizeField, RoundsManyLimitsDownByATwentiethAtMost) {
+  std::mt19937 random(2207);
+  constexpr std::uint32_t kLabels = 300;
+  Case c{.volume = volume_from({40, 30, 20}, kLabels,
+                               [&](auto, auto, auto) { return below(random, kLabels); }),
+         .gradation = 0.3};
+  for (std::uint32_t i = 0; i < kLabels; ++i) c.limits.push_back(2 + 0.01 * i);
+  const SizeField field = c.field();
+  bool any_is_less = false;
+  for (int k = 0; k < 100; ++k) {
+    const Point p = random_position(random, c.volume.shape);
+    const double expected = defined_at(c, p);
+    EXPECT_LE(field.at(p), expected * (1 + 1e-6));
+    EXPECT_GE(field.at(p), expected / 1.05 * (1 - 1e-6));
+    any_is_less = any_is_less || field.at(p) < 0.999 * expected;
+  }
+  EXPECT_TRUE(any_is_less);
+  EXPECT_EQ(field.of_label(7), c.limits[7]);
+}
+
 /// Places out of reach of the volume are asked for before a vertex there is refused.
 TEST(SizeField, OutsideIsAsAtTheNearestPlaceInside) {
   std::mt19937 random(1907);

@@ -117,6 +117,15 @@ TEST(Crossing, IsTheFaceWhereThereIsNone) {
   }
 }
 
+TEST(Crossing, HasAUnitNormalWhereScoresHardlyDiffer) {
+  for (int exponent = -320; exponent < -100; ++exponent) {
+    const double tiny = std::pow(10.0, exponent);
+    const SourcePlane plane = find_crossing(
+        {.values = {tiny, -tiny}, .slopes = {Vec3(tiny, -tiny, -tiny), Vec3(0, 0, -tiny)}}, 2);
+    EXPECT_NEAR(plane.normal.norm(), 1.0, 1e-12) << exponent;
+  }
+}
+
 TEST(Crossing, IsSeenFromFacesOfLayers) {
   // Three layers along z.  The plane x = z / 6 in voxels of scores is x = z / 18 in the lattice.
   const Vec3 normal = Vec3(1.0, 0.0, -1.0 / 6.0).normalized();
@@ -130,15 +139,21 @@ TEST(Crossing, IsSeenFromFacesOfLayers) {
   const SourcePlane along = on_lattice({Vec3::Unit(2), 0.1}, {.axis = 2, .layers = {1, 1, 3}});
   EXPECT_NEAR(along.height, 0.3, 1e-12);
   const SourcePlane far = on_lattice({Vec3::Unit(2), -0.4}, {.axis = 2, .layers = {1, 1, 3}});
-  EXPECT_EQ(far.height, -kMaxSourceHeight);
+  EXPECT_NEAR(far.height, -1.2, 1e-12);
+  const SourcePlane slanted{Vec3(0.1, 0.0, -1.0).normalized(), 0.0};
+  const LayeredFace off{.axis = 0, .layers = {1, 1, 3}, .centre = Vec3(0.0, 0.0, 1.0)};
+  EXPECT_EQ(on_lattice(slanted, off).height, crossing_form({1, 1, 3}).reach);
 }
 
-TEST(Crossing, IsStoredToHalfAUnitOfTheLattice) {
+TEST(Crossing, IsStoredToHalfAUnitOfTheLatticeForEachLayer) {
   std::mt19937 random(10);
   for (int trial = 0; trial < 2000; ++trial) {
-    const SourcePlane plane{any_vector(random).normalized(), 0.5 * from_minus_1_to_1(random)};
-    const SourcePlane again = unpack(pack(plane, kCrossingBits), kCrossingBits);
-    EXPECT_NEAR(again.height, plane.height, 0.5 / 1024);
+    const std::int64_t layers = 1 + trial % 40;
+    const PlaneForm form = crossing_form({1, layers, 1});
+    const SourcePlane plane{any_vector(random).normalized(),
+                            form.reach * from_minus_1_to_1(random)};
+    const SourcePlane again = unpack(pack(plane, form), form);
+    EXPECT_NEAR(again.height, plane.height, 0.5 / 1024 * static_cast<double>(layers));
     EXPECT_LT((again.normal - plane.normal).norm(), 0.005);
   }
 }

@@ -487,7 +487,8 @@ TEST(PrecomputedMeshes, SegmentsHaveFigures) {
   const TempDir dir;
   for (const bool closed : {true, false}) {
     const std::string name = closed ? "closed" : "open";
-    MeshFolder folder(dir.path() / name, {.unit = "um", .nm_per_unit = 1000, .closed = closed});
+    MeshFolder folder(dir.path() / name, {.closed = closed});
+    folder.use_unit("um");
     for (const RawLabel label : {1U, 2U}) {
       const Label rank = static_cast<Label>(label - 1);
       mesh.surface({plans.of_label(rank)}, false).write(*folder.sink(label));
