@@ -10,6 +10,7 @@
 
 #include "io/file/errors.h"
 #include "io/volume/checks.h"
+#include "kernels/core/vector3.h"
 
 namespace mw::io {
 namespace {

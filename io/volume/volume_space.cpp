@@ -6,16 +6,6 @@
 #include <cmath>
 
 namespace mw::io {
-namespace {
-
-double determinant(const std::array<Vector3, 3>& m) {
-  return m[0][0] * (m[1][1] * m[2][2] - m[1][2] * m[2][1]) -
-         m[0][1] * (m[1][0] * m[2][2] - m[1][2] * m[2][0]) +
-         m[0][2] * (m[1][0] * m[2][1] - m[1][1] * m[2][0]);
-}
-
-}  // namespace
-
 const char* name(WorldFrame frame) {
   return frame == WorldFrame::kRas ? "ras" : frame == WorldFrame::kLps ? "lps" : "own";
 }
@@ -33,7 +23,7 @@ bool is_upright(const VolumeSpace& space) {
 }
 
 bool is_mirrored(const VolumeSpace& space) {
-  return determinant(space.axes) < 0;
+  return determinant(space.axes[0], space.axes[1], space.axes[2]) < 0;
 }
 
 Vector3 to_corner(const VolumeSpace& space, const Vector3& world) {

@@ -10,22 +10,11 @@
 #include <string_view>
 
 #include "kernels/core/index.h"
+#include "kernels/core/vector3.h"
 
 namespace mw::io {
 
-using Vector3 = std::array<double, 3>;
-
-[[nodiscard]] inline Vector3 minus(const Vector3& a, const Vector3& b) {
-  return {a[0] - b[0], a[1] - b[1], a[2] - b[2]};
-}
-
-[[nodiscard]] inline double dot(const Vector3& a, const Vector3& b) {
-  return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
-}
-
-[[nodiscard]] inline Vector3 cross(const Vector3& a, const Vector3& b) {
-  return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
-}
+using mw::Vector3;
 
 /// A world frame that files name: x to the patient's right or left, y to the front or back, z up.
 enum class WorldFrame {

@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 #include <cstdint>
 #include <functional>
 #include <span>
@@ -14,11 +13,12 @@
 
 #include "kernels/core/index.h"
 #include "kernels/core/label.h"
+#include "kernels/core/vector3.h"
 
 namespace mw::audit {
 
 /// A vertex in physical units, x first.
-using Position = std::array<double, 3>;
+using Position = Vector3;
 
 /// The four vertices of a tet, as rows of the vertex table.
 using TetRow = std::array<std::uint64_t, 4>;
@@ -104,21 +104,5 @@ struct Frame {
   std::array<double, 3> spacing{1, 1, 1};
   std::array<double, 3> origin{0, 0, 0};
 };
-
-[[nodiscard]] inline Position minus(const Position& a, const Position& b) {
-  return {a[0] - b[0], a[1] - b[1], a[2] - b[2]};
-}
-
-[[nodiscard]] inline Position cross(const Position& a, const Position& b) {
-  return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
-}
-
-[[nodiscard]] inline double dot(const Position& a, const Position& b) {
-  return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
-}
-
-[[nodiscard]] inline double norm(const Position& a) {
-  return std::sqrt(dot(a, a));
-}
 
 }  // namespace mw::audit

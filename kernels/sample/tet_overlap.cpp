@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "kernels/core/tet_facets.h"
+#include "kernels/core/vector3.h"
 
 namespace mw {
 namespace {
@@ -136,15 +137,6 @@ Faces between(const Faces& faces, std::size_t axis, double lo) {
   return out;
 }
 
-double determinant(const ImagePoint& a, const ImagePoint& b, const ImagePoint& c) {
-  return a[0] * (b[1] * c[2] - b[2] * c[1]) + a[1] * (b[2] * c[0] - b[0] * c[2]) +
-         a[2] * (b[0] * c[1] - b[1] * c[0]);
-}
-
-ImagePoint difference(const ImagePoint& a, const ImagePoint& b) {
-  return {a[0] - b[0], a[1] - b[1], a[2] - b[2]};
-}
-
 }  // namespace
 
 TetOverlap::TetOverlap(const std::array<ImagePoint, 4>& corners) {
@@ -154,10 +146,8 @@ TetOverlap::TetOverlap(const std::array<ImagePoint, 4>& corners) {
     for (const ImagePoint& p : corners) least = std::min(least, p[k]);
     base_[k] = std::floor(std::clamp(least, -kFar, kFar));
   }
-  for (std::size_t i = 0; i < 4; ++i) corners_[i] = difference(corners[i], base_);
-  const double six =
-      determinant(difference(corners_[1], corners_[0]), difference(corners_[2], corners_[0]),
-                  difference(corners_[3], corners_[0]));
+  for (std::size_t i = 0; i < 4; ++i) corners_[i] = minus(corners[i], base_);
+  const double six = volume6(corners_[0], corners_[1], corners_[2], corners_[3]);
   if (six < 0) std::swap(corners_[2], corners_[3]);
   volume_ = std::abs(six) / 6;
 }

@@ -6,22 +6,18 @@
 #include <algorithm>
 #include <cmath>
 
-#include "io/volume/volume_space.h"
 #include "kernels/audit/compensated_sum.h"
 #include "kernels/audit/regions/regions.h"
 #include "kernels/audit/shape/quality.h"
+#include "kernels/core/vector3.h"
 
 namespace mw::cli {
 namespace {
 
-using io::cross;
-using io::dot;
-using io::minus;
 using io::Position;
 
 double area_of(const Position& a, const Position& b, const Position& c) {
-  const Position normal = cross(minus(b, a), minus(c, a));
-  return std::sqrt(dot(normal, normal)) / 2;
+  return norm(cross(minus(b, a), minus(c, a))) / 2;
 }
 
 /// Sums over the tets of one label.

@@ -9,6 +9,7 @@
 
 #include "io/mesh/grouped/grouped_mesh.h"
 #include "kernels/core/error.h"
+#include "kernels/core/vector3.h"
 
 namespace mw::cli {
 namespace {
@@ -73,7 +74,7 @@ void ShapeSink::add_tet(const io::TetRows& tet, RawLabel label) {
                                        std::to_string(positions_.size()));
   }
   const auto [a, b, c, d] = rows;
-  const double volume6 = io::volume6(positions_[a], positions_[b], positions_[c], positions_[d]);
+  const double volume6 = mw::volume6(positions_[a], positions_[b], positions_[c], positions_[d]);
   volumes_[label].add(std::abs(volume6) / 6);
   // The normal of a b c points at d, into the tet, when that is positive; with each swap it turns.
   const std::uint64_t positive = volume6 > 0 ? 1 : 0;

@@ -172,20 +172,6 @@ class GroupedWriter {
   virtual void write(GroupedMesh& mesh) = 0;
 };
 
-/// Returns six times the signed volume, positive when d is where the normal of a b c points.
-[[nodiscard]] inline double volume6(const Position& a, const Position& b, const Position& c,
-                                    const Position& d) {
-  std::array<Position, 3> e{};
-  for (std::size_t k = 0; k < 3; ++k) {
-    e[0][k] = b[k] - a[k];
-    e[1][k] = c[k] - a[k];
-    e[2][k] = d[k] - a[k];
-  }
-  return e[0][0] * (e[1][1] * e[2][2] - e[1][2] * e[2][1]) +
-         e[0][1] * (e[1][2] * e[2][0] - e[1][0] * e[2][2]) +
-         e[0][2] * (e[1][0] * e[2][1] - e[1][1] * e[2][0]);
-}
-
 /// A sink that writes tets of four or ten nodes, and wedges.
 class CellSink : public MeshSink {
  public:

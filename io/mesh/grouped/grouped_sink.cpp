@@ -14,6 +14,7 @@
 #include "io/mesh/mesh_sink.h"
 #include "kernels/core/assert.h"
 #include "kernels/core/tet_facets.h"
+#include "kernels/core/vector3.h"
 
 namespace mw::io {
 namespace {

@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "io/file/errors.h"
+#include "kernels/core/vector3.h"
 
 namespace mw::io {
 namespace {

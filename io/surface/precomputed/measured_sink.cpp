@@ -6,6 +6,8 @@
 #include <cmath>
 #include <set>
 
+#include "kernels/core/vector3.h"
+
 namespace mw::io {
 namespace {
 
@@ -42,9 +44,8 @@ void MeasuredSink::write_triangles(std::span<const Triangle> triangles) {
     const Position a = minus(vertices_[t[0]], first_);
     const Position b = minus(vertices_[t[1]], first_);
     const Position c = minus(vertices_[t[2]], first_);
-    const Position normal = cross(minus(b, a), minus(c, a));
-    figures_.area += std::sqrt(dot(normal, normal)) / 2;
-    volume6_ += dot(a, cross(b, c));
+    figures_.area += norm(cross(minus(b, a), minus(c, a))) / 2;
+    volume6_ += determinant(a, b, c);
   }
   sink_->write_triangles(triangles);
 }

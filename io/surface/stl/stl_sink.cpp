@@ -7,6 +7,7 @@
 #include <limits>
 
 #include "io/surface/surface_sink.h"
+#include "kernels/core/vector3.h"
 
 namespace mw::io {
 namespace {

@@ -19,6 +19,7 @@
 #include "io/volume/masks/mask_merger.h"
 #include "io/volume/raw_array.h"
 #include "kernels/core/assert.h"
+#include "kernels/core/vector3.h"
 
 namespace mw::io {
 namespace {

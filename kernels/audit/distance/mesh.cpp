@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "kernels/audit/partition/box_planes.h"
+#include "kernels/core/vector3.h"
 
 namespace mw::audit {
 namespace {
@@ -73,14 +74,6 @@ class TriangleCollector {
   std::vector<InterfaceTriangle> triangles_;
 };
 
-VoxelPoint edge(const VoxelTriangle& t, std::size_t from, std::size_t to) {
-  return {t[to][0] - t[from][0], t[to][1] - t[from][1], t[to][2] - t[from][2]};
-}
-
-double squared_length(const VoxelPoint& v) {
-  return v[0] * v[0] + v[1] * v[1] + v[2] * v[2];
-}
-
 }  // namespace
 
 std::vector<InterfaceTriangle> interface_triangles(const MeshStars& stars, std::size_t label_count,
@@ -123,11 +116,7 @@ void sort_along_curve(std::vector<InterfaceTriangle>& triangles, const Box3& box
 }
 
 double area(const VoxelTriangle& t) {
-  const VoxelPoint u = edge(t, 0, 1);
-  const VoxelPoint v = edge(t, 0, 2);
-  return std::sqrt(squared_length(
-             {u[1] * v[2] - u[2] * v[1], u[2] * v[0] - u[0] * v[2], u[0] * v[1] - u[1] * v[0]})) /
-         2;
+  return norm(cross(minus(t[1], t[0]), minus(t[2], t[0]))) / 2;
 }
 
 VoxelPoint centroid(const VoxelTriangle& t) {
@@ -140,8 +129,8 @@ double radius(const VoxelTriangle& t) {
   const VoxelPoint middle = centroid(t);
   double squared = 0;
   for (const VoxelPoint& p : t) {
-    squared =
-        std::max(squared, squared_length({p[0] - middle[0], p[1] - middle[1], p[2] - middle[2]}));
+    const VoxelPoint way = minus(p, middle);
+    squared = std::max(squared, dot(way, way));
   }
   return std::sqrt(squared);
 }
@@ -150,7 +139,8 @@ std::array<VoxelTriangle, 2> halves(const VoxelTriangle& t) {
   std::size_t from = 0;
   double longest = -1;
   for (std::size_t i = 0; i < 3; ++i) {
-    const double squared = squared_length(edge(t, i, (i + 1) % 3));
+    const VoxelPoint edge = minus(t[(i + 1) % 3], t[i]);
+    const double squared = dot(edge, edge);
     if (squared > longest) from = i;
     longest = std::max(longest, squared);
   }

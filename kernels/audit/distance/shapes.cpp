@@ -6,6 +6,8 @@
 
 #include <limits>
 
+#include "kernels/core/vector3.h"
+
 namespace mw::audit {
 namespace {
 
@@ -13,14 +15,6 @@ constexpr double kFar = std::numeric_limits<double>::infinity();
 
 /// Squared sine of the angle between two edges below which their plane is in doubt.
 constexpr double kFlatness = 1e-6;
-
-VoxelPoint minus(const VoxelPoint& a, const VoxelPoint& b) {
-  return {a[0] - b[0], a[1] - b[1], a[2] - b[2]};
-}
-
-double dot(const VoxelPoint& a, const VoxelPoint& b) {
-  return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
-}
 
 /// |r - s u - t v|^2
 double squared_rest(const VoxelPoint& r, const VoxelPoint& u, double s, const VoxelPoint& v,

@@ -6,34 +6,23 @@
 #include <algorithm>
 #include <cmath>
 
+#include "kernels/core/vector3.h"
+
 namespace mw::audit {
 namespace {
 
-using Point = std::array<double, 3>;
-
-Point middle_of(Index3 shape) {
+Vector3 middle_of(Index3 shape) {
   return {static_cast<double>(shape.x) / 2, static_cast<double>(shape.y) / 2,
           static_cast<double>(shape.z) / 2};
-}
-
-double volume_of(const std::array<Point, 4>& p) {
-  std::array<Point, 3> e{};
-  for (std::size_t i = 0; i < 3; ++i) {
-    for (std::size_t k = 0; k < 3; ++k) e[i][k] = p[i + 1][k] - p[0][k];
-  }
-  return std::abs(e[0][0] * (e[1][1] * e[2][2] - e[1][2] * e[2][1]) +
-                  e[0][1] * (e[1][2] * e[2][0] - e[1][0] * e[2][2]) +
-                  e[0][2] * (e[1][0] * e[2][1] - e[1][1] * e[2][0])) /
-         6;
 }
 
 /// Places axis k of the volume along axis `axes[k]`, turned over where signs[k] is -1.
 struct Symmetry {
   std::array<std::size_t, 3> axes;
-  Point signs;
+  Vector3 signs;
 
   [[nodiscard]] bool is_identity() const {
-    return axes == std::array<std::size_t, 3>{0, 1, 2} && signs == Point{1, 1, 1};
+    return axes == std::array<std::size_t, 3>{0, 1, 2} && signs == Vector3{1, 1, 1};
   }
   [[nodiscard]] bool keeps(Index3 shape) const {
     const std::array<std::int64_t, 3> s{shape.x, shape.y, shape.z};
@@ -82,18 +71,18 @@ void PlaceTally::add(const PlaceTally& other, std::span<const Label> labels) {
 PlaceTally places_of_mesh(const MeshTile& tile, std::size_t label_count, const Frame& frame,
                           Index3 shape) {
   PlaceTally out(label_count);
-  const Point middle = middle_of(shape);
+  const Vector3 middle = middle_of(shape);
   for (std::size_t t = 0; t < tile.mesh.tets.size(); ++t) {
     const Label label = tile.mesh.labels[t];
     if (label >= label_count || !tile.owns_tet(t)) continue;
-    std::array<Point, 4> p{};
+    std::array<Vector3, 4> p{};
     for (std::size_t i = 0; i < 4; ++i) {
       const Position& at = tile.mesh.vertices[tile.mesh.tets[t][i]];
       for (std::size_t k = 0; k < 3; ++k) {
         p[i][k] = (at[k] - frame.origin[k]) / frame.spacing[k] - middle[k];
       }
     }
-    const double volume = volume_of(p);
+    const double volume = std::abs(volume6(p[0], p[1], p[2], p[3])) / 6;
     out.volumes[label] += volume;
     for (std::size_t k = 0; k < 3; ++k) {
       out.moments[label][k] += volume * (p[0][k] + p[1][k] + p[2][k] + p[3][k]) / 4;
@@ -105,7 +94,7 @@ PlaceTally places_of_mesh(const MeshTile& tile, std::size_t label_count, const F
 PlaceTally places_of_voxels(const Box3& box, std::span<const Label> labels, std::size_t label_count,
                             Index3 shape) {
   PlaceTally out(label_count);
-  const Point middle = middle_of(shape);
+  const Vector3 middle = middle_of(shape);
   std::size_t next = 0;
   for (std::int64_t z = box.lo.z; z < box.hi.z; ++z) {
     for (std::int64_t y = box.lo.y; y < box.hi.y; ++y) {

@@ -12,6 +12,7 @@
 #include "kernels/audit/partition/orientation.h"
 #include "kernels/audit/partition/overlap.h"
 #include "kernels/core/error.h"
+#include "kernels/core/vector3.h"
 
 namespace mw::audit {
 namespace {
@@ -144,28 +145,18 @@ class TileAudit {
   }
 
   void measure_labels() {
+    const auto& at = mesh().vertices;
     const std::size_t unknown = task_.wanted.size();
     for (std::size_t t = 0; t < mesh().tets.size(); ++t) {
       if (!tile().owns_tet(t)) continue;
-      const double volume = std::abs(volume_of(mesh().tets[t]));
+      const auto& [a, b, c, d] = mesh().tets[t];
+      const double volume = std::abs(volume6(at[a], at[b], at[c], at[d]) / 6);
       const std::size_t label = std::min<std::size_t>(mesh().labels[t], unknown);
       tally_.volume.add(volume);
       tally_.label_volumes[label].add(volume);
       tally_.in_mesh[label] = true;
       if (label == unknown || !task_.wanted[label]) tally_.strange.add([&] { return tet_name(t); });
     }
-  }
-
-  [[nodiscard]] double volume_of(const TetRow& t) const {
-    const Position& a = mesh().vertices[t[0]];
-    std::array<Position, 3> r{};
-    for (std::size_t i = 0; i < 3; ++i) {
-      for (std::size_t k = 0; k < 3; ++k) r[i][k] = mesh().vertices[t[i + 1]][k] - a[k];
-    }
-    return (r[0][0] * (r[1][1] * r[2][2] - r[1][2] * r[2][1]) +
-            r[0][1] * (r[1][2] * r[2][0] - r[1][0] * r[2][2]) +
-            r[0][2] * (r[1][0] * r[2][1] - r[1][1] * r[2][0])) /
-           6;
   }
 
   const MeshStars& stars_;

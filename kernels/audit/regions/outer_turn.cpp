@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "kernels/audit/partition/orientation.h"
+#include "kernels/core/vector3.h"
 
 namespace mw::audit {
 namespace {
@@ -34,16 +35,6 @@ class Turn {
   const Position& b_;
   BoundaryWing first_;
 };
-
-double determinant(const Position& v, const Position& a, const Position& b, const Position& c) {
-  std::array<Position, 3> r{a, b, c};
-  for (Position& row : r) {
-    for (std::size_t k = 0; k < 3; ++k) row[k] -= v[k];
-  }
-  return r[0][0] * (r[1][1] * r[2][2] - r[1][2] * r[2][1]) +
-         r[0][1] * (r[1][2] * r[2][0] - r[1][0] * r[2][2]) +
-         r[0][2] * (r[1][0] * r[2][1] - r[1][1] * r[2][0]);
-}
 
 /// Where a way between two directions goes through the boundary.
 struct Crossing {
@@ -83,8 +74,8 @@ class Way {
     if (start * end == 0) return false;
     // Great circles meet twice; the signs tell whether both arcs do so in the same point.
     if (start == end || p == start) return true;
-    const double before = std::abs(determinant(v_, *wing.p, *wing.q, from_));
-    const double behind = std::abs(determinant(v_, *wing.p, *wing.q, to_));
+    const double before = std::abs(volume6(v_, *wing.p, *wing.q, from_));
+    const double behind = std::abs(volume6(v_, *wing.p, *wing.q, to_));
     const bool leaves = orientation(v_, *wing.p, *wing.q, *wing.apex) == start;
     crossings_.push_back({before / (before + behind), leaves, wing.side});
     return true;

@@ -8,15 +8,12 @@
 #include <limits>
 
 #include "kernels/core/ten_nodes.h"
+#include "kernels/core/vector3.h"
 
 namespace mw::audit {
 namespace {
 
 using Barycentric = std::array<double, 4>;
-
-double determinant(const std::array<Position, 3>& rows) {
-  return dot(rows[0], cross(rows[1], rows[2]));
-}
 
 /// The derivative of the tet's map towards corner k, away from corner 0, at a point.
 Position slope_at(const TenNodes& nodes, const Barycentric& at, std::size_t k) {
@@ -67,7 +64,7 @@ Coefficients coefficients_of(const TenNodes& given) {
         const std::array<std::array<std::size_t, 3>, 6> ways{
             {{a, b, c}, {a, c, b}, {b, a, c}, {b, c, a}, {c, a, b}, {c, b, a}}};
         for (const auto& way : ways) {
-          out.values[row] += determinant({slopes[way[0]][0], slopes[way[1]][1], slopes[way[2]][2]});
+          out.values[row] += determinant(slopes[way[0]][0], slopes[way[1]][1], slopes[way[2]][2]);
         }
         out.values[row++] /= 6;
       }
@@ -79,17 +76,11 @@ Coefficients coefficients_of(const TenNodes& given) {
   return out;
 }
 
-double volume6(const TenNodes& nodes, const std::array<std::size_t, 4>& corners) {
-  const Position& at = nodes[corners[0]];
-  return determinant(
-      {minus(nodes[corners[1]], at), minus(nodes[corners[2]], at), minus(nodes[corners[3]], at)});
-}
-
 }  // namespace
 
 double jacobian_share(const TenNodes& nodes) {
   const Coefficients found = coefficients_of(nodes);
-  const double straight = volume6(nodes, {0, 1, 2, 3});
+  const double straight = volume6(nodes[0], nodes[1], nodes[2], nodes[3]);
   if (!(straight > found.rounding)) return 0;
   const double least = *std::min_element(found.values.begin(), found.values.end());
   return (least - found.rounding) / straight;
@@ -100,7 +91,9 @@ double volume_beyond_parts(const TenNodes& nodes) {
   const Coefficients found = coefficients_of(nodes);
   double out = 0;
   for (const double value : found.values) out += value / static_cast<double>(found.values.size());
-  for (const auto& part : kTetParts) out -= std::abs(volume6(nodes, part));
+  for (const auto& [a, b, c, d] : kTetParts) {
+    out -= std::abs(volume6(nodes[a], nodes[b], nodes[c], nodes[d]));
+  }
   return out / 6;
 }
 

@@ -9,7 +9,7 @@
 #include <limits>
 #include <numbers>
 
-#include "kernels/audit/subject.h"
+#include "kernels/core/vector3.h"
 
 namespace mw::audit {
 namespace {

@@ -10,7 +10,7 @@
 
 #include "kernels/audit/mesh_stars.h"
 #include "kernels/audit/partition/orientation.h"
-#include "kernels/audit/subject.h"
+#include "kernels/core/vector3.h"
 
 namespace mw::audit {
 namespace {

@@ -12,22 +12,13 @@
 #include "kernels/core/index.h"
 #include "kernels/core/lattice.h"
 #include "kernels/core/layers.h"
+#include "kernels/core/vector3.h"
 
 namespace mw::audit {
 namespace {
 
 /// A point in lattice units.  Differences of two fit 33 bits, so a determinant fits 102.
 using LatticePoint = std::array<std::int64_t, 3>;
-
-template <typename Number>
-using Edges = std::array<std::array<Number, 3>, 3>;
-
-template <typename Number>
-Number determinant(const Edges<Number>& e) {
-  return e[0][0] * (e[1][1] * e[2][2] - e[1][2] * e[2][1]) +
-         e[0][1] * (e[1][2] * e[2][0] - e[1][0] * e[2][2]) +
-         e[0][2] * (e[1][0] * e[2][1] - e[1][1] * e[2][0]);
-}
 
 /// The coordinate in lattice units when it is what a multiple of the unit rounds to.
 std::optional<std::int64_t> lattice_coordinate(double x, double origin, double spacing) {
@@ -56,13 +47,12 @@ std::optional<std::vector<LatticePoint>> lattice_points(const AuditMesh& mesh, c
   return out;
 }
 
-template <typename Number, typename Point>
-Number volume6(const std::vector<Point>& points, const TetRow& t) {
-  Edges<Number> e{};
+Int128 size6(const std::vector<LatticePoint>& points, const TetRow& t) {
+  std::array<std::array<Int128, 3>, 3> e{};
   for (std::size_t i = 0; i < 3; ++i) {
     for (std::size_t k = 0; k < 3; ++k) e[i][k] = points[t[i + 1]][k] - points[t[0]][k];
   }
-  const Number det = determinant(e);
+  const Int128 det = determinant(e[0], e[1], e[2]);
   return det < 0 ? -det : det;
 }
 
@@ -156,8 +146,10 @@ VolumeTally tally_volumes(const MeshTile& tile, std::size_t label_count, const F
   for (std::size_t t = 0; t < mesh.tets.size(); ++t) {
     const Label label = mesh.labels[t];
     if (label >= label_count || !tile.owns_tet(t)) continue;
-    if (exact) out.exact[label] += volume6<Int128>(*exact, mesh.tets[t]);
-    out.rounded[label].add(volume6<double>(rounded, mesh.tets[t]) / 6);
+    if (exact) out.exact[label] += size6(*exact, mesh.tets[t]);
+    const auto& [a, b, c, d] = mesh.tets[t];
+    const double size = std::abs(volume6(rounded[a], rounded[b], rounded[c], rounded[d]));
+    out.rounded[label].add(size / 6);
   }
   return out;
 }

@@ -4,6 +4,7 @@
 // one place.
 #include "io/mesh/grouped/grouped_sink.h"
 #include "kernels/core/error.h"
+#include "kernels/core/vector3.h"
 #include "tests/engine/connect/random_mesh.h"
 #include "tests/testing.h"
 
@@ -132,7 +133,7 @@ TEST(Wedges, AreThoseOfAllFacetsThatOpen) {
         EXPECT_EQ(grouped.label_of(wedge.bottom_tet), of.bottom);
         EXPECT_EQ(grouped.label_of(wedge.top_tet), of.top);
         const auto side_of = [&](const Face& face) {
-          return io::volume6(corners[0], corners[1], corners[2], mesh.vertices[face.opposite]);
+          return volume6(corners[0], corners[1], corners[2], mesh.vertices[face.opposite]);
         };
         EXPECT_LT(side_of(under), 0) << "the normal points away from the tet under it";
         EXPECT_GT(side_of(above), 0);
