@@ -5,7 +5,7 @@
 
 #include <limits>
 
-#include "kernels/audit/topology/disjoint_sets.h"
+#include "kernels/core/disjoint_sets.h"
 #include "kernels/core/error.h"
 
 namespace mw::engine {
@@ -61,7 +61,7 @@ void JunctionLedger::add(Side side, const audit::JunctionsPiece& piece) {
 
 void JunctionLedger::close(Side side, audit::Cavities cavities) {
   cavities_[static_cast<std::size_t>(side)] = std::move(cavities);
-  audit::DisjointSets sets(sets_);
+  DisjointSets sets(sets_);
   std::array<std::uint64_t, 4> last{};
   bool is_first = true;
   const auto join = [&](const std::array<std::uint64_t, 4>& node) {

@@ -3,6 +3,7 @@
 // Finds patches by union-find over triangles; verdicts are kept at their roots.
 #include "kernels/odt/replacement.h"
 
+#include "kernels/core/disjoint_sets.h"
 #include "kernels/odt/tet_faces.h"
 #include "kernels/quality/mesh_quality.h"
 
@@ -165,7 +166,7 @@ class Patches {
   }
 
   const AllTets& all_;
-  TetSets sets_;
+  DisjointSets sets_;
   std::vector<std::uint8_t> refused_;
 };
 

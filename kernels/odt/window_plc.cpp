@@ -5,6 +5,7 @@
 
 #include <cmath>
 
+#include "kernels/core/disjoint_sets.h"
 #include "kernels/odt/tet_faces.h"
 
 namespace mw {
@@ -22,13 +23,13 @@ Point lower_corner(const TetMesh& mesh) {
 }
 
 /// Finds the facets; tets beside any other triangle are of one region.
-TetSets join_regions(const std::vector<LocalTet>& tets, Plc& plc) {
+DisjointSets join_regions(const std::vector<LocalTet>& tets, Plc& plc) {
   std::vector<TetFace> faces;
   faces.reserve(4 * tets.size());
   for (std::uint32_t t = 0; t < tets.size(); ++t) {
     for (int corner = 0; corner < 4; ++corner) faces.push_back(tet_face(tets[t], corner, t));
   }
-  TetSets sets(tets.size());
+  DisjointSets sets(tets.size());
   for_each_triangle(faces, [&](auto first, auto last) {
     if (last - first == 2 && tets[first->tet].label == tets[first[1].tet].label) {
       sets.unite(first->tet, first[1].tet);
@@ -40,7 +41,7 @@ TetSets join_regions(const std::vector<LocalTet>& tets, Plc& plc) {
 }
 
 /// Numbers regions in the order of their first tets.
-void number_regions(RegionTets& content, TetSets& sets) {
+void number_regions(RegionTets& content, DisjointSets& sets) {
   std::vector<std::uint32_t> number(content.tets.size(), kNoRegion);
   for (std::uint32_t t = 0; t < content.tets.size(); ++t) {
     std::uint32_t& region = number[sets.find(t)];
@@ -95,7 +96,7 @@ WindowPlc window_plc(const TetMesh& mesh, const Metric& metric) {
   for (LocalVertex v = 0; v < mesh.vertex_count(); ++v) {
     out.plc.points.push_back(out.frame.to_plc(mesh.position(v)));
   }
-  TetSets sets = join_regions(out.content.tets, out.plc);
+  DisjointSets sets = join_regions(out.content.tets, out.plc);
   number_regions(out.content, sets);
   out.plc.seeds = seeds_of(mesh, out.content, out.frame);
   return out;

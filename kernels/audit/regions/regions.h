@@ -12,7 +12,7 @@
 
 #include "kernels/audit/mesh_stars.h"
 #include "kernels/audit/topology/betti.h"
-#include "kernels/audit/topology/disjoint_sets.h"
+#include "kernels/core/disjoint_sets.h"
 
 namespace mw::audit {
 

@@ -9,8 +9,8 @@
 #include <span>
 #include <vector>
 
-#include "kernels/audit/topology/disjoint_sets.h"
 #include "kernels/audit/topology/junctions.h"
+#include "kernels/core/disjoint_sets.h"
 
 namespace mw::audit {
 

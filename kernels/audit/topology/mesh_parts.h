@@ -4,7 +4,7 @@
 #pragma once
 
 #include "kernels/audit/mesh_stars.h"
-#include "kernels/audit/topology/disjoint_sets.h"
+#include "kernels/audit/topology/parts.h"
 
 namespace mw::audit {
 

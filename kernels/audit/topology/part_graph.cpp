@@ -8,7 +8,7 @@
 #include <numeric>
 #include <utility>
 
-#include "kernels/audit/topology/disjoint_sets.h"
+#include "kernels/core/disjoint_sets.h"
 
 namespace mw::audit {
 namespace {

@@ -6,6 +6,7 @@
 #include <limits>
 #include <utility>
 
+#include "kernels/audit/topology/parts.h"
 #include "kernels/core/error.h"
 
 namespace mw::audit {

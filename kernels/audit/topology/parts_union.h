@@ -10,8 +10,8 @@
 
 #include "kernels/audit/mesh_stars.h"
 #include "kernels/audit/topology/betti.h"
-#include "kernels/audit/topology/disjoint_sets.h"
 #include "kernels/audit/topology/part_graph.h"
+#include "kernels/core/disjoint_sets.h"
 
 namespace mw::audit {
 

@@ -7,6 +7,7 @@
 #include <limits>
 #include <string>
 
+#include "kernels/audit/topology/parts.h"
 #include "kernels/core/error.h"
 
 namespace mw::audit {

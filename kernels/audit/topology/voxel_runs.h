@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "kernels/audit/subject.h"
-#include "kernels/audit/topology/disjoint_sets.h"
+#include "kernels/core/disjoint_sets.h"
 
 namespace mw::audit {
 
