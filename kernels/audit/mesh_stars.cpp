@@ -50,7 +50,8 @@ FaceSide side_of(const TetRow& tet, std::uint32_t id, unsigned at, unsigned i, u
 
 }  // namespace
 
-bool MeshStars::repeats_vertex(const TetRow& t) {
+bool MeshStars::leaves_out(std::size_t tet) const {
+  const TetRow& t = mesh().tets[tet];
   return t[0] == t[1] || t[0] == t[2] || t[0] == t[3] || t[1] == t[2] || t[1] == t[3] ||
          t[2] == t[3];
 }
@@ -59,15 +60,15 @@ MeshStars::MeshStars(const MeshTile& tile) : tile_(tile) {
   const AuditMesh& mesh = tile.mesh;
   require_sound(mesh);
   begin_.assign(mesh.vertices.size() + 1, 0);
-  for (const TetRow& tet : mesh.tets) {
-    if (repeats_vertex(tet)) continue;
-    for (const std::uint64_t v : tet) ++begin_[v + 1];
+  for (std::size_t t = 0; t < mesh.tets.size(); ++t) {
+    if (leaves_out(t)) continue;
+    for (const std::uint64_t v : mesh.tets[t]) ++begin_[v + 1];
   }
   for (std::size_t v = 1; v < begin_.size(); ++v) begin_[v] += begin_[v - 1];
   tets_.resize(begin_.back());
   std::vector<std::uint64_t> next(begin_.begin(), begin_.end() - 1);
   for (std::size_t t = 0; t < mesh.tets.size(); ++t) {
-    if (repeats_vertex(mesh.tets[t])) continue;
+    if (leaves_out(t)) continue;
     for (const std::uint64_t v : mesh.tets[t]) tets_[next[v]++] = static_cast<std::uint32_t>(t);
   }
 }

@@ -50,8 +50,8 @@ class MeshStars {
   /// The sides of all triangles whose smallest vertex this is, sorted by triangle, then tet.
   void collect_sides(std::uint32_t vertex, std::vector<FaceSide>& sides) const;
 
-  /// True for a tet that names a vertex twice.
-  [[nodiscard]] static bool repeats_vertex(const TetRow& tet);
+  /// True for a tet that is in no star, as it names a vertex twice.
+  [[nodiscard]] bool leaves_out(std::size_t tet) const;
 
  private:
   MeshTile tile_;

@@ -220,9 +220,7 @@ class RegionSweep {
 
   void count_tets() {
     for (std::uint32_t tet = 0; tet < stars_.mesh().tets.size(); ++tet) {
-      const bool is_counted =
-          stars_.tile().owns_tet(tet) && !MeshStars::repeats_vertex(stars_.mesh().tets[tet]);
-      if (is_counted) add(class_of(tet), -1, true);
+      if (stars_.tile().owns_tet(tet) && !stars_.leaves_out(tet)) add(class_of(tet), -1, true);
     }
   }
 

@@ -16,7 +16,7 @@ class MeshSweep {
       : stars_(stars),
         exterior_(static_cast<Label>(label_count)),
         euler_(label_count + 2),
-        box_(box_cells(stars_)) {
+        edges_(stars, exterior_) {
     join_parts();
   }
 
@@ -24,7 +24,7 @@ class MeshSweep {
     for (std::uint32_t v = 0; v < stars_.vertex_count(); ++v) {
       if (!stars_.owns(v) || stars_.star(v).empty()) continue;
       count_vertex(v);
-      count_edges(v);
+      edges_.visit(v, [this](std::uint64_t, const auto& classes) { euler_.add(-1, classes); });
       visit_faces_at(stars_, v, sides_, [this](const MeshFace& face) { count_face(face); });
     }
     count_cells();
@@ -34,11 +34,6 @@ class MeshSweep {
   }
 
  private:
-  /// Tets that name a vertex twice are in no star; they count for nothing.
-  [[nodiscard]] bool is_left_out(std::uint32_t tet) const {
-    return MeshStars::repeats_vertex(stars_.mesh().tets[tet]);
-  }
-
   void join_parts() {
     Parts parts = parts_of_mesh(stars_, exterior_);
     parts_ = std::move(parts.of_member);
@@ -48,7 +43,7 @@ class MeshSweep {
 
   void count_vertex(std::uint32_t v) {
     around_.clear();
-    if (box_.vertices[v]) around_.push_back(exterior_part_);
+    if (edges_.is_on_exterior(v)) around_.push_back(exterior_part_);
     for (const std::uint32_t tet : stars_.star(v)) around_.push_back(parts_[tet]);
     std::sort(around_.begin(), around_.end());
     around_.erase(std::unique(around_.begin(), around_.end()), around_.end());
@@ -56,30 +51,6 @@ class MeshSweep {
     classes_.clear();
     for (const std::uint32_t part : around_) classes_.push_back(part_class_[part]);
     add_cell(1);
-  }
-
-  /// Counts the edges from v to larger vertices; box_.edges is read along, as v ascends.
-  void count_edges(std::uint32_t v) {
-    edges_.clear();
-    for (const std::uint32_t tet : stars_.star(v)) {
-      for (const std::uint64_t other : stars_.mesh().tets[tet]) {
-        if (other > v) edges_.push_back(other << 32 | class_of_tet(stars_, exterior_, tet));
-      }
-    }
-    for (; next_box_edge_ < box_.edges.size() && box_.edges[next_box_edge_] >> 32 <= v;
-         ++next_box_edge_) {
-      if (box_.edges[next_box_edge_] >> 32 < v) continue;
-      edges_.push_back(box_.edges[next_box_edge_] << 32 | exterior_);
-    }
-    std::sort(edges_.begin(), edges_.end());
-    for (std::size_t i = 0; i < edges_.size();) {
-      const std::uint64_t other = edges_[i] >> 32;
-      classes_.clear();
-      for (; i < edges_.size() && edges_[i] >> 32 == other; ++i) {
-        classes_.push_back(static_cast<Label>(edges_[i] & 0xffffffffU));
-      }
-      add_cell(-1);
-    }
   }
 
   void count_face(const MeshFace& face) {
@@ -98,7 +69,7 @@ class MeshSweep {
 
   void count_cells() {
     for (std::uint32_t tet = 0; tet < stars_.mesh().tets.size(); ++tet) {
-      if (!is_left_out(tet) && stars_.tile().owns_tet(tet))
+      if (!stars_.leaves_out(tet) && stars_.tile().owns_tet(tet))
         euler_.add(-1, std::span(&part_class_[parts_[tet]], 1));
     }
   }
@@ -113,14 +84,12 @@ class MeshSweep {
   Label exterior_;
   EulerSums euler_;
   PartGraph graph_;
-  BoxCells box_;
-  std::size_t next_box_edge_ = 0;
+  EdgeWalk edges_;
   std::vector<std::uint32_t> parts_;
   std::vector<Label> part_class_;
   std::uint32_t exterior_part_ = 0;
   std::vector<FaceSide> sides_;
   std::vector<std::uint32_t> around_;
-  std::vector<std::uint64_t> edges_;
   std::vector<Label> classes_;
 };
 

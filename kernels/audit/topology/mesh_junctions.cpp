@@ -2,7 +2,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Junctions of a mesh: every vertex, edge and triangle with all labels around it.
 #include <algorithm>
-#include <utility>
 
 #include "kernels/audit/topology/junction_counter.h"
 #include "kernels/audit/topology/mesh_parts.h"
@@ -30,13 +29,14 @@ JunctionVertices vertices_of(const MeshStars& stars) {
 class MeshJunctionSweep {
  public:
   MeshJunctionSweep(const MeshStars& stars, Label exterior)
-      : stars_(stars), exterior_(exterior), box_(box_cells(stars)), sweep_(vertices_of(stars)) {}
+      : stars_(stars), exterior_(exterior), edges_(stars, exterior), sweep_(vertices_of(stars)) {}
 
   JunctionsPiece run() {
     for (std::uint32_t v = 0; v < stars_.vertex_count(); ++v) {
       if (!stars_.owns(v)) continue;
       add_vertex(v);
-      add_edges(v);
+      edges_.visit(
+          v, [&](std::uint64_t other, const auto& classes) { sweep_.add_edge(classes, v, other); });
     }
     visit_whole_faces(stars_, [this](const MeshFace& face) { add_face(face); });
     return sweep_.take();
@@ -55,33 +55,9 @@ class MeshJunctionSweep {
 
   void add_vertex(std::uint32_t v) {
     labels_.clear();
-    if (box_.vertices[v]) labels_.push_back(exterior_);
+    if (edges_.is_on_exterior(v)) labels_.push_back(exterior_);
     for (const std::uint32_t tet : stars_.star(v)) labels_.push_back(class_of(tet));
     sweep_.add_vertex(distinct_labels(), v);
-  }
-
-  /// Adds the edges from v to larger vertices; those of the box are read along, as v ascends.
-  void add_edges(std::uint32_t v) {
-    edges_.clear();
-    for (const std::uint32_t tet : stars_.star(v)) {
-      for (const std::uint64_t other : stars_.mesh().tets[tet]) {
-        if (other > v) edges_.push_back({other, class_of(tet)});
-      }
-    }
-    for (; next_box_edge_ < box_.edges.size() && box_.edges[next_box_edge_] >> 32 <= v;
-         ++next_box_edge_) {
-      if (box_.edges[next_box_edge_] >> 32 < v) continue;
-      edges_.push_back({box_.edges[next_box_edge_] & 0xffffffffU, exterior_});
-    }
-    std::sort(edges_.begin(), edges_.end());
-    for (std::size_t i = 0; i < edges_.size();) {
-      const std::uint64_t other = edges_[i].first;
-      labels_.clear();
-      for (; i < edges_.size() && edges_[i].first == other; ++i) {
-        labels_.push_back(edges_[i].second);
-      }
-      sweep_.add_edge(distinct_labels(), v, other);
-    }
   }
 
   void add_face(const MeshFace& face) {
@@ -94,11 +70,9 @@ class MeshJunctionSweep {
 
   const MeshStars& stars_;
   Label exterior_;
-  BoxCells box_;
+  EdgeWalk edges_;
   JunctionSweep sweep_;
-  std::size_t next_box_edge_ = 0;
   std::vector<Label> labels_;
-  std::vector<std::pair<std::uint64_t, Label>> edges_;
 };
 
 }  // namespace

@@ -10,9 +10,6 @@ namespace mw::audit {
 
 Parts parts_of_mesh(const MeshStars& stars, Label exterior) {
   const std::size_t tets = stars.mesh().tets.size();
-  const auto is_left_out = [&](std::uint32_t tet) {
-    return MeshStars::repeats_vertex(stars.mesh().tets[tet]);
-  };
   DisjointSets sets(tets + 1);
   visit_whole_faces(stars, [&](const MeshFace& face) {
     for (std::size_t i = 1; i < face.sides.size(); ++i) {
@@ -22,27 +19,41 @@ Parts parts_of_mesh(const MeshStars& stars, Label exterior) {
     }
   });
   for (std::uint32_t tet = 0; tet < tets; ++tet) {
-    if (is_left_out(tet)) sets.unite(tet, static_cast<std::uint32_t>(tets));
+    if (stars.leaves_out(tet)) sets.unite(tet, static_cast<std::uint32_t>(tets));
   }
   return number_parts(std::move(sets), std::size_t{exterior} + 2, [&](std::size_t member) {
     const auto tet = static_cast<std::uint32_t>(member);
-    return member == tets || is_left_out(tet) ? exterior : class_of_tet(stars, exterior, tet);
+    return member == tets || stars.leaves_out(tet) ? exterior : class_of_tet(stars, exterior, tet);
   });
 }
 
-BoxCells box_cells(const MeshStars& stars) {
-  BoxCells out{std::vector<bool>(stars.vertex_count(), false), {}};
+EdgeWalk::EdgeWalk(const MeshStars& stars, Label exterior)
+    : stars_(stars), exterior_(exterior), on_exterior_(stars.vertex_count()) {
   visit_whole_faces(stars, [&](const MeshFace& face) {
     if (face.sides.size() != 1) return;
     const auto& v = face.vertices;
-    for (const std::uint32_t vertex : v) out.vertices[vertex] = true;
+    for (const std::uint32_t vertex : v) on_exterior_[vertex] = true;
     for (const auto& [a, b] : {std::pair{v[0], v[1]}, {v[0], v[2]}, {v[1], v[2]}}) {
-      out.edges.push_back(std::uint64_t{a} << 32 | b);
+      exterior_edges_.push_back(std::uint64_t{a} << 32 | b);
     }
   });
-  std::sort(out.edges.begin(), out.edges.end());
-  out.edges.erase(std::unique(out.edges.begin(), out.edges.end()), out.edges.end());
-  return out;
+  std::sort(exterior_edges_.begin(), exterior_edges_.end());
+  exterior_edges_.erase(std::unique(exterior_edges_.begin(), exterior_edges_.end()),
+                        exterior_edges_.end());
+}
+
+void EdgeWalk::collect(std::uint32_t v) {
+  edges_.clear();
+  for (const std::uint32_t tet : stars_.star(v)) {
+    for (const std::uint64_t other : stars_.mesh().tets[tet]) {
+      if (other > v) edges_.push_back(other << 32 | class_of_tet(stars_, exterior_, tet));
+    }
+  }
+  for (; next_ < exterior_edges_.size() && exterior_edges_[next_] >> 32 <= v; ++next_) {
+    const std::uint64_t edge = exterior_edges_[next_];
+    if (edge >> 32 == v) edges_.push_back(edge << 32 | exterior_);
+  }
+  std::sort(edges_.begin(), edges_.end());
 }
 
 }  // namespace mw::audit
