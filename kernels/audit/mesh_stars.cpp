@@ -50,6 +50,13 @@ FaceSide side_of(const TetRow& tet, std::uint32_t id, unsigned at, unsigned i, u
 
 }  // namespace
 
+unsigned apex_of(const TetRow& tet, const std::array<std::uint32_t, 3>& triangle) {
+  const auto apex = std::find_if(tet.begin(), tet.end(), [&](std::uint64_t v) {
+    return std::find(triangle.begin(), triangle.end(), v) == triangle.end();
+  });
+  return static_cast<unsigned>(apex - tet.begin());
+}
+
 bool MeshStars::leaves_out(std::size_t tet) const {
   const TetRow& t = mesh().tets[tet];
   return t[0] == t[1] || t[0] == t[2] || t[0] == t[3] || t[1] == t[2] || t[1] == t[3] ||

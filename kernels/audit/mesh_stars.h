@@ -28,6 +28,9 @@ struct MeshFace {
   std::span<const FaceSide> sides;
 };
 
+/// Returns which corner of a tet is opposite to one of its triangles.
+[[nodiscard]] unsigned apex_of(const TetRow& tet, const std::array<std::uint32_t, 3>& triangle);
+
 /// The tets at every vertex of a tile.  Tets that name a vertex twice are left out.
 /// Memory: 16 bytes a tet and 8 a vertex.  Reads the mesh as long as it lives.
 class MeshStars {

@@ -58,11 +58,9 @@ class LineFinder {
   [[nodiscard]] int side_of_tet(const MeshFace& face, double area) const {
     const auto& [a, b, c] = face.vertices;
     const auto& at = stars_.mesh().vertices;
-    for (const std::uint64_t v : stars_.mesh().tets[face.sides[0].tet]) {
-      if (v == a || v == b || v == c) continue;
-      return orientation(at[a], at[b], at[c], at[v]) * (area > 0 ? 1 : -1);
-    }
-    return 0;
+    const TetRow& tet = stars_.mesh().tets[face.sides[0].tet];
+    const Position& apex = at[tet[apex_of(tet, face.vertices)]];
+    return orientation(at[a], at[b], at[c], apex) * (area > 0 ? 1 : -1);
   }
 
   void cross_lines(const MeshFace& face) {

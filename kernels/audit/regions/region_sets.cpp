@@ -110,9 +110,10 @@ void RegionSets::number_boundaries(const Numbers& parts) {
   const Numbers inner = number(RegionKind::kInner, within_, is_open, label_of);
   for (std::uint32_t i = 0; i < sides_.size(); ++i) {
     if (!is_shared_side(i)) continue;
-    const unsigned apex = apex_of(sides_[i]);
-    share(sides_[i].tet, kInnerOfTet + apex, inner[within_.find(i)]);
-    share(sides_[i].tet, kOuterOfTet + apex, outer[without_.find(i)]);
+    const auto& [corners, tet] = sides_[i];
+    const unsigned apex = apex_of(stars_.mesh().tets[tet], corners);
+    share(tet, kInnerOfTet + apex, inner[within_.find(i)]);
+    share(tet, kOuterOfTet + apex, outer[without_.find(i)]);
   }
   for (const RegionsPiece::Meeting& m : meetings_) {
     out_.meetings.push_back({m.vertex, parts[m.part], inner[within_.find(m.inner)]});
@@ -137,15 +138,6 @@ RegionsPiece RegionSets::conclude(std::vector<RegionTally> tallies) {
 
 void RegionSets::share(std::uint32_t tet, unsigned which, std::uint32_t set) {
   out_.shared.push_back({stars_.tile().tet_id(tet) * kSetsOfTet + which, set});
-}
-
-/// Returns which of the tet's four vertices is not on the side.
-unsigned RegionSets::apex_of(const RegionSide& side) const {
-  const TetRow& tet = stars_.mesh().tets[side.tet];
-  const auto apex = std::find_if(tet.begin(), tet.end(), [&](std::uint64_t v) {
-    return std::find(side.vertices.begin(), side.vertices.end(), v) == side.vertices.end();
-  });
-  return static_cast<unsigned>(apex - tet.begin());
 }
 
 }  // namespace mw::audit

@@ -80,7 +80,6 @@ class RegionSets {
   void number_boundaries(const Numbers& parts);
   void take_tallies();
   void share(std::uint32_t tet, unsigned which, std::uint32_t set);
-  [[nodiscard]] unsigned apex_of(const RegionSide& side) const;
 
   const MeshStars& stars_;
   Label exterior_;

@@ -116,16 +116,13 @@ class RegionSweep {
   /// Returns a triangle as seen from its edge (v, other), or from vertex v when other is v.
   [[nodiscard]] BoundaryWing wing(std::uint32_t id, std::uint64_t v, std::uint64_t other) const {
     const auto& corners = side(id).vertices;
+    const TetRow& tet = stars_.mesh().tets[side(id).tet];
     BoundaryWing out{.side = id};
     for (const std::uint32_t corner : corners) {
       if (corner == v || corner == other) continue;
       (out.p == nullptr ? out.p : out.q) = &at(corner);
     }
-    for (const std::uint64_t corner : stars_.mesh().tets[side(id).tet]) {
-      if (std::find(corners.begin(), corners.end(), corner) == corners.end()) {
-        out.apex = &at(corner);
-      }
-    }
+    out.apex = &at(tet[apex_of(tet, corners)]);
     return out;
   }
 

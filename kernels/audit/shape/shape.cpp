@@ -60,10 +60,7 @@ class ShapeAudit {
   [[nodiscard]] bool points_out(const MeshFace& face, std::size_t side) const {
     const auto& [a, b, c] = face.vertices;
     const TetRow& tet = mesh_.tets[face.sides[side].tet];
-    const auto apex = std::find_if(tet.begin(), tet.end(), [&](std::uint64_t v) {
-      return std::find(face.vertices.begin(), face.vertices.end(), v) == face.vertices.end();
-    });
-    return orientation(at(*apex), at(a), at(b), at(c)) > 0;
+    return orientation(at(tet[apex_of(tet, face.vertices)]), at(a), at(b), at(c)) > 0;
   }
 
   void add_triangle(const MeshFace& face) {
