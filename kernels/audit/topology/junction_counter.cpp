@@ -58,7 +58,7 @@ DisjointSets JunctionCounter::link(const std::vector<std::uint64_t>& nodes) {
     return static_cast<std::uint32_t>(found - nodes.begin());
   };
   DisjointSets sets(nodes.size());
-  for (const Link& link : links_.sorted()) {
+  for (const Link& link : links_.take()) {
     sets.unite(row(link.a), row(link.b));
     --euler_[link.a / vertices_.count()];
   }
@@ -69,7 +69,7 @@ DisjointSets JunctionCounter::link(const std::vector<std::uint64_t>& nodes) {
 }
 
 void JunctionCounter::take(JunctionKind kind, JunctionsPiece& out) {
-  const std::vector<std::uint64_t>& nodes = nodes_.sorted();
+  const std::vector<std::uint64_t> nodes = nodes_.take();
   DisjointSets sets = link(nodes);
   std::vector<std::uint32_t> tally_of(ids_.size());
   for (const auto& [junction, id] : ids_) {

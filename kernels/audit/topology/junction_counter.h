@@ -3,12 +3,12 @@
 // Counts cells and components of junctions where labels meet.
 #pragma once
 
-#include <algorithm>
 #include <cstdint>
 #include <map>
 #include <span>
 #include <vector>
 
+#include "kernels/audit/topology/distinct_list.h"
 #include "kernels/audit/topology/junctions.h"
 #include "kernels/core/disjoint_sets.h"
 
@@ -21,34 +21,6 @@ struct JunctionVertices {
   std::vector<std::uint64_t> ids;  ///< ids in the whole, ascending
 
   [[nodiscard]] std::size_t count() const { return ids.size(); }
-};
-
-/// A list that is given the same values again and again.  Memory: at most twice the distinct ones,
-/// or kFirstLimit if that is more.
-template <class T>
-class DistinctList {
- public:
-  void add(const T& value) {
-    if (values_.size() == limit_) compact();
-    values_.push_back(value);
-  }
-  /// Returns the distinct values, ascending.
-  [[nodiscard]] const std::vector<T>& sorted() {
-    compact();
-    return values_;
-  }
-
- private:
-  static constexpr std::size_t kFirstLimit = std::size_t{1} << 16;
-
-  void compact() {
-    std::sort(values_.begin(), values_.end());
-    values_.erase(std::unique(values_.begin(), values_.end()), values_.end());
-    limit_ = std::max(kFirstLimit, 2 * values_.size());
-  }
-
-  std::vector<T> values_;
-  std::size_t limit_ = kFirstLimit;
 };
 
 /// Collects the cells of the junctions of one kind.  Labels are ascending and distinct.
@@ -67,6 +39,8 @@ class JunctionCounter {
   void take(JunctionKind kind, JunctionsPiece& out);
 
  private:
+  static constexpr std::size_t kFirstLimit = std::size_t{1} << 16;
+
   struct Link {
     std::uint64_t a = 0;
     std::uint64_t b = 0;
@@ -84,8 +58,8 @@ class JunctionCounter {
   std::map<JunctionLabels, std::uint64_t> ids_;
   JunctionLabels last_junction_{};  ///< what id() was asked for last
   std::uint64_t last_id_ = 0;
-  DistinctList<std::uint64_t> nodes_;  ///< vertices in junctions
-  DistinctList<Link> links_;
+  DistinctList<std::uint64_t> nodes_{kFirstLimit};  ///< vertices in junctions
+  DistinctList<Link> links_{kFirstLimit};
   std::vector<std::int64_t> euler_;  ///< by id
 };
 

@@ -100,20 +100,12 @@ void PairSet::add(std::uint32_t a, std::uint32_t b) {
   PartPair& seen = recent_[(pair.a * 2654435761U + pair.b * 40503U) % kRecent];
   if (seen == pair) return;
   seen = pair;
-  if (pairs_.size() == limit_) compact();
-  pairs_.push_back(pair);
-}
-
-void PairSet::compact() {
-  std::sort(pairs_.begin(), pairs_.end());
-  pairs_.erase(std::unique(pairs_.begin(), pairs_.end()), pairs_.end());
-  limit_ = std::max(kFirstLimit, 2 * pairs_.size());
+  pairs_.add(pair);
 }
 
 std::vector<PartPair> PairSet::take() {
-  compact();
   recent_.assign(kRecent, {});
-  return std::exchange(pairs_, {});
+  return pairs_.take();
 }
 
 void PartGraph::add_vertex(std::span<const std::uint32_t> parts,

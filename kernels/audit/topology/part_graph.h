@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "kernels/audit/topology/betti.h"
+#include "kernels/audit/topology/distinct_list.h"
 #include "kernels/audit/topology/junctions.h"
 #include "kernels/core/label.h"
 
@@ -36,10 +37,7 @@ class PairSet {
   static constexpr std::size_t kFirstLimit = std::size_t{1} << 20;
   static constexpr std::size_t kRecent = std::size_t{1} << 14;
 
-  void compact();
-
-  std::vector<PartPair> pairs_;
-  std::size_t limit_ = kFirstLimit;
+  DistinctList<PartPair> pairs_{kFirstLimit};
   std::vector<PartPair> recent_ = std::vector<PartPair>(kRecent);  ///< filter only, never read out
 };
 
