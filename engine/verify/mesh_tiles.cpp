@@ -56,11 +56,8 @@ void MeshTiles::write_vertices(std::span<const io::Position> positions) {
     const bool is_finite =
         std::isfinite(written[0]) && std::isfinite(written[1]) && std::isfinite(written[2]);
     if (!is_finite) endless_.add([&] { return std::to_string(vertex); });
-    std::array<double, 3> corner{};
-    const audit::Position p = in_array(written);
-    for (std::size_t k = 0; k < 3 && is_finite; ++k)
-      corner[k] = (p[k] - at.origin[k]) / at.spacing[k];
-    tile_of_vertex_.push_back(grid_.at(corner));
+    tile_of_vertex_.push_back(
+        grid_.at(is_finite ? at.in_voxels(in_array(written)) : audit::Position{}));
     is_used_.push_back(false);
   }
   positions_.append(std::as_bytes(positions));

@@ -103,6 +103,12 @@ struct VoxelTile {
 struct Frame {
   std::array<double, 3> spacing{1, 1, 1};
   std::array<double, 3> origin{0, 0, 0};
+
+  /// Returns a point as multiples of a voxel's edges, from the first corner.
+  [[nodiscard]] Position in_voxels(const Position& p) const {
+    return {(p[0] - origin[0]) / spacing[0], (p[1] - origin[1]) / spacing[1],
+            (p[2] - origin[2]) / spacing[2]};
+  }
 };
 
 }  // namespace mw::audit

@@ -55,10 +55,9 @@ class TriangleCollector {
   [[nodiscard]] VoxelTriangle corners(const std::array<std::uint32_t, 3>& vertices) const {
     VoxelTriangle out{};
     for (std::size_t i = 0; i < 3; ++i) {
-      const Position& p = mesh_.vertices[vertices[i]];
+      const VoxelPoint p = frame_.in_voxels(mesh_.vertices[vertices[i]]);
       for (std::size_t k = 0; k < 3; ++k) {
-        const double voxels = (p[k] - frame_.origin[k]) / frame_.spacing[k];
-        out[i][k] = std::clamp(voxels, -margin_, shape_[k] + margin_);
+        out[i][k] = std::clamp(p[k], -margin_, shape_[k] + margin_);
       }
     }
     return out;

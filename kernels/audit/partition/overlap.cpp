@@ -43,12 +43,6 @@ class LineFinder {
   }
 
  private:
-  [[nodiscard]] Position in_voxels(std::uint32_t vertex) const {
-    Position out = stars_.mesh().vertices[vertex];
-    for (std::size_t k = 0; k < 3; ++k) out[k] = (out[k] - frame_.origin[k]) / frame_.spacing[k];
-    return out;
-  }
-
   /// Twice the area of the triangle p, q, (x, y), seen along z.
   static double area2(const Position& p, const Position& q, double x, double y) {
     return (q[0] - p[0]) * (y - p[1]) - (q[1] - p[1]) * (x - p[0]);
@@ -64,8 +58,10 @@ class LineFinder {
   }
 
   void cross_lines(const MeshFace& face) {
-    const std::array<Position, 3> p{in_voxels(face.vertices[0]), in_voxels(face.vertices[1]),
-                                    in_voxels(face.vertices[2])};
+    const auto& [a, b, c] = face.vertices;
+    const auto& at = stars_.mesh().vertices;
+    const std::array<Position, 3> p{frame_.in_voxels(at[a]), frame_.in_voxels(at[b]),
+                                    frame_.in_voxels(at[c])};
     const double area = area2(p[0], p[1], p[2][0], p[2][1]);
     if (area == 0) return;
     const int enters = side_of_tet(face, area);

@@ -59,10 +59,9 @@ FaceTally tally_faces(const MeshTile& tile, const Frame& frame, Index3 shape, un
   const auto add = [&](unsigned axis, bool is_high, const std::array<std::uint64_t, 3>& rows) {
     std::array<std::array<std::int64_t, 2>, 3> corners{};
     for (std::size_t c = 0; c < 3; ++c) {
-      const Position& at = tile.mesh.vertices[rows[c]];
+      const Position at = frame.in_voxels(tile.mesh.vertices[rows[c]]);
       for (std::size_t i = 0; i < 2; ++i) {
-        const std::size_t k = (axis + 1 + i) % 3;
-        corners[c][i] = std::llround((at[k] - frame.origin[k]) / frame.spacing[k] * kUnits);
+        corners[c][i] = std::llround(at[(axis + 1 + i) % 3] * kUnits);
       }
     }
     out.add(axis, is_high, corners);

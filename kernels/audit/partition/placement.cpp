@@ -77,10 +77,7 @@ PlaceTally places_of_mesh(const MeshTile& tile, std::size_t label_count, const F
     if (label >= label_count || !tile.owns_tet(t)) continue;
     std::array<Vector3, 4> p{};
     for (std::size_t i = 0; i < 4; ++i) {
-      const Position& at = tile.mesh.vertices[tile.mesh.tets[t][i]];
-      for (std::size_t k = 0; k < 3; ++k) {
-        p[i][k] = (at[k] - frame.origin[k]) / frame.spacing[k] - middle[k];
-      }
+      p[i] = minus(frame.in_voxels(tile.mesh.vertices[tile.mesh.tets[t][i]]), middle);
     }
     const double volume = std::abs(volume6(p[0], p[1], p[2], p[3])) / 6;
     out.volumes[label] += volume;

@@ -56,15 +56,6 @@ Int128 size6(const std::vector<LatticePoint>& points, const TetRow& t) {
   return det < 0 ? -det : det;
 }
 
-/// Vertices as multiples of a voxel's edges, from the first corner.
-std::vector<Position> in_voxels(const AuditMesh& mesh, const Frame& frame) {
-  std::vector<Position> out(mesh.vertices.begin(), mesh.vertices.end());
-  for (Position& p : out) {
-    for (std::size_t k = 0; k < 3; ++k) p[k] = (p[k] - frame.origin[k]) / frame.spacing[k];
-  }
-  return out;
-}
-
 void check_shape(Index3 shape) {
   constexpr std::int64_t kMaxVoxels = std::int64_t{1} << 20;
   const std::int64_t longest = std::max({shape.x, shape.y, shape.z});
@@ -141,7 +132,8 @@ VolumeTally tally_volumes(const MeshTile& tile, std::size_t label_count, const F
   VolumeTally out{std::vector<Int128>(label_count), std::vector<CompensatedSum>(label_count)};
   const AuditMesh& mesh = tile.mesh;
   const auto exact = lattice_points(mesh, frame);
-  const std::vector<Position> rounded = in_voxels(mesh, frame);
+  std::vector<Position> rounded(mesh.vertices.begin(), mesh.vertices.end());
+  for (Position& p : rounded) p = frame.in_voxels(p);
   out.is_exact = exact.has_value();
   for (std::size_t t = 0; t < mesh.tets.size(); ++t) {
     const Label label = mesh.labels[t];
