@@ -6,18 +6,11 @@
 #include <cstdint>
 
 #include "kernels/core/index.h"
+#include "kernels/core/mix_bits.h"
 
 namespace mw {
 
 __extension__ using Wide = unsigned __int128;
-
-/// Bijective mixing of 64 bits (the finaliser of splitmix64).
-[[nodiscard]] constexpr std::uint64_t mix_bits(std::uint64_t x) {
-  x += 0x9e3779b97f4a7c15U;
-  x = (x ^ (x >> 30)) * 0xbf58476d1ce4e5b9U;
-  x = (x ^ (x >> 27)) * 0x94d049bb133111ebU;
-  return x ^ (x >> 31);
-}
 
 /// A number for a place (each coordinate below 2^21), the same in every run.
 [[nodiscard]] constexpr std::uint64_t hash_position(std::uint64_t seed, Index3 position) {

@@ -7,19 +7,12 @@
 #include <cmath>
 
 #include "kernels/audit/partition/box_planes.h"
+#include "kernels/core/mix_bits.h"
 
 namespace mw::audit {
 namespace {
 
 constexpr double kUnits = 4096;  // in a voxel
-
-/// Returns a number whose bits all depend on all bits of both (the finaliser of SplitMix64).
-std::uint64_t mixed(std::uint64_t before, std::uint64_t next) {
-  std::uint64_t z = (before ^ next) + 0x9e3779b97f4a7c15U;
-  z = (z ^ (z >> 30U)) * 0xbf58476d1ce4e5b9U;
-  z = (z ^ (z >> 27U)) * 0x94d049bb133111ebU;
-  return z ^ (z >> 31U);
-}
 
 bool has_axis(unsigned axes, unsigned axis) {
   return (axes >> axis & 1U) != 0;
@@ -35,7 +28,9 @@ void FaceTally::add(unsigned axis, bool is_high,
   for (std::uint64_t i = 0; i < side.hashes.size(); ++i) {
     std::uint64_t hash = i;
     for (const auto& corner : corners) {
-      for (const std::int64_t place : corner) hash = mixed(hash, static_cast<std::uint64_t>(place));
+      for (const std::int64_t place : corner) {
+        hash = mix_bits(hash ^ static_cast<std::uint64_t>(place));
+      }
     }
     side.hashes[i] += hash;
   }
