@@ -76,6 +76,11 @@ struct MeshTile {
   [[nodiscard]] bool owns_tet(std::size_t tet) const {
     return owned.empty() || owns(*std::min_element(mesh.tets[tet].begin(), mesh.tets[tet].end()));
   }
+  /// Returns whether other tiles have the tet too, as they own a vertex of it.
+  [[nodiscard]] bool is_shared(std::size_t tet) const {
+    const TetRow& t = mesh.tets[tet];
+    return !std::all_of(t.begin(), t.end(), [this](std::uint64_t v) { return owns(v); });
+  }
   [[nodiscard]] std::uint64_t vertex_id(std::uint64_t vertex) const {
     return vertex_ids.empty() ? vertex : vertex_ids[vertex];
   }

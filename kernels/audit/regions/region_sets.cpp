@@ -60,9 +60,7 @@ RegionSets::RegionSets(const MeshStars& stars, Label exterior)
 
 /// True if another tile has the tet too, and its label is looked at.
 bool RegionSets::is_shared(std::uint32_t tet) const {
-  const TetRow& row = stars_.mesh().tets[tet];
-  if (class_of(tet) >= exterior_ || stars_.leaves_out(tet)) return false;
-  return !std::all_of(row.begin(), row.end(), [&](std::uint64_t v) { return stars_.owns(v); });
+  return class_of(tet) < exterior_ && !stars_.leaves_out(tet) && stars_.tile().is_shared(tet);
 }
 
 bool RegionSets::is_shared_side(std::uint32_t side) const {

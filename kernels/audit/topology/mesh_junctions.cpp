@@ -17,11 +17,9 @@ JunctionVertices vertices_of(const MeshStars& stars) {
     out.shared.push_back(!stars.owns(v));
     out.ids.push_back(stars.tile().vertex_id(v));
   }
-  for (const TetRow& tet : stars.mesh().tets) {
-    const bool is_shared =
-        !std::all_of(tet.begin(), tet.end(), [&](std::uint64_t v) { return stars.owns(v); });
-    if (!is_shared) continue;
-    for (const std::uint64_t v : tet) out.shared[v] = true;
+  for (std::size_t t = 0; t < stars.mesh().tets.size(); ++t) {
+    if (!stars.tile().is_shared(t)) continue;
+    for (const std::uint64_t v : stars.mesh().tets[t]) out.shared[v] = true;
   }
   return out;
 }
