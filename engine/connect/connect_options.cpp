@@ -7,6 +7,7 @@
 
 #include "engine/settings/number_text.h"
 #include "io/file/errors.h"
+#include "kernels/core/sort_distinct.h"
 
 namespace mw::engine {
 
@@ -55,8 +56,7 @@ SplitRule ConnectOptions::all_split() const {
   SplitRule out = split;
   out.all = out.all || cohesive.all;
   for (const auto& [bottom, top] : cohesive.pairs) out.pairs.emplace_back(std::minmax(bottom, top));
-  std::sort(out.pairs.begin(), out.pairs.end());
-  out.pairs.erase(std::unique(out.pairs.begin(), out.pairs.end()), out.pairs.end());
+  sort_distinct(out.pairs);
   return out;
 }
 

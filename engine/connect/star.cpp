@@ -6,6 +6,8 @@
 #include <algorithm>
 #include <numeric>
 
+#include "kernels/core/sort_distinct.h"
+
 namespace mw::engine {
 namespace {
 
@@ -93,8 +95,7 @@ std::size_t StarSets::count() const {
 std::vector<SplitEdge> split_edges(std::span<const StarTet> star) {
   std::vector<std::uint64_t> others;
   for (const StarTet& tet : star) others.insert(others.end(), tet.others.begin(), tet.others.end());
-  std::sort(others.begin(), others.end());
-  others.erase(std::unique(others.begin(), others.end()), others.end());
+  sort_distinct(others);
   std::vector<SplitEdge> out;
   for (const std::uint64_t other : others) {
     SplitEdge edge = fans_at(star, other);

@@ -6,6 +6,8 @@
 #include <algorithm>
 #include <map>
 
+#include "kernels/core/sort_distinct.h"
+
 namespace mw::engine {
 
 VertexUses::VertexUses(const WindowGrid& grid)
@@ -25,8 +27,7 @@ std::vector<std::size_t> VertexUses::lines_of(std::span<const BlockVertex> verti
   std::vector<std::size_t> out;
   out.reserve(vertices.size());
   for (const BlockVertex& v : vertices) out.push_back(line(home(v.position)));
-  std::sort(out.begin(), out.end());
-  out.erase(std::unique(out.begin(), out.end()), out.end());
+  sort_distinct(out);
   return out;
 }
 

@@ -6,6 +6,7 @@
 
 #include "engine/store/run_store.h"
 #include "kernels/core/error.h"
+#include "kernels/core/sort_distinct.h"
 
 namespace mw::engine {
 
@@ -20,8 +21,7 @@ std::optional<JournalRecord> RunStore::close_group(std::vector<Extent>& retired)
   if (torn_) return std::nullopt;
   Group group = std::exchange(group_, {});
   group_since_ = Clock::now();
-  std::sort(group.slots.begin(), group.slots.end());
-  group.slots.erase(std::unique(group.slots.begin(), group.slots.end()), group.slots.end());
+  sort_distinct(group.slots);
   JournalRecord record;
   for (std::uint64_t slot : group.slots) {
     // An empty one has become a part of a later march's block, which is in this group as well.

@@ -13,6 +13,7 @@
 #include "kernels/audit/shape/volumes.h"
 #include "kernels/core/error.h"
 #include "kernels/core/layers.h"
+#include "kernels/core/sort_distinct.h"
 #include "kernels/core/ten_nodes.h"
 
 namespace mw::engine {
@@ -115,8 +116,7 @@ void MeshTiles::measure_curved() {
   curved_tets_.each_batch<CurvedTet>([&](std::span<const CurvedTet> batch) {
     std::vector<std::uint64_t> ids;
     for (const CurvedTet& t : batch) ids.insert(ids.end(), t.rows.begin(), t.rows.end());
-    std::sort(ids.begin(), ids.end());
-    ids.erase(std::unique(ids.begin(), ids.end()), ids.end());
+    sort_distinct(ids);
     std::vector<audit::Position> places;
     read_positions(ids, places);
     for (const CurvedTet& t : batch) {
@@ -169,9 +169,7 @@ LoadedMesh MeshTiles::make(const std::vector<Tet>& tets) const {
     out.is_shared.push_back(tet.is_shared != 0);
     out.vertex_ids.insert(out.vertex_ids.end(), tet.vertices.begin(), tet.vertices.end());
   }
-  std::sort(out.vertex_ids.begin(), out.vertex_ids.end());
-  out.vertex_ids.erase(std::unique(out.vertex_ids.begin(), out.vertex_ids.end()),
-                       out.vertex_ids.end());
+  sort_distinct(out.vertex_ids);
   for (const Tet& tet : tets) {
     audit::TetRow& row = out.tets.emplace_back();
     for (std::size_t i = 0; i < 4; ++i) {

@@ -11,6 +11,7 @@
 #include "kernels/audit/subject.h"
 #include "kernels/audit/topology/junctions.h"
 #include "kernels/audit/topology/part_graph.h"
+#include "kernels/core/sort_distinct.h"
 
 namespace mw::engine {
 
@@ -20,8 +21,7 @@ class TileLabels {
  public:
   /// label_count is that of the whole; numbers from there on in `seen` are no labels.
   TileLabels(std::vector<Label> seen, std::size_t label_count) : whole_(std::move(seen)) {
-    std::sort(whole_.begin(), whole_.end());
-    whole_.erase(std::unique(whole_.begin(), whole_.end()), whole_.end());
+    sort_distinct(whole_);
     whole_.erase(std::lower_bound(whole_.begin(), whole_.end(), label_count), whole_.end());
     exterior_ = static_cast<Label>(label_count);
   }

@@ -7,6 +7,8 @@
 #include <span>
 #include <utility>
 
+#include "kernels/core/sort_distinct.h"
+
 namespace mw::io {
 namespace {
 
@@ -102,8 +104,7 @@ class Rounds {
         if (!c.is_label() && !is_settled_[c.other]) out.push_back(c.other);
       }
     }
-    std::sort(out.begin(), out.end());
-    out.erase(std::unique(out.begin(), out.end()), out.end());
+    sort_distinct(out);
     return out;
   }
 

@@ -8,6 +8,7 @@
 #include "io/file/errors.h"
 #include "io/mesh/grouped/group_names.h"
 #include "kernels/core/assert.h"
+#include "kernels/core/sort_distinct.h"
 
 namespace mw::io {
 
@@ -35,8 +36,7 @@ std::vector<Label> ranks_of(const SurfaceHeader& header) {
       if (run.side == Side::kInterface) ranks.push_back(run.outside);
     }
   }
-  std::sort(ranks.begin(), ranks.end());
-  ranks.erase(std::unique(ranks.begin(), ranks.end()), ranks.end());
+  sort_distinct(ranks);
   return ranks;
 }
 

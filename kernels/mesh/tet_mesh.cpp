@@ -5,6 +5,8 @@
 
 #include <algorithm>
 
+#include "kernels/core/sort_distinct.h"
+
 namespace mw {
 namespace {
 
@@ -24,8 +26,7 @@ LabelBits bits_of(std::span<const BlockTet> tets) {
   for (const BlockTet& t : tets) {
     if (t.label != labels.back()) labels.push_back(t.label);
   }
-  std::sort(labels.begin(), labels.end());
-  labels.erase(std::unique(labels.begin(), labels.end()), labels.end());
+  sort_distinct(labels);
   return LabelBits(labels);
 }
 

@@ -4,6 +4,7 @@
 #include "kernels/odt/replacement.h"
 
 #include "kernels/core/disjoint_sets.h"
+#include "kernels/core/sort_distinct.h"
 #include "kernels/odt/tet_faces.h"
 #include "kernels/quality/mesh_quality.h"
 
@@ -156,8 +157,7 @@ class Patches {
       for (LocalVertex v : all_.tets[t].vertices) list.emplace_back(root(t), v);
     }
     for (auto& list : uses) {
-      std::sort(list.begin(), list.end());
-      list.erase(std::unique(list.begin(), list.end()), list.end());
+      sort_distinct(list);
     }
     std::vector<Use> lost;
     std::set_difference(uses[0].begin(), uses[0].end(), uses[1].begin(), uses[1].end(),

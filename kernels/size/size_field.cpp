@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "kernels/core/index.h"
+#include "kernels/core/sort_distinct.h"
 
 namespace mw {
 namespace {
@@ -98,8 +99,7 @@ constexpr std::size_t kMostLimits = 64;
 
 /// Returns the values that occur, ascending.
 std::vector<float> distinct(std::vector<float> values) {
-  std::sort(values.begin(), values.end());
-  values.erase(std::unique(values.begin(), values.end()), values.end());
+  sort_distinct(values);
   return values;
 }
 

@@ -15,6 +15,7 @@
 #include "io/file/errors.h"
 #include "io/mesh/open_mesh.h"
 #include "kernels/core/error.h"
+#include "kernels/core/sort_distinct.h"
 
 namespace mw::cli {
 namespace {
@@ -343,8 +344,7 @@ std::vector<RawLabel> merged(std::vector<RawLabel> labels,
     });
     if (rule != rules.end()) label = rule->to;
   }
-  std::sort(labels.begin(), labels.end());
-  labels.erase(std::unique(labels.begin(), labels.end()), labels.end());
+  sort_distinct(labels);
   return labels;
 }
 

@@ -7,6 +7,8 @@
 #include <bit>
 #include <cmath>
 
+#include "kernels/core/sort_distinct.h"
+
 namespace mw::cli {
 namespace {
 
@@ -68,8 +70,7 @@ void ViewData::collect_rows() {
       for (const std::uint64_t row : mesh_.facet(number).rows) rows_.push_back(row);
     }
   }
-  std::sort(rows_.begin(), rows_.end());
-  rows_.erase(std::unique(rows_.begin(), rows_.end()), rows_.end());
+  sort_distinct(rows_);
   for (std::size_t i = 0; i < rows_.size(); ++i) {
     const io::Position p = mesh_.node(rows_[i]);
     if (i == 0) lo_ = hi_ = p;

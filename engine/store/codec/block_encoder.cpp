@@ -9,6 +9,7 @@
 #include "engine/store/codec/block_codec.h"
 #include "engine/store/codec/byte_codes.h"
 #include "io/codec/checksums.h"
+#include "kernels/core/sort_distinct.h"
 
 namespace mw::engine {
 namespace {
@@ -58,8 +59,7 @@ class Encoder {
   void labels() {
     for (const BlockTet& t : mesh_.tets) labels_.push_back(t.label);
     for (const BlockSample& s : mesh_.samples) labels_.push_back(s.side);
-    std::sort(labels_.begin(), labels_.end());
-    labels_.erase(std::unique(labels_.begin(), labels_.end()), labels_.end());
+    sort_distinct(labels_);
     out_.varint(labels_.size());
     Label before = 0;
     for (Label label : labels_) out_.varint(label - std::exchange(before, label));

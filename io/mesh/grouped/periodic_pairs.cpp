@@ -14,6 +14,7 @@
 #include "io/file/errors.h"
 #include "io/file/sink/atomic_file.h"
 #include "io/mesh/grouped/fixed_fields.h"
+#include "kernels/core/sort_distinct.h"
 
 namespace mw::io {
 namespace {
@@ -57,8 +58,7 @@ std::vector<std::uint64_t> face_rows(GroupedMesh& mesh, unsigned axes) {
       for (const std::uint64_t row : mesh.facet_nodes(mesh.facet(f))) rows.push_back(row);
     }
   }
-  std::sort(rows.begin(), rows.end());
-  rows.erase(std::unique(rows.begin(), rows.end()), rows.end());
+  sort_distinct(rows);
   return rows;
 }
 

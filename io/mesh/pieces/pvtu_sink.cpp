@@ -10,6 +10,7 @@
 #include "io/mesh/pieces/pvtu.h"
 #include "io/mesh/vtu/vtu_layout.h"
 #include "io/mesh/xml_text.h"
+#include "kernels/core/sort_distinct.h"
 
 namespace mw::io {
 namespace {
@@ -58,8 +59,7 @@ std::vector<std::uint64_t> rows_of(const MeshData& mesh, std::span<const std::ui
   for (const std::uint64_t t : tets) {
     rows.insert(rows.end(), mesh.tets[t].begin(), mesh.tets[t].end());
   }
-  std::sort(rows.begin(), rows.end());
-  rows.erase(std::unique(rows.begin(), rows.end()), rows.end());
+  sort_distinct(rows);
   rows.shrink_to_fit();
   return rows;
 }

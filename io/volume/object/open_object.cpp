@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "io/file/errors.h"
+#include "kernels/core/sort_distinct.h"
 
 namespace mw::io {
 namespace {
@@ -71,8 +72,7 @@ class SeedSearch {
 }  // namespace
 
 ObjectView open_object(ScaledVolume scaled, ObjectLabels labels, const Box3& bounds) {
-  std::sort(labels.begin(), labels.end());
-  labels.erase(std::unique(labels.begin(), labels.end()), labels.end());
+  sort_distinct(labels);
   if (std::binary_search(labels.begin(), labels.end(), kNotTheObject)) {
     throw Error(ErrorKind::kUsage,
                 text("--object: label ", kNotTheObject, " stands for all that is not the object"));

@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "kernels/audit/partition/box_planes.h"
+#include "kernels/core/sort_distinct.h"
 #include "kernels/core/vector3.h"
 
 namespace mw::audit {
@@ -32,8 +33,7 @@ class TriangleCollector {
     for (const FaceSide& side : face.sides) {
       labels_.push_back(std::min(mesh_.labels[side.tet], unknown_));
     }
-    std::sort(labels_.begin(), labels_.end());
-    labels_.erase(std::unique(labels_.begin(), labels_.end()), labels_.end());
+    sort_distinct(labels_);
     // There are more than two only where P2 fails; the chain names each label all the same.
     for (std::size_t i = 1; i < labels_.size(); ++i) {
       triangles_.push_back({corners(face.vertices), {labels_[i - 1], labels_[i]}});

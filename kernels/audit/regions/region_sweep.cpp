@@ -6,6 +6,7 @@
 
 #include "kernels/audit/regions/outer_turn.h"
 #include "kernels/audit/regions/region_sets.h"
+#include "kernels/core/sort_distinct.h"
 
 namespace mw::audit {
 namespace {
@@ -92,8 +93,7 @@ class RegionSweep {
         if (other > v) edges_.push_back({other, label});
       }
     }
-    std::sort(edges_.begin(), edges_.end());
-    edges_.erase(std::unique(edges_.begin(), edges_.end()), edges_.end());
+    sort_distinct(edges_);
     rim_edges_.clear();
     for (const auto& [label, rim] : rims_) {
       for (const std::uint64_t other : side(rim).vertices) {

@@ -8,6 +8,8 @@
 #include <utility>
 #include <vector>
 
+#include "kernels/core/sort_distinct.h"
+
 namespace mw::audit {
 
 /// A list that is given the same values again and again.  Memory: at most twice the distinct ones,
@@ -29,8 +31,7 @@ class DistinctList {
 
  private:
   void compact() {
-    std::sort(values_.begin(), values_.end());
-    values_.erase(std::unique(values_.begin(), values_.end()), values_.end());
+    sort_distinct(values_);
     limit_ = std::max(first_limit_, 2 * values_.size());
   }
 

@@ -6,6 +6,7 @@
 
 #include "kernels/audit/topology/mesh_parts.h"
 #include "kernels/audit/topology/parts_union.h"
+#include "kernels/core/sort_distinct.h"
 
 namespace mw::audit {
 namespace {
@@ -45,8 +46,7 @@ class MeshSweep {
     around_.clear();
     if (edges_.is_on_exterior(v)) around_.push_back(exterior_part_);
     for (const std::uint32_t tet : stars_.star(v)) around_.push_back(parts_[tet]);
-    std::sort(around_.begin(), around_.end());
-    around_.erase(std::unique(around_.begin(), around_.end()), around_.end());
+    sort_distinct(around_);
     graph_.add_vertex(around_, part_class_);
     classes_.clear();
     for (const std::uint32_t part : around_) classes_.push_back(part_class_[part]);

@@ -1,10 +1,10 @@
 // SPDX-FileCopyrightText: The mwmesh authors
 // SPDX-License-Identifier: Apache-2.0
 // Junctions of a mesh: every vertex, edge and triangle with all labels around it.
-#include <algorithm>
 
 #include "kernels/audit/topology/junction_counter.h"
 #include "kernels/audit/topology/mesh_parts.h"
+#include "kernels/core/sort_distinct.h"
 
 namespace mw::audit {
 namespace {
@@ -46,8 +46,7 @@ class MeshJunctionSweep {
   }
 
   [[nodiscard]] std::span<const Label> distinct_labels() {
-    std::sort(labels_.begin(), labels_.end());
-    labels_.erase(std::unique(labels_.begin(), labels_.end()), labels_.end());
+    sort_distinct(labels_);
     return labels_;
   }
 

@@ -6,6 +6,8 @@
 #include <algorithm>
 #include <utility>
 
+#include "kernels/core/sort_distinct.h"
+
 namespace mw::audit {
 
 Parts parts_of_mesh(const MeshStars& stars, Label exterior) {
@@ -37,9 +39,7 @@ EdgeWalk::EdgeWalk(const MeshStars& stars, Label exterior)
       exterior_edges_.push_back(std::uint64_t{a} << 32 | b);
     }
   });
-  std::sort(exterior_edges_.begin(), exterior_edges_.end());
-  exterior_edges_.erase(std::unique(exterior_edges_.begin(), exterior_edges_.end()),
-                        exterior_edges_.end());
+  sort_distinct(exterior_edges_);
 }
 
 void EdgeWalk::collect(std::uint32_t v) {

@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "kernels/core/disjoint_sets.h"
+#include "kernels/core/sort_distinct.h"
 
 namespace mw::audit {
 namespace {
@@ -205,8 +206,7 @@ Cavities cavities_of_interfaces(std::span<const Label> part_class,
     return JunctionLabels{a, b, kNoLabel, kNoLabel};
   };
   for (const PartPair& p : face_pairs) groups.push_back(group_of(p));
-  std::sort(groups.begin(), groups.end());
-  groups.erase(std::unique(groups.begin(), groups.end()), groups.end());
+  sort_distinct(groups);
   std::vector<GroupedPair> pairs;
   for (const PartPair& p : face_pairs) {
     const auto found = std::lower_bound(groups.begin(), groups.end(), group_of(p));
