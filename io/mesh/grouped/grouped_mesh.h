@@ -143,7 +143,7 @@ class GroupedMesh {
   [[nodiscard]] NodeRows wedge_nodes(const Wedge& wedge);
 
  private:
-  friend class MeshGrouping;
+  friend class GroupedSink;
 
   explicit GroupedMesh(const std::filesystem::path& folder);
 

@@ -6,12 +6,7 @@
 #include <algorithm>
 
 #include "io/file/errors.h"
-#include "io/file/scratch/external_sort.h"
-#include "io/labels/label_set.h"
 #include "io/mesh/grouped/curved_nodes.h"
-#include "io/mesh/grouped/grouped_mesh.h"
-#include "io/mesh/merged_vertices.h"
-#include "io/mesh/mesh_sink.h"
 #include "kernels/core/assert.h"
 #include "kernels/core/tet_facets.h"
 #include "kernels/core/vector3.h"
@@ -31,74 +26,29 @@ std::array<std::uint64_t, 3> facet_rows(const TetRows& tet, std::uint64_t opposi
 
 }  // namespace
 
-/// Takes vertices and tets, then groups them.
-class MeshGrouping {
- public:
-  MeshGrouping(const std::filesystem::path& folder, Element element);
-
-  void begin(const MeshHeader& header) {
-    if (mesh_.element_ == Element::kCurvedTet10 && header.record.has_doubles) {
-      throw Error(ErrorKind::kUsage,
-                  "tet10-curved: not for a mesh with doubled vertices (--split, --cohesive, "
-                  "--open-hinges); tet10 is");
-    }
-    mesh_.header_ = header;
-    mesh_.header_.record.curved = mesh_.element_ == Element::kCurvedTet10;
-    auto& promises = mesh_.header_.record.promises;
-    if (mesh_.header_.record.curved && promises) {
-      promises->quality_floor *= kCurvedFloor;
-      promises->max_distance.reset();
-    }
-    if (header.record.has_doubles) doubles_.emplace(folder_, kSortBytes);
-  }
-  void add_vertices(std::span<const Position> positions);
-  void add_tets(std::span<const TetRows> tets, std::span<const RawLabel> labels);
-  void add_values(std::span<const double> rows) {
-    for (const double value : rows) values_.append(value);
-  }
-  /// Called once, after everything was added.
-  void group();
-  [[nodiscard]] GroupedMesh& mesh() { return mesh_; }
-
- private:
-  static constexpr std::size_t kSortBytes = 8 << 20;
-  /// Three ascending rows, the first one for doubled vertices, and 4 * tet + opposite corner.
-  using FaceRecord = std::array<std::uint64_t, 4>;
-  using Faces = ExternalSort<4>;
-  /// Side << 32 | first, second, 4 * tet + opposite corner of the first, and of the second.
-  using Facets = ExternalSort<4>;
-
-  /// Returns the row of the vertex that `row` doubles, or `row`.
-  [[nodiscard]] std::uint64_t first_of(std::uint64_t row) const {
-    return doubles_ ? doubles_->first(row) : row;
-  }
-  void find_box();
-  void sort_tets(Faces& faces);
-  void place_tet(TetRows tet, Faces& faces);
-  void place_values(std::uint64_t tet);
-  void pair_faces(Faces& faces, Facets& facets);
-  void add_facet(std::span<const FaceRecord> sharing, Facets& facets);
-  void number_facets(Facets& facets);
-  void find_wedges();
-  void add_wedges(const FacetGroup& group, bool is_first_bottom);
-  void find_middles();
-
-  std::filesystem::path folder_;
-  GroupedMesh mesh_;
-  ScratchFile tets_;          ///< four rows and the label of each, as they came
-  PagedFile<double> values_;  ///< those of tets as they came
-  LabelSet labels_;
-  std::optional<DoubledVertices> doubles_;
-  Position lo_{};
-  Position hi_{};
-};
-
-MeshGrouping::MeshGrouping(const std::filesystem::path& folder, Element element)
-    : folder_(folder), mesh_(folder), tets_(folder), values_(folder) {
+GroupedSink::GroupedSink(const std::filesystem::path& folder, std::unique_ptr<GroupedWriter> writer,
+                         Element element)
+    : folder_(folder), mesh_(folder), tets_(folder), values_(folder), writer_(std::move(writer)) {
   mesh_.element_ = element;
 }
 
-void MeshGrouping::add_vertices(std::span<const Position> positions) {
+void GroupedSink::begin(const MeshHeader& header) {
+  if (mesh_.element_ == Element::kCurvedTet10 && header.record.has_doubles) {
+    throw Error(ErrorKind::kUsage,
+                "tet10-curved: not for a mesh with doubled vertices (--split, --cohesive, "
+                "--open-hinges); tet10 is");
+  }
+  mesh_.header_ = header;
+  mesh_.header_.record.curved = mesh_.element_ == Element::kCurvedTet10;
+  auto& promises = mesh_.header_.record.promises;
+  if (mesh_.header_.record.curved && promises) {
+    promises->quality_floor *= kCurvedFloor;
+    promises->max_distance.reset();
+  }
+  if (header.record.has_doubles) doubles_.emplace(folder_, kSortBytes);
+}
+
+void GroupedSink::write_vertices(std::span<const Position> positions) {
   for (const Position& p : positions) {
     if (mesh_.vertices_.size() == 0) lo_ = hi_ = p;
     for (std::size_t k = 0; k < 3; ++k) {
@@ -110,7 +60,7 @@ void MeshGrouping::add_vertices(std::span<const Position> positions) {
   if (doubles_) doubles_->add(positions);
 }
 
-void MeshGrouping::add_tets(std::span<const TetRows> tets, std::span<const RawLabel> labels) {
+void GroupedSink::write_tets(std::span<const TetRows> tets, std::span<const RawLabel> labels) {
   MW_ASSERT(tets.size() == labels.size());
   for (std::size_t i = 0; i < tets.size(); ++i) {
     const auto [a, b, c, d] = tets[i];
@@ -120,7 +70,24 @@ void MeshGrouping::add_tets(std::span<const TetRows> tets, std::span<const RawLa
   labels_.insert(labels);
 }
 
-void MeshGrouping::group() {
+void GroupedSink::write_values(std::span<const double> rows) {
+  for (const double value : rows) values_.append(value);
+}
+
+void GroupedSink::finish() {
+  group();
+  if (writer_) writer_->write(mesh_);
+}
+
+std::uint64_t GroupedSink::buffer_bytes() const {
+  constexpr std::uint64_t kOfCorners = 64 << 20;
+  constexpr std::uint64_t kOfMiddles = 32 << 20;
+  constexpr std::uint64_t kOfCurves = 32 << 20;
+  return kOfCorners + (has_middles(mesh_.element_) ? kOfMiddles : 0) +
+         (mesh_.element_ == Element::kCurvedTet10 ? kOfCurves : 0);
+}
+
+void GroupedSink::group() {
   check_sink_counts("mesh", mesh_.header_, tets_.size() / sizeof(std::array<std::uint64_t, 5>));
   mesh_.table_ = LabelTable(labels_.values(), mesh_.header_.labels_signed);
   find_box();
@@ -137,7 +104,7 @@ void MeshGrouping::group() {
   if (mesh_.element_ == Element::kCurvedTet10) mesh_.curved_.emplace(curve_nodes(mesh_, folder_));
 }
 
-void MeshGrouping::find_box() {
+void GroupedSink::find_box() {
   if (mesh_.header_.record.box) {
     mesh_.box_ = *mesh_.header_.record.box;
     return;
@@ -147,7 +114,7 @@ void MeshGrouping::find_box() {
 }
 
 /// Sorts tets by label, and in a label as they came, and adds their faces.
-void MeshGrouping::sort_tets(Faces& faces) {
+void GroupedSink::sort_tets(Faces& faces) {
   using Record = std::array<std::uint64_t, 6>;
   ExternalSort<6> tets(folder_, kSortBytes);
   std::vector<std::array<std::uint64_t, 5>> batch;
@@ -170,12 +137,12 @@ void MeshGrouping::sort_tets(Faces& faces) {
   });
 }
 
-void MeshGrouping::place_values(std::uint64_t tet) {
+void GroupedSink::place_values(std::uint64_t tet) {
   const std::size_t columns = mesh_.header_.values.size();
   for (std::size_t i = 0; i < columns; ++i) mesh_.values_.append(values_[tet * columns + i]);
 }
 
-void MeshGrouping::place_tet(TetRows tet, Faces& faces) {
+void GroupedSink::place_tet(TetRows tet, Faces& faces) {
   for (const std::uint64_t row : tet) {
     if (row >= mesh_.vertices_.size()) {
       throw Error(ErrorKind::kInput,
@@ -194,7 +161,7 @@ void MeshGrouping::place_tet(TetRows tet, Faces& faces) {
   }
 }
 
-void MeshGrouping::pair_faces(Faces& faces, Facets& facets) {
+void GroupedSink::pair_faces(Faces& faces, Facets& facets) {
   std::array<FaceRecord, 2> sharing{};
   std::size_t count = 0;
   const auto close = [&] {
@@ -213,7 +180,7 @@ void MeshGrouping::pair_faces(Faces& faces, Facets& facets) {
   close();
 }
 
-void MeshGrouping::add_facet(std::span<const FaceRecord> sharing, Facets& facets) {
+void GroupedSink::add_facet(std::span<const FaceRecord> sharing, Facets& facets) {
   const Label one = mesh_.label_of(sharing[0][3] >> 2);
   if (sharing.size() == 1) {
     std::array<Position, 3> corners{};
@@ -230,7 +197,7 @@ void MeshGrouping::add_facet(std::span<const FaceRecord> sharing, Facets& facets
       {std::min(one, other), std::max(one, other), sharing[lower][3], sharing[1 - lower][3]});
 }
 
-void MeshGrouping::number_facets(Facets& facets) {
+void GroupedSink::number_facets(Facets& facets) {
   std::vector<FacetGroup>& groups = mesh_.facet_groups_;
   facets.each([&](const Facets::Record& record) {
     const FacetGroup group{.side = static_cast<Side>(record[0] >> 32),
@@ -253,7 +220,7 @@ void MeshGrouping::number_facets(Facets& facets) {
   });
 }
 
-void MeshGrouping::find_wedges() {
+void GroupedSink::find_wedges() {
   const CohesiveRule& rule = mesh_.header_.record.cohesive;
   if (!rule.any()) return;
   for (const FacetGroup& group : mesh_.facet_groups_) {
@@ -263,7 +230,7 @@ void MeshGrouping::find_wedges() {
   }
 }
 
-void MeshGrouping::add_wedges(const FacetGroup& group, bool is_first_bottom) {
+void GroupedSink::add_wedges(const FacetGroup& group, bool is_first_bottom) {
   WedgeGroup wedges{.bottom = is_first_bottom ? group.first : group.second,
                     .top = is_first_bottom ? group.second : group.first,
                     .wedges = {mesh_.wedges_.size(), mesh_.wedges_.size()}};
@@ -286,7 +253,7 @@ void MeshGrouping::add_wedges(const FacetGroup& group, bool is_first_bottom) {
 }
 
 /// Numbers the edges in the order of their rows, then gives each tet the numbers of its six.
-void MeshGrouping::find_middles() {
+void GroupedSink::find_middles() {
   ExternalSort<3> edges(folder_, kSortBytes);  // two ascending rows, 8 * tet + edge
   for (std::uint64_t number = 0; number < mesh_.tets_.size(); ++number) {
     const TetRows tet = mesh_.tets_[number];
@@ -308,47 +275,6 @@ void MeshGrouping::find_middles() {
     rows[use[0] & 7] = use[1];
     if ((use[0] & 7) == 5) mesh_.middles_.append(rows);
   });
-}
-
-GroupedSink::GroupedSink(const std::filesystem::path& folder, std::unique_ptr<GroupedWriter> writer,
-                         Element element)
-    : grouping_(std::make_unique<MeshGrouping>(folder, element)),
-      writer_(std::move(writer)),
-      element_(element) {}
-
-GroupedSink::~GroupedSink() = default;
-
-void GroupedSink::begin(const MeshHeader& header) {
-  grouping_->begin(header);
-}
-
-void GroupedSink::write_vertices(std::span<const Position> positions) {
-  grouping_->add_vertices(positions);
-}
-
-void GroupedSink::write_tets(std::span<const TetRows> tets, std::span<const RawLabel> labels) {
-  grouping_->add_tets(tets, labels);
-}
-
-void GroupedSink::write_values(std::span<const double> rows) {
-  grouping_->add_values(rows);
-}
-
-void GroupedSink::finish() {
-  grouping_->group();
-  if (writer_) writer_->write(grouping_->mesh());
-}
-
-std::uint64_t GroupedSink::buffer_bytes() const {
-  constexpr std::uint64_t kOfCorners = 64 << 20;
-  constexpr std::uint64_t kOfMiddles = 32 << 20;
-  constexpr std::uint64_t kOfCurves = 32 << 20;
-  return kOfCorners + (has_middles(element_) ? kOfMiddles : 0) +
-         (element_ == Element::kCurvedTet10 ? kOfCurves : 0);
-}
-
-GroupedMesh& GroupedSink::mesh() {
-  return grouping_->mesh();
 }
 
 }  // namespace mw::io

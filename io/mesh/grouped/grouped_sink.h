@@ -3,11 +3,12 @@
 // A sink that makes a grouped mesh of a stream of tets.
 #pragma once
 
+#include "io/file/scratch/external_sort.h"
+#include "io/labels/label_set.h"
 #include "io/mesh/grouped/grouped_mesh.h"
+#include "io/mesh/merged_vertices.h"
 
 namespace mw::io {
-
-class MeshGrouping;
 
 /// Collects a mesh; finish() groups it and calls the writer.
 /// Memory: 64 MiB, 96 with kTet10, 128 with kCurvedTet10, whatever the mesh; the rest waits in
@@ -21,7 +22,6 @@ class GroupedSink : public MeshSink {
   /// writer may be empty where the caller takes the mesh.  REQUIRES: folder exists.
   GroupedSink(const std::filesystem::path& folder, std::unique_ptr<GroupedWriter> writer,
               Element element = Element::kTet4);
-  ~GroupedSink() override;
 
   void begin(const MeshHeader& header) override;
   void write_vertices(std::span<const Position> positions) override;
@@ -31,12 +31,41 @@ class GroupedSink : public MeshSink {
   [[nodiscard]] std::uint64_t buffer_bytes() const override;
 
   /// REQUIRES: finished.
-  [[nodiscard]] GroupedMesh& mesh();
+  [[nodiscard]] GroupedMesh& mesh() { return mesh_; }
 
  private:
-  std::unique_ptr<MeshGrouping> grouping_;
+  static constexpr std::size_t kSortBytes = 8 << 20;
+  /// Three ascending rows, the first one for doubled vertices, and 4 * tet + opposite corner.
+  using FaceRecord = std::array<std::uint64_t, 4>;
+  using Faces = ExternalSort<4>;
+  /// Side << 32 | first, second, 4 * tet + opposite corner of the first, and of the second.
+  using Facets = ExternalSort<4>;
+
+  /// Returns the row of the vertex that `row` doubles, or `row`.
+  [[nodiscard]] std::uint64_t first_of(std::uint64_t row) const {
+    return doubles_ ? doubles_->first(row) : row;
+  }
+  void group();
+  void find_box();
+  void sort_tets(Faces& faces);
+  void place_tet(TetRows tet, Faces& faces);
+  void place_values(std::uint64_t tet);
+  void pair_faces(Faces& faces, Facets& facets);
+  void add_facet(std::span<const FaceRecord> sharing, Facets& facets);
+  void number_facets(Facets& facets);
+  void find_wedges();
+  void add_wedges(const FacetGroup& group, bool is_first_bottom);
+  void find_middles();
+
+  std::filesystem::path folder_;
+  GroupedMesh mesh_;
+  ScratchFile tets_;          ///< four rows and the label of each, as they came
+  PagedFile<double> values_;  ///< those of tets as they came
+  LabelSet labels_;
+  std::optional<DoubledVertices> doubles_;
+  Position lo_{};
+  Position hi_{};
   std::unique_ptr<GroupedWriter> writer_;
-  Element element_;
 };
 
 }  // namespace mw::io
