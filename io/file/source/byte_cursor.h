@@ -10,6 +10,11 @@
 
 namespace mw::io {
 
+/// Whether a character, or the -1 at an end, is a space, a tab or any end of a line or page.
+[[nodiscard]] inline bool is_blank(int c) {
+  return c == ' ' || (c >= '\t' && c <= '\r');
+}
+
 /// Reads characters, lines and binary numbers by turns.  Memory: 1 MiB.
 /// ERRORS: those of the source.
 class ByteCursor {

@@ -16,10 +16,6 @@ namespace {
 /// No number is that long; the bound keeps memory small on other files.
 constexpr std::size_t kMaxWordBytes = 256;
 
-bool is_blank(int c) {
-  return c == ' ' || (c >= '\t' && c <= '\r');
-}
-
 }  // namespace
 
 void MshInput::set_binary(ByteOrder order) {

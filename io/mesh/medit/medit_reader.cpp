@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "io/file/errors.h"
-#include "io/file/source/byte_source.h"
+#include "io/file/source/byte_cursor.h"
 #include "io/file/text_numbers.h"
 #include "io/mesh/medit/medit.h"
 #include "io/mesh/mesh_record.h"
@@ -18,21 +18,16 @@
 namespace mw::io {
 namespace {
 
-constexpr std::uint64_t kBufferBytes = 1 << 20;
 /// No number or keyword is that long; the bound keeps memory small on binary files.
 constexpr std::size_t kMaxWordBytes = 256;
 /// No comment with a name is that long.
 constexpr std::size_t kMaxNameCommentBytes = 1 << 13;
 
-bool is_blank(int c) {
-  return c == ' ' || (c >= '\t' && c <= '\r');
-}
-
 /// Reads words, which are separated by blanks, tabs and line ends of any kind; '#' begins a comment
 /// up to the end of its line.
 class TokenScanner {
  public:
-  explicit TokenScanner(const ByteSource& source) : source_(source) {}
+  explicit TokenScanner(const ByteSource& source) : cursor_(source) {}
   /// Makes take get each comment that follows, without its '#' and line end, cut at
   /// kMaxRecordBytes.
   void on_comment(std::function<void(std::string_view)> take) { take_comment_ = std::move(take); }
@@ -47,49 +42,28 @@ class TokenScanner {
   [[noreturn]] void fail(std::string_view reason) const;
 
  private:
-  /// Returns the next character without taking it, or -1 at the end.
-  [[nodiscard]] int peek() { return at_ < buffer_.size() || refill() ? buffer_[at_] : -1; }
-  bool refill();
   void skip_blanks();
   void skip_comment();
   [[noreturn]] void fail_word(std::string_view expected, std::string_view word) const;
 
-  const ByteSource& source_;
-  std::uint64_t offset_ = 0;
-  std::vector<unsigned char> buffer_;
-  std::size_t at_ = 0;
-  std::uint64_t line_ = 1;
+  ByteCursor cursor_;
   std::string word_;
   std::function<void(std::string_view)> take_comment_;
 };
 
-bool TokenScanner::refill() {
-  const std::uint64_t count = source_.size_within(offset_ + kBufferBytes) - offset_;
-  buffer_.resize(count);
-  source_.read_at(offset_, std::as_writable_bytes(std::span(buffer_)));
-  offset_ += count;
-  at_ = 0;
-  return count > 0;
-}
-
 void TokenScanner::skip_blanks() {
-  for (int c = peek(); c >= 0 && (is_blank(c) || c == '#'); c = peek()) {
-    if (c == '#') {
-      skip_comment();
-      continue;
-    }
-    if (c == '\n') ++line_;
-    ++at_;
+  for (int c = cursor_.peek(); c >= 0 && (is_blank(c) || c == '#'); c = cursor_.peek()) {
+    c == '#' ? skip_comment() : cursor_.take();
   }
 }
 
 /// Skips a comment up to its line end, which it leaves.
 void TokenScanner::skip_comment() {
   std::string comment;
-  ++at_;
-  for (int c = peek(); c >= 0 && c != '\n'; c = peek()) {
+  cursor_.take();
+  for (int c = cursor_.peek(); c >= 0 && c != '\n'; c = cursor_.peek()) {
     if (comment.size() < kMaxRecordBytes) comment.push_back(static_cast<char>(c));
-    ++at_;
+    cursor_.take();
   }
   if (take_comment_) take_comment_(comment);
 }
@@ -97,10 +71,10 @@ void TokenScanner::skip_comment() {
 std::string_view TokenScanner::next() {
   skip_blanks();
   word_.clear();
-  for (int c = peek(); c >= 0 && !is_blank(c) && c != '#'; c = peek()) {
+  for (int c = cursor_.peek(); c >= 0 && !is_blank(c) && c != '#'; c = cursor_.peek()) {
     if (word_.size() == kMaxWordBytes) fail("not an ASCII mesh file");
     word_.push_back(static_cast<char>(c));
-    ++at_;
+    cursor_.take();
   }
   return word_;
 }
@@ -135,7 +109,7 @@ void TokenScanner::fail_word(std::string_view expected, std::string_view word) c
 }
 
 void TokenScanner::fail(std::string_view reason) const {
-  fail_input(source_.name(), text("line ", line_), reason, "write the mesh anew");
+  fail_input(cursor_.source().name(), text("line ", cursor_.line()), reason, "write the mesh anew");
 }
 
 constexpr std::string_view kRecord = " mwmesh ";
