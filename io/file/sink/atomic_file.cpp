@@ -67,6 +67,12 @@ void AtomicFile::append(std::string_view text) {
   append(std::as_bytes(std::span(text)));
 }
 
+void AtomicFile::append_line(std::string_view line, std::string_view more) {
+  append(line);
+  append(more);
+  append("\n");
+}
+
 void AtomicFile::write_at(std::uint64_t offset, std::span<const std::byte> bytes) {
   flush();
   write(offset, bytes);

@@ -32,6 +32,8 @@ class AtomicFile : public PlacedOutput {
   /// Adds bytes at the end of what was appended before; buffered.
   void append(std::span<const std::byte> bytes);
   void append(std::string_view text);
+  /// Appends both texts and the end of their line.
+  void append_line(std::string_view line, std::string_view more = {});
   /// Writes bytes at offset, unbuffered, over what was appended there; does not move the place
   /// where append() writes.
   void write_at(std::uint64_t offset, std::span<const std::byte> bytes) override;

@@ -255,10 +255,4 @@ void InpWriter::write_nodes_where(GroupedMesh& mesh, const std::string& name, Wh
   rows.end();
 }
 
-void InpWriter::line(std::string_view line, std::string_view more) {
-  file_.append(line);
-  file_.append(more);
-  file_.append("\n");
-}
-
 }  // namespace mw::io

@@ -58,7 +58,7 @@ class InpWriter : public GroupedWriter {
   /// Writes numbers in rows of 16 to a line.
   class NumberRows;
   void write_node_set(GroupedMesh& mesh, const std::string& name, RowRange facets, bool of_second);
-  void line(std::string_view line, std::string_view more = {});
+  void line(std::string_view line, std::string_view more = {}) { file_.append_line(line, more); }
 
   std::filesystem::path folder_;
   std::string name_;

@@ -171,9 +171,4 @@ void CdbWriter::write_node_set(GroupedMesh& mesh, const std::string& name, RowRa
   if (!items.empty()) line(items);
 }
 
-void CdbWriter::line(std::string_view line) {
-  file_.append(line);
-  file_.append("\n");
-}
-
 }  // namespace mw::io

@@ -47,7 +47,7 @@ class CdbWriter : public GroupedWriter {
   /// Writes a component of elements.  REQUIRES: there is at least one.
   void write_element_set(const std::string& name, RowRange elements);
   void write_node_set(GroupedMesh& mesh, const std::string& name, RowRange facets, bool of_second);
-  void line(std::string_view line);
+  void line(std::string_view line) { file_.append_line(line); }
 
   std::filesystem::path folder_;
   std::string name_;

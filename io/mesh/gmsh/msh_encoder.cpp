@@ -15,12 +15,6 @@ void MshEncoder::end_section(std::string_view name) {
   add_line("$End", name);
 }
 
-void MshEncoder::add_line(std::string_view line, std::string_view more) {
-  file_.append(line);
-  file_.append(more);
-  file_.append("\n");
-}
-
 template <class T>
 void MshEncoder::add(T number) {
   std::array<char, 32> bytes{};

@@ -23,7 +23,9 @@ class MshEncoder {
   /// Adds a line such as "$EndNodes".
   void end_section(std::string_view name);
   /// Adds a line, which is text in either kind of file.
-  void add_line(std::string_view line, std::string_view more = {});
+  void add_line(std::string_view line, std::string_view more = {}) {
+    file_.append_line(line, more);
+  }
 
   /// Puts a number, which has 4 bytes in binary.
   void put(std::int32_t number);

@@ -137,9 +137,4 @@ void LsdynaWriter::write_segments(GroupedMesh& mesh, const NamedFacets& set, boo
   }
 }
 
-void LsdynaWriter::line(std::string_view line) {
-  file_.append(line);
-  file_.append("\n");
-}
-
 }  // namespace mw::io

@@ -37,7 +37,7 @@ class LsdynaWriter : public GroupedWriter {
   void write_node_set(GroupedMesh& mesh, const NamedFacets& set, bool of_second);
   void write_segments(GroupedMesh& mesh, const NamedFacets& set, bool of_second);
   void begin_set(const char* keyword, const std::string& title, std::uint64_t number);
-  void line(std::string_view line);
+  void line(std::string_view line) { file_.append_line(line); }
 
   std::filesystem::path folder_;
   std::string name_;

@@ -101,9 +101,4 @@ void BdfWriter::write_part(GroupedMesh& mesh, RowRange tets, std::int64_t number
   }
 }
 
-void BdfWriter::line(std::string_view line) {
-  file_.append(line);
-  file_.append("\n");
-}
-
 }  // namespace mw::io

@@ -30,7 +30,7 @@ class BdfWriter : public GroupedWriter {
   void write_set(GroupedMesh& mesh, std::size_t number, const NamedFacets& set);
   void write_nodes(GroupedMesh& mesh);
   void write_part(GroupedMesh& mesh, RowRange tets, std::int64_t number, const std::string& name);
-  void line(std::string_view line);
+  void line(std::string_view line) { file_.append_line(line); }
 
   std::filesystem::path folder_;
   std::string name_;
