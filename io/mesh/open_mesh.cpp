@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <array>
+#include <functional>
 
 #include "io/file/errors.h"
 #include "io/file/source/inflated_source.h"
@@ -81,55 +82,48 @@ std::unique_ptr<MeshSink> open_corners(const std::filesystem::path& path, Elemen
               text(path.string(), ": ", path.extension().string(), " is written with tet4 only"));
 }
 
-/// Returns a sink that groups the mesh and then passes its cells to this one.
-std::unique_ptr<MeshSink> in_groups(const std::filesystem::path& path,
-                                    std::unique_ptr<CellSink> sink, Element element) {
-  return std::make_unique<GroupedSink>(path.parent_path(),
-                                       std::make_unique<CellWriter>(std::move(sink)), element);
-}
-
+/// Opens a sink that groups the mesh and then writes its cells.
 template <class Sink>
 std::unique_ptr<MeshSink> open_cells(const std::filesystem::path& path, Element element) {
-  return in_groups(path, std::make_unique<Sink>(path, element), element);
+  auto writer = std::make_unique<CellWriter>(std::make_unique<Sink>(path, element));
+  return std::make_unique<GroupedSink>(path.parent_path(), std::move(writer), element);
 }
 
-/// Passes tets of four nodes on as they come, unless begin() tells of wedges: then it groups them.
-class StreamedCells : public MeshSink {
+/// Passes a mesh on as it comes.  Where begin() tells of wedges, another sink takes the place of
+/// the one below; what opens that one may refuse them.
+class UnlessWedges : public MeshSink {
  public:
-  StreamedCells(std::filesystem::path path, std::unique_ptr<CellSink> cells)
-      : path_(std::move(path)), cells_(std::move(cells)) {}
+  using Open = std::function<std::unique_ptr<MeshSink>()>;
+
+  UnlessWedges(std::unique_ptr<MeshSink> below, Open open_for_wedges)
+      : below_(std::move(below)), open_for_wedges_(std::move(open_for_wedges)) {}
 
   void begin(const MeshHeader& header) override {
-    if (header.record.cohesive.any()) {
-      sink_ = in_groups(path_, std::move(cells_), Element::kTet4);
-    } else {
-      sink_ = std::move(cells_);
-    }
-    sink_->begin(header);
+    if (header.record.cohesive.any()) below_ = open_for_wedges_();
+    below_->begin(header);
   }
   void write_vertices(std::span<const Position> positions) override {
-    sink_->write_vertices(positions);
+    below_->write_vertices(positions);
   }
   void write_tets(std::span<const TetRows> tets, std::span<const RawLabel> labels) override {
-    sink_->write_tets(tets, labels);
+    below_->write_tets(tets, labels);
   }
-  void write_values(std::span<const double> rows) override { sink_->write_values(rows); }
-  void finish() override { sink_->finish(); }
-  [[nodiscard]] std::uint64_t buffer_bytes() const override {
-    return sink_ ? sink_->buffer_bytes() : cells_->buffer_bytes();
-  }
+  void write_values(std::span<const double> rows) override { below_->write_values(rows); }
+  void finish() override { below_->finish(); }
+  [[nodiscard]] std::uint64_t buffer_bytes() const override { return below_->buffer_bytes(); }
 
  private:
-  std::filesystem::path path_;
-  std::unique_ptr<CellSink> cells_;  ///< until the mesh begins
-  std::unique_ptr<MeshSink> sink_;
+  std::unique_ptr<MeshSink> below_;
+  Open open_for_wedges_;
 };
 
 /// Opens a sink of a format that has tets of four and of ten nodes.
 template <class Sink>
 std::unique_ptr<MeshSink> open_streamed(const std::filesystem::path& path, Element element) {
   if (has_middles(element)) return open_cells<Sink>(path, element);
-  return std::make_unique<StreamedCells>(path, std::make_unique<Sink>(path));
+  // A mesh with wedges is grouped, and its tets do not go through as they come.
+  return std::make_unique<UnlessWedges>(std::make_unique<Sink>(path),
+                                        [path] { return open_cells<Sink>(path, Element::kTet4); });
 }
 
 /// Opens a sink of a format that needs the whole mesh.
@@ -259,36 +253,14 @@ const MeshFormat& read_format(const std::filesystem::path& path) {
                    "the place of --cohesive"));
 }
 
-/// Refuses a mesh with wedges where the format or a deck has no place for them.
-class SinkWithoutWedges : public MeshSink {
- public:
-  SinkWithoutWedges(std::filesystem::path path, Element element, bool has_deck,
-                    std::unique_ptr<MeshSink> below)
-      : path_(std::move(path)), element_(element), has_deck_(has_deck), below_(std::move(below)) {}
-
-  void begin(const MeshHeader& header) override {
-    if (header.record.cohesive.any()) {
-      require_place_for_wedges(path_, element_);
-      if (has_deck_) refuse_wedges_in_deck(path_);
-    }
-    below_->begin(header);
-  }
-  void write_vertices(std::span<const Position> positions) override {
-    below_->write_vertices(positions);
-  }
-  void write_tets(std::span<const TetRows> tets, std::span<const RawLabel> labels) override {
-    below_->write_tets(tets, labels);
-  }
-  void write_values(std::span<const double> rows) override { below_->write_values(rows); }
-  void finish() override { below_->finish(); }
-  [[nodiscard]] std::uint64_t buffer_bytes() const override { return below_->buffer_bytes(); }
-
- private:
-  std::filesystem::path path_;
-  Element element_;
-  bool has_deck_;
-  std::unique_ptr<MeshSink> below_;
-};
+/// Returns a sink that refuses wedges, for which the format or a deck has no place.
+std::unique_ptr<MeshSink> without_wedges(const std::filesystem::path& path, Element element,
+                                         std::unique_ptr<MeshSink> below) {
+  return std::make_unique<UnlessWedges>(std::move(below), [=]() -> std::unique_ptr<MeshSink> {
+    require_place_for_wedges(path, element);
+    refuse_wedges_in_deck(path);
+  });
+}
 
 /// Writes a mesh and the pairs of its nodes.
 class PairedSink : public TeeSink {
@@ -409,7 +381,7 @@ std::unique_ptr<MeshSink> open_mesh_sink(const std::filesystem::path& path, Elem
   auto sink = format.open_with != nullptr ? format.open_with(path, element, extras)
                                           : format.open(path, element);
   if (format.has_wedges(element) && !extras.deck) return sink;
-  return std::make_unique<SinkWithoutWedges>(path, element, extras.deck, std::move(sink));
+  return without_wedges(path, element, std::move(sink));
 }
 
 std::unique_ptr<MeshSink> open_mesh_pieces(const std::filesystem::path& path,
@@ -419,8 +391,7 @@ std::unique_ptr<MeshSink> open_mesh_pieces(const std::filesystem::path& path,
                                         " and files beside it"));
   }
   if (pieces == 0) throw Error(ErrorKind::kUsage, text(path.string(), ": no pieces are no mesh"));
-  return std::make_unique<SinkWithoutWedges>(path, Element::kTet4, false,
-                                             std::make_unique<PvtuSink>(path, pieces));
+  return without_wedges(path, Element::kTet4, std::make_unique<PvtuSink>(path, pieces));
 }
 
 std::unique_ptr<SharedMesh> open_shared_mesh(const std::filesystem::path& path, Element element) {
