@@ -34,11 +34,11 @@ namespace {
 struct MeshFormat {
   const char* extension;
   /// Reads it whole; null where `stream` is there.
-  MeshData (*read)(const std::filesystem::path&);
+  MeshData (*read)(const std::filesystem::path&) = nullptr;
   /// Reads it in bounded memory; null where `read` is there.
-  void (*stream)(const std::filesystem::path&, MeshSink&);
+  void (*stream)(const std::filesystem::path&, MeshSink&) = nullptr;
   /// Opens a sink; null where it is written in another way (open_mesh_pieces()).
-  std::unique_ptr<MeshSink> (*open)(const std::filesystem::path&, Element);
+  std::unique_ptr<MeshSink> (*open)(const std::filesystem::path&, Element) = nullptr;
   /// Endings of the files beside it, which replace its own ending; null behind the last.
   std::array<const char*, 4> beside{};
   /// Opens a sink that writes extras; null where the format has room for none.
@@ -52,8 +52,6 @@ struct MeshFormat {
 
   [[nodiscard]] bool is_read() const { return read != nullptr || stream != nullptr; }
   [[nodiscard]] bool is_written() const { return open != nullptr; }
-  [[nodiscard]] bool has_materials() const { return takes_materials; }
-  [[nodiscard]] bool has_deck() const { return takes_deck; }
   [[nodiscard]] bool has_values() const {
     constexpr std::array<std::string_view, 6> kWithValues{".vtkhdf", ".vtu", ".msh",
                                                           ".msh2",   ".exo", ".xdmf"};
@@ -141,20 +139,18 @@ std::unique_ptr<MeshSink> open_extras(const std::filesystem::path& path, Element
 
 const std::array kFormats{
     MeshFormat{.extension = ".vtkhdf",
-               .read = nullptr,
                .stream = &read_vtkhdf,
                .open = &open_streamed<VtkhdfSink>,
                .open_wedges = &open_cells<VtkhdfSink>},
     MeshFormat{.extension = ".vtu",
                .read = [](const auto& path) { return read_vtu(*open_bytes(path)); },
-               .stream = nullptr,
                .open = &open_streamed<VtuSink>,
                .open_wedges = &open_cells<VtuSink>},
-    MeshFormat{".mesh", [](const auto& path) { return read_medit(*open_bytes(path)); }, nullptr,
-               &open_corners<MeditSink>},
+    MeshFormat{.extension = ".mesh",
+               .read = [](const auto& path) { return read_medit(*open_bytes(path)); },
+               .open = &open_corners<MeditSink>},
     MeshFormat{.extension = ".msh",
                .read = &read_msh,
-               .stream = nullptr,
                .open = &open_grouped<MshWriter>,
                .beside = {".msh.labels.csv"},
                .open_with = &open_extras<MshWriter>,
@@ -162,41 +158,34 @@ const std::array kFormats{
                .takes_materials = true},
     MeshFormat{.extension = ".msh2",
                .read = &read_msh,
-               .stream = nullptr,
                .open = &open_grouped<Msh2Writer>,
                .beside = {".msh2.labels.csv"},
                .open_with = &open_extras<Msh2Writer>,
                .takes_materials = true},
     MeshFormat{.extension = ".exo",
-               .read = nullptr,
-               .stream = nullptr,
                .open = &open_grouped<ExodusWriter>,
                .beside = {".exo.labels.csv"},
                .open_with = &open_extras<ExodusWriter>,
                .takes_materials = true},
-    MeshFormat{".bdf", nullptr, nullptr, &open_grouped<BdfWriter>, {".bdf.labels.csv"}},
+    MeshFormat{
+        .extension = ".bdf", .open = &open_grouped<BdfWriter>, .beside = {".bdf.labels.csv"}},
     MeshFormat{.extension = ".inp",
-               .read = nullptr,
-               .stream = nullptr,
                .open = &open_grouped<InpWriter>,
                .open_with = &open_extras<InpWriter>,
                .takes_materials = true,
                .takes_deck = true},
-    MeshFormat{".xdmf",
-               nullptr,
-               nullptr,
-               &open_grouped<XdmfWriter>,
-               {".h5", ".cells.xdmf", ".facets.csv", ".xdmf.labels.csv"}},
-    MeshFormat{".k", nullptr, nullptr, &open_grouped<LsdynaWriter>, {".k.labels.csv"}},
-    MeshFormat{".cdb", nullptr, nullptr, &open_grouped<CdbWriter>, {".cdb.labels.csv"}},
+    MeshFormat{.extension = ".xdmf",
+               .open = &open_grouped<XdmfWriter>,
+               .beside = {".h5", ".cells.xdmf", ".facets.csv", ".xdmf.labels.csv"}},
+    MeshFormat{.extension = ".k", .open = &open_grouped<LsdynaWriter>, .beside = {".k.labels.csv"}},
+    MeshFormat{
+        .extension = ".cdb", .open = &open_grouped<CdbWriter>, .beside = {".cdb.labels.csv"}},
     MeshFormat{.extension = ".feb",
-               .read = nullptr,
-               .stream = nullptr,
                .open = &open_grouped<FebioWriter>,
                .beside = {".feb.labels.csv"},
                .open_with = &open_extras<FebioWriter>,
                .takes_deck = true},
-    MeshFormat{kPiecesExtension, &read_pvtu, nullptr, nullptr},
+    MeshFormat{.extension = kPiecesExtension, .read = &read_pvtu},
 };
 
 const MeshFormat* find_format(const std::filesystem::path& path) {
@@ -207,10 +196,11 @@ const MeshFormat* find_format(const std::filesystem::path& path) {
 }
 
 /// Returns the endings of the formats that `has` holds for, as ".vtkhdf, .vtu".
-std::string extensions_where(bool (MeshFormat::*has)() const) {
+template <class Has>
+std::string extensions_where(Has has) {
   std::string out;
   for (const MeshFormat& format : kFormats) {
-    if ((format.*has)()) out += (out.empty() ? "" : ", ") + text(format.extension);
+    if (std::invoke(has, format)) out += (out.empty() ? "" : ", ") + text(format.extension);
   }
   return out;
 }
@@ -304,7 +294,7 @@ std::string why_no_values(const std::filesystem::path& path) {
   if (format == nullptr || format->has_values() || !format->is_written()) return {};
   return text(path.string(), ": ", format->extension, " has no place for values of tets; ",
               extensions_where(&MeshFormat::has_values), " have, and ",
-              extensions_where(&MeshFormat::has_materials), " take sets by --materials");
+              extensions_where(&MeshFormat::takes_materials), " take sets by --materials");
 }
 
 void require_place_for_wedges(const std::filesystem::path& path, Element element) {
@@ -349,11 +339,6 @@ void copy_mesh(const std::filesystem::path& path, MeshSink& sink) {
 }
 
 std::unique_ptr<MeshSink> open_mesh_sink(const std::filesystem::path& path, Element element,
-                                         Encoding encoding) {
-  return open_mesh_sink(path, element, {.encoding = encoding});
-}
-
-std::unique_ptr<MeshSink> open_mesh_sink(const std::filesystem::path& path, Element element,
                                          const MeshExtras& extras) {
   if (!extras.pairs.empty()) {
     auto pairs =
@@ -367,14 +352,14 @@ std::unique_ptr<MeshSink> open_mesh_sink(const std::filesystem::path& path, Elem
     throw Error(ErrorKind::kUsage, text(path.string(), ": ", format.extension,
                                         " is written in one way, so ascii is not for it"));
   }
-  if (extras.materials && !format.has_materials()) {
+  if (extras.materials && !format.takes_materials) {
     throw Error(ErrorKind::kUsage, text(path.string(), ": has no place for materials; ",
-                                        extensions_where(&MeshFormat::has_materials), " have"));
+                                        extensions_where(&MeshFormat::takes_materials), " have"));
   }
-  if (extras.deck && !format.has_deck()) {
+  if (extras.deck && !format.takes_deck) {
     throw Error(ErrorKind::kUsage,
                 text(path.string(), ": no job is written in ", format.extension, "; --deck is for ",
-                     extensions_where(&MeshFormat::has_deck)));
+                     extensions_where(&MeshFormat::takes_deck)));
   }
   if (extras.deck && extras.wedges) refuse_wedges_in_deck(path);
   if (extras.wedges && format.open_wedges != nullptr) return format.open_wedges(path, element);

@@ -46,13 +46,11 @@ void copy_mesh(const std::filesystem::path& path, MeshSink& sink);
 
 /// ERRORS: mw::Error(kUsage) for an unknown extension, an element that the format does not have, an
 /// extra that it has no room for, or a path that cannot be written; begin() throws it for a mesh
-/// with wedges that the format has no place for.
+/// with wedges that the format has no place for.  With materials it writes material_table_path()
+/// beside the mesh, too.
 [[nodiscard]] std::unique_ptr<MeshSink> open_mesh_sink(const std::filesystem::path& path,
                                                        Element element = Element::kTet4,
-                                                       Encoding encoding = Encoding::kUsual);
-/// Opens a sink with extras.  With materials it writes material_table_path() beside the mesh, too.
-[[nodiscard]] std::unique_ptr<MeshSink> open_mesh_sink(const std::filesystem::path& path,
-                                                       Element element, const MeshExtras& extras);
+                                                       const MeshExtras& extras = {});
 
 /// The ending of meshes in pieces.
 inline constexpr const char* kPiecesExtension = ".pvtu";

@@ -56,7 +56,8 @@ TEST(Values, ComeBackFromTheFormatsThatHoldThem) {
         EXPECT_EQ(by_corners(read_mesh(path)), wanted);
       }
     }
-    write_mesh(mesh, *open_mesh_sink(dir.path() / "t.msh", Element::kTet4, Encoding::kText));
+    write_mesh(
+        mesh, *open_mesh_sink(dir.path() / "t.msh", Element::kTet4, {.encoding = Encoding::kText}));
     EXPECT_EQ(by_corners(read_mesh(dir.path() / "t.msh")), wanted);
     const auto pieces = dir.path() / text("m", seed, ".pvtu");
     write_mesh(mesh, *open_mesh_pieces(pieces, 7));

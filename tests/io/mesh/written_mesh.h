@@ -36,7 +36,7 @@ inline MeshData named_grid(unsigned seed, bool labels_signed) {
 
 inline void save(const MeshData& mesh, const std::filesystem::path& path,
                  Element element = Element::kTet4, Encoding encoding = Encoding::kUsual) {
-  write_mesh(mesh, *open_mesh_sink(path, element, encoding));
+  write_mesh(mesh, *open_mesh_sink(path, element, {.encoding = encoding}));
 }
 
 /// Reads it or throws the error of bad input; anything else fails the test.

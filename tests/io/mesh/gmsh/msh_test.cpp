@@ -213,7 +213,8 @@ TEST_F(Msh, OutOfRoomIsAResourceErrorAndLeavesNothing) {
 
 TEST_F(Msh, AsciiIsForMshAlone) {
   expect_error(ErrorKind::kUsage, {"m.vtu", "ascii"}, [&] {
-    static_cast<void>(open_mesh_sink(dir_.path() / "m.vtu", Element::kTet4, Encoding::kText));
+    static_cast<void>(
+        open_mesh_sink(dir_.path() / "m.vtu", Element::kTet4, {.encoding = Encoding::kText}));
   });
 }
 
