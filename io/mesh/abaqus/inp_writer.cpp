@@ -7,6 +7,7 @@
 #include "io/mesh/grouped/deck_ends.h"
 #include "io/mesh/grouped/facet_nodes.h"
 #include "io/mesh/grouped/fixed_fields.h"
+#include "io/mesh/grouped/label_numbers.h"
 #include "io/mesh/medit/medit.h"
 
 namespace mw::io {
@@ -63,7 +64,8 @@ class InpWriter::NumberRows {
 };
 
 void InpWriter::write(GroupedMesh& mesh) {
-  check_counts(mesh);
+  check_number(name_, std::max(mesh.node_count(), mesh.tet_count() + mesh.wedge_count()),
+               {.max = kMaxNumber, .subject = "Abaqus has", .others = ".msh or .vtkhdf"});
   if (rule_) materials_.emplace(mesh, *rule_);
   PlainNames names(mesh,
                    {.reserved = materials_ ? materials_->names() : std::vector<std::string>{}});
@@ -85,13 +87,6 @@ void InpWriter::write(GroupedMesh& mesh) {
   if (has_deck_ && mesh.tet_count() > 0) write_deck(mesh, names);
   line(kInpEnds);
   table_ ? commit_together({*table_, file_}) : file_.commit();
-}
-
-void InpWriter::check_counts(const GroupedMesh& mesh) const {
-  const std::uint64_t max = std::max(mesh.node_count(), mesh.tet_count() + mesh.wedge_count());
-  if (max <= kMaxNumber) return;
-  throw Error(ErrorKind::kUsage, text(name_, ": Abaqus has numbers up to ", kMaxNumber, ", ", max,
-                                      " are needed; write .msh or .vtkhdf"));
 }
 
 void InpWriter::write_head(const GroupedMesh& mesh, const PlainNames& names) {

@@ -43,7 +43,6 @@ class InpWriter : public GroupedWriter {
   void write(GroupedMesh& mesh) override;
 
  private:
-  void check_counts(const GroupedMesh& mesh) const;
   void write_head(const GroupedMesh& mesh, const PlainNames& names);
   void write_nodes(GroupedMesh& mesh);
   void write_elements(GroupedMesh& mesh, RowRange tets, const std::string& name);

@@ -6,7 +6,6 @@
 #include "io/file/errors.h"
 #include "io/mesh/grouped/fixed_fields.h"
 #include "io/mesh/grouped/group_names.h"
-#include "kernels/core/error.h"
 
 namespace mw::io {
 namespace {
@@ -31,7 +30,8 @@ void CdbWriter::write(GroupedMesh& mesh) {
     }
     elements += (set.other.empty() ? 1 : 2) * set.group.facets.size();
   }
-  check_counts(mesh, elements);
+  check_number(name_, std::max(mesh.node_count(), elements),
+               {.max = kMaxNumber, .subject = "Ansys files have", .others = ".exo or .vtkhdf"});
   const auto labels = static_cast<std::int64_t>(mesh.table().size());
   const LabelNumbers numbers(mesh.table(), {.min = 1, .max = std::max<std::int64_t>(labels, 1)});
 
@@ -68,13 +68,6 @@ void CdbWriter::write(GroupedMesh& mesh) {
   line("FINISH");
   append_label_table(labels_, mesh.table(), mesh.names(), numbers);
   commit_together({labels_, file_});
-}
-
-void CdbWriter::check_counts(const GroupedMesh& mesh, std::uint64_t elements) const {
-  const std::uint64_t max = std::max(mesh.node_count(), elements);
-  if (max <= kMaxNumber) return;
-  throw Error(ErrorKind::kUsage, text(name_, ": Ansys files have numbers up to ", kMaxNumber, ", ",
-                                      max, " are needed; write .exo or .vtkhdf"));
 }
 
 void CdbWriter::write_head(const GroupedMesh& mesh) {

@@ -37,7 +37,6 @@ class CdbWriter : public GroupedWriter {
     bool of_second = false;
   };
 
-  void check_counts(const GroupedMesh& mesh, std::uint64_t elements) const;
   void write_head(const GroupedMesh& mesh);
   void write_nodes(GroupedMesh& mesh);
   void write_tets(GroupedMesh& mesh, RowRange tets, std::uint64_t material);

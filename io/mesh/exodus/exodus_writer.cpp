@@ -8,7 +8,6 @@
 
 #include "io/file/errors.h"
 #include "io/mesh/grouped/group_names.h"
-#include "kernels/core/error.h"
 
 namespace mw::io {
 namespace {
@@ -50,11 +49,10 @@ void in_steps(RowRange rows, Visit visit) {
 }  // namespace
 
 void ExodusWriter::write(GroupedMesh& mesh) {
-  const std::uint64_t max = std::max(mesh.node_count(), mesh.tet_count() + mesh.wedge_count());
-  if (max > static_cast<std::uint64_t>(std::numeric_limits<int>::max())) {
-    throw Error(ErrorKind::kUsage, text(name_, ": nodes and tets have numbers up to 2147483647, ",
-                                        max, " are needed; write .vtkhdf"));
-  }
+  check_number(name_, std::max(mesh.node_count(), mesh.tet_count() + mesh.wedge_count()),
+               {.max = std::numeric_limits<int>::max(),
+                .subject = "nodes and tets have",
+                .others = ".vtkhdf"});
   const auto wedge_blocks = static_cast<std::int64_t>(mesh.wedge_groups().size());
   const LabelNumbers numbers(mesh.table(), {.max = std::numeric_limits<int>::max() - wedge_blocks});
   if (rule_) materials_.emplace(mesh, *rule_);

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The mwmesh authors
 // SPDX-License-Identifier: Apache-2.0
-// Labels of 64 bits in formats whose numbers are smaller.
+// Numbers in formats that have smaller ones.
 #include "io/mesh/grouped/label_numbers.h"
 
 #include <algorithm>
@@ -76,6 +76,12 @@ LabelNumbers::LabelNumbers(const LabelTable& table, NumberRange range) : numbers
     while (taken.contains(low));
     numbers_[rank] = low;
   }
+}
+
+void check_number(std::string_view file, std::uint64_t largest, const NumberLimit& limit) {
+  if (largest <= limit.max) return;
+  throw Error(ErrorKind::kUsage, text(file, ": ", limit.subject, " numbers up to ", limit.max, ", ",
+                                      largest, " are needed; write ", limit.others));
 }
 
 std::filesystem::path label_table_path(const std::filesystem::path& mesh) {

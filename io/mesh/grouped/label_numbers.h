@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The mwmesh authors
 // SPDX-License-Identifier: Apache-2.0
-// Labels of 64 bits in formats whose numbers are smaller.
+// Numbers in formats that have smaller ones: those of labels of 64 bits, of nodes and of elements.
 #pragma once
 
 #include <algorithm>
@@ -39,6 +39,16 @@ class LabelNumbers {
  private:
   std::vector<std::int64_t> numbers_;
 };
+
+/// The largest number of a node or element in a format.
+struct NumberLimit {
+  std::uint64_t max = 0;
+  const char* subject = "";  ///< who has it, as "Abaqus has"
+  const char* others = "";   ///< the formats that have larger ones, as ".msh or .vtkhdf"
+};
+
+/// ERRORS: mw::Error(kUsage) naming the file where `largest` is above the limit.
+void check_number(std::string_view file, std::uint64_t largest, const NumberLimit& limit);
 
 /// Returns the path of the table that lies beside a mesh: MESH.labels.csv.
 [[nodiscard]] std::filesystem::path label_table_path(const std::filesystem::path& mesh);

@@ -6,7 +6,6 @@
 #include "io/file/errors.h"
 #include "io/mesh/grouped/fixed_fields.h"
 #include "io/mesh/grouped/group_names.h"
-#include "kernels/core/error.h"
 
 namespace mw::io {
 namespace {
@@ -28,11 +27,8 @@ std::string card(std::initializer_list<std::uint64_t> numbers, std::size_t colum
 }  // namespace
 
 void LsdynaWriter::write(GroupedMesh& mesh) {
-  const std::uint64_t max = std::max(mesh.node_count(), mesh.tet_count());
-  if (max > kMaxNumber) {
-    throw Error(ErrorKind::kUsage, text(name_, ": LS-DYNA has numbers up to ", kMaxNumber, ", ",
-                                        max, " are needed; write .exo or .vtkhdf"));
-  }
+  check_number(name_, std::max(mesh.node_count(), mesh.tet_count()),
+               {.max = kMaxNumber, .subject = "LS-DYNA has", .others = ".exo or .vtkhdf"});
   constexpr std::uint64_t kTet4Form = 10, kTet10Form = 16;
   const bool ten = has_middles(mesh.element());
   const LabelNumbers numbers(mesh.table(), {.max = kMaxNumber});

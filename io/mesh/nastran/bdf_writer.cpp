@@ -6,7 +6,6 @@
 #include "io/file/errors.h"
 #include "io/mesh/grouped/fixed_fields.h"
 #include "io/mesh/grouped/group_names.h"
-#include "kernels/core/error.h"
 
 namespace mw::io {
 namespace {
@@ -29,11 +28,8 @@ std::string number_field(std::uint64_t number, std::size_t columns = kFieldColum
 }  // namespace
 
 void BdfWriter::write(GroupedMesh& mesh) {
-  const std::uint64_t max = std::max(mesh.node_count(), mesh.tet_count());
-  if (max > static_cast<std::uint64_t>(kMaxNumber)) {
-    throw Error(ErrorKind::kUsage, text(name_, ": Nastran has numbers up to ", kMaxNumber, ", ",
-                                        max, " are needed; write .exo or .vtkhdf"));
-  }
+  check_number(name_, std::max(mesh.node_count(), mesh.tet_count()),
+               {.max = kMaxNumber, .subject = "Nastran has", .others = ".exo or .vtkhdf"});
   const LabelNumbers numbers(mesh.table(), {.max = kMaxNumber});
   const PlainNames names(mesh);
   line(text("$ mwmesh: tetrahedra of ", mesh.table().size(),
