@@ -77,9 +77,7 @@ void InpWriter::write(GroupedMesh& mesh) {
   write_wedges(mesh, names);
   for (const NamedFacets& set : named_facets(mesh, names)) {
     write_node_set(mesh, set.name, set.group.facets, false);
-    if (!set.other.empty() && mesh.header().record.has_doubles) {
-      write_node_set(mesh, set.other, set.group.facets, true);
-    }
+    if (set.is_split) write_node_set(mesh, set.other, set.group.facets, true);
     write_surface(mesh, set.name, set.group.facets, false);
     if (!set.other.empty()) write_surface(mesh, set.other, set.group.facets, true);
   }

@@ -61,9 +61,7 @@ void CdbWriter::write(GroupedMesh& mesh) {
   }
   for (const NamedFacets& set : sets) {
     write_node_set(mesh, set.name, set.group.facets, false);
-    if (!set.other.empty() && mesh.header().record.has_doubles) {
-      write_node_set(mesh, set.other, set.group.facets, true);
-    }
+    if (set.is_split) write_node_set(mesh, set.other, set.group.facets, true);
   }
   line("FINISH");
   append_label_table(labels_, mesh.table(), mesh.names(), numbers);

@@ -98,9 +98,8 @@ ExodusWriter::Plan ExodusWriter::plan_of(GroupedMesh& mesh) const {
     if (!set.other.empty()) {
       plan.side_sets.push_back({.name = set.other, .facets = facets, .of_second = true});
     }
-    const bool has_two = !set.other.empty() && mesh.header().record.has_doubles;
     for (const bool of_second : {false, true}) {
-      if (of_second && !has_two) continue;
+      if (of_second && !set.is_split) continue;
       std::uint64_t nodes = 0;
       for_each_facet_node(
           mesh, facets, folder_, [&](std::uint64_t /*row*/) { ++nodes; }, of_second);

@@ -13,7 +13,8 @@ std::vector<NamedFacets> named_facets(const GroupedMesh& mesh, const PlainNames&
       out.back().group.facets.end = group.facets.end;
       continue;
     }
-    out.push_back({group, names.facets(group), is_interface ? names.facets(group, true) : ""});
+    out.push_back({group, names.facets(group), is_interface ? names.facets(group, true) : "",
+                   is_interface && mesh.header().record.has_doubles});
   }
   return out;
 }

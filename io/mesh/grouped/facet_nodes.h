@@ -31,9 +31,10 @@ void for_each_facet_node(GroupedMesh& mesh, RowRange facets, const std::filesyst
 
 /// A set of facets as programs with plain names know it: an interface, or a whole side of the box.
 struct NamedFacets {
-  FacetGroup group;   ///< with all facets of the side, whatever their label
-  std::string name;   ///< see PlainNames; for an interface, that on the side of its lower label
-  std::string other;  ///< for an interface, that on the side of its higher label; else empty
+  FacetGroup group;       ///< with all facets of the side, whatever their label
+  std::string name;       ///< see PlainNames; for an interface, that on the side of its lower label
+  std::string other;      ///< for an interface, that on the side of its higher label; else empty
+  bool is_split = false;  ///< an interface whose two sides have nodes of their own
 };
 
 /// Returns the sets in the order of their facets; each facet of the mesh is in one set.

@@ -44,11 +44,10 @@ void LsdynaWriter::write(GroupedMesh& mesh) {
     write_part(mesh, mesh.label_tets()[rank], numbers[rank], names.volume(rank));
   }
   for (const NamedFacets& set : named_facets(mesh, names)) {
-    const bool is_interface = !set.other.empty();
     write_node_set(mesh, set, false);
-    if (is_interface && mesh.header().record.has_doubles) write_node_set(mesh, set, true);
+    if (set.is_split) write_node_set(mesh, set, true);
     write_segments(mesh, set, false);
-    if (is_interface) write_segments(mesh, set, true);
+    if (!set.other.empty()) write_segments(mesh, set, true);
   }
   line("*END");
   append_label_table(labels_, mesh.table(), mesh.names(), numbers);
