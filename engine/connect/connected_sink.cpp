@@ -44,11 +44,7 @@ void ConnectedSink::write_tets(std::span<const io::TetRows> tets,
                                std::span<const RawLabel> labels) {
   finder_->add(tets, labels);
   if (!task_.options.change_mesh()) return below_.write_tets(tets, labels);
-  for (std::size_t t = 0; t < tets.size(); ++t) {
-    const auto [a, b, c, d] = tets[t];
-    const TetRecord record{a, b, c, d, labels[t]};
-    tets_.append(std::as_bytes(std::span(record)));
-  }
+  io::append_tets(tets_, tets, labels);
 }
 
 void ConnectedSink::write_values(std::span<const double> rows) {
@@ -91,8 +87,8 @@ void ConnectedSink::mark_used() {
   std::set<RawLabel> partial;
   used_.resize(positions_.size() / sizeof(io::Position) / 64 + 1);
   std::uint64_t number = 0;
-  tets_.each_batch<TetRecord>([&](std::span<const TetRecord> batch) {
-    for (const TetRecord& tet : batch) {
+  tets_.each_batch<io::TetRecord>([&](std::span<const io::TetRecord> batch) {
+    for (const io::TetRecord& tet : batch) {
       if (!finder_->keeps(number++)) {
         partial.insert(tet[4]);
         continue;
@@ -152,27 +148,27 @@ void ConnectedSink::pass_vertices() {
 void ConnectedSink::pass_tets() {
   finder_->each_copied_corner([&](const CopiedCorner& corner) {
     pass_tets_before(corner.tet);
-    TetRecord& tet = next_tet();
+    io::TetRecord& tet = next_tet();
     *std::find(tet.begin(), tet.begin() + 4, corner.row) = kCopyBit | corner.copy;
   });
-  pass_tets_before(tets_.size() / sizeof(TetRecord));
+  pass_tets_before(tets_.size() / sizeof(io::TetRecord));
   flush();
 }
 
 void ConnectedSink::pass_tets_before(std::uint64_t end) {
   for (; next_ < end; ++next_) {
-    const TetRecord& tet = next_tet();
+    const io::TetRecord& tet = next_tet();
     if (finder_->keeps(next_)) pass(tet);
   }
 }
 
 /// Returns the next tet, which a caller may change until it is passed on.
-ConnectedSink::TetRecord& ConnectedSink::next_tet() {
+io::TetRecord& ConnectedSink::next_tet() {
   if (next_ == loaded_first_ + loaded_.size()) {
-    const std::uint64_t left = tets_.size() / sizeof(TetRecord) - next_;
+    const std::uint64_t left = tets_.size() / sizeof(io::TetRecord) - next_;
     loaded_first_ = next_;
     loaded_.resize(std::min<std::uint64_t>(kBatchTets, left));
-    tets_.read_at(next_ * sizeof(TetRecord), std::as_writable_bytes(std::span(loaded_)));
+    tets_.read_at(next_ * sizeof(io::TetRecord), std::as_writable_bytes(std::span(loaded_)));
     const std::size_t width = header_.values.size();
     loaded_values_.resize(width * loaded_.size());
     if (width == 0) return loaded_.front();
@@ -182,7 +178,7 @@ ConnectedSink::TetRecord& ConnectedSink::next_tet() {
   return loaded_[next_ - loaded_first_];
 }
 
-void ConnectedSink::pass(const TetRecord& tet) {
+void ConnectedSink::pass(const io::TetRecord& tet) {
   io::TetRows& rows = batch_.emplace_back();
   for (std::size_t i = 0; i < 4; ++i) {
     const bool is_copy = (tet[i] & kCopyBit) != 0;

@@ -7,6 +7,7 @@
 #include <optional>
 
 #include "engine/connect/part_finder.h"
+#include "io/mesh/tet_record.h"
 
 namespace mw::engine {
 
@@ -41,9 +42,6 @@ class ConnectedSink : public io::MeshSink {
   [[nodiscard]] const std::optional<ConnectFacts>& facts() const { return facts_; }
 
  private:
-  /// Four rows and the label.
-  using TetRecord = std::array<std::uint64_t, 5>;
-
   /// Marks the vertices of kept tets among 64, and says how many there are before these.
   struct UsedWord {
     std::uint64_t bits = 0;
@@ -59,8 +57,8 @@ class ConnectedSink : public io::MeshSink {
   void pass_vertices();
   void pass_tets();
   void pass_tets_before(std::uint64_t end);
-  [[nodiscard]] TetRecord& next_tet();
-  void pass(const TetRecord& tet);
+  [[nodiscard]] io::TetRecord& next_tet();
+  void pass(const io::TetRecord& tet);
   void flush();
 
   io::MeshSink& below_;
@@ -74,7 +72,7 @@ class ConnectedSink : public io::MeshSink {
   std::vector<UsedWord> used_;  ///< empty if all vertices are used
   std::uint64_t used_count_ = 0;
   std::uint64_t next_ = 0;             ///< the first tet that was not passed on
-  std::vector<TetRecord> loaded_;      ///< some tets, among them the next one
+  std::vector<io::TetRecord> loaded_;  ///< some tets, among them the next one
   std::vector<double> loaded_values_;  ///< values of the loaded tets
   std::uint64_t loaded_first_ = 0;
   std::vector<io::TetRows> batch_;  ///< tets to be passed on

@@ -9,11 +9,10 @@
 #include "io/file/errors.h"
 #include "io/file/scratch/scratch_file.h"
 #include "io/mesh/sortable.h"
+#include "io/mesh/tet_record.h"
 
 namespace mw::io {
 namespace {
-
-using TetKey = std::array<std::uint64_t, 5>;
 
 /// Returns the bits of the double that sortable() gave this number.
 std::uint64_t unsortable(std::uint64_t key) {
@@ -37,11 +36,8 @@ void hash_vertices(ExternalSort<4>& positions, ExternalSort<2>& ranks, Hasher& h
 
 /// Adds the tets to keys, with ranks in the place of rows.
 void rank_tets(ScratchFile& tet_rows, PagedFile<std::uint64_t>& rank, ExternalSort<5>& keys) {
-  std::vector<TetKey> batch;
-  for (std::uint64_t at = 0; at < tet_rows.size(); at += batch.size() * sizeof(TetKey)) {
-    batch.resize(std::min<std::uint64_t>(4096, (tet_rows.size() - at) / sizeof(TetKey)));
-    tet_rows.read_at(at, std::as_writable_bytes(std::span(batch)));
-    for (TetKey& tet : batch) {
+  tet_rows.each_batch<TetRecord>([&](std::span<const TetRecord> batch) {
+    for (TetRecord tet : batch) {
       for (std::size_t i = 0; i < 4; ++i) {
         if (tet[i] >= rank.size()) {
           throw Error(ErrorKind::kInternal,
@@ -52,7 +48,7 @@ void rank_tets(ScratchFile& tet_rows, PagedFile<std::uint64_t>& rank, ExternalSo
       std::sort(tet.begin(), tet.begin() + 4);
       keys.add(tet);
     }
-  }
+  });
 }
 
 }  // namespace
@@ -70,11 +66,7 @@ void DigestSink::write_vertices(std::span<const Position> positions) {
 }
 
 void DigestSink::write_tets(std::span<const TetRows> tets, std::span<const RawLabel> labels) {
-  for (std::size_t i = 0; i < tets.size(); ++i) {
-    const auto [a, b, c, d] = tets[i];
-    const TetKey key{a, b, c, d, labels[i]};
-    tet_rows_.append(std::as_bytes(std::span(key)));
-  }
+  append_tets(tet_rows_, tets, labels);
   tets_ += tets.size();
 }
 
@@ -91,7 +83,7 @@ std::string DigestSink::digest() {
   }
   ExternalSort<5> keys(folder_, memory_bytes_);
   rank_tets(tet_rows_, rank, keys);
-  keys.each([&](const TetKey& tet) {
+  keys.each([&](const TetRecord& tet) {
     for (const std::uint64_t number : tet) hasher.add(number);
   });
   return "sha256:" + hasher.finish();

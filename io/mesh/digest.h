@@ -46,7 +46,7 @@ class DigestSink : public MeshSink {
   std::uint64_t vertices_ = 0;
   std::uint64_t tets_ = 0;
   ExternalSort<4> positions_;  ///< sortable coordinates, row
-  ScratchFile tet_rows_;       ///< four rows and the label of each tet
+  ScratchFile tet_rows_;       ///< a TetRecord of each tet
 };
 
 /// The digest of a mesh in memory.  REQUIRES: rows within vertices.

@@ -6,13 +6,9 @@
 #include <algorithm>
 
 #include "io/mesh/sortable.h"
+#include "io/mesh/tet_record.h"
 
 namespace mw::io {
-namespace {
-
-using TetRecord = std::array<std::uint64_t, 5>;
-
-}  // namespace
 
 void DoubledVertices::add(std::span<const Position> positions) {
   for (const Position& p : positions) {
@@ -63,11 +59,7 @@ void MergedVertices::write_vertices(std::span<const Position> positions) {
 
 void MergedVertices::write_tets(std::span<const TetRows> tets, std::span<const RawLabel> labels) {
   if (!waiting_) return below_.write_tets(tets, labels);
-  for (std::size_t i = 0; i < tets.size(); ++i) {
-    const auto [a, b, c, d] = tets[i];
-    const TetRecord record{a, b, c, d, labels[i]};
-    waiting_->tets.append(std::as_bytes(std::span(record)));
-  }
+  append_tets(waiting_->tets, tets, labels);
 }
 
 void MergedVertices::finish() {

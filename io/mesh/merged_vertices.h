@@ -64,7 +64,7 @@ class MergedVertices : public MeshSink {
 
     DoubledVertices doubles;
     ScratchFile positions;
-    ScratchFile tets;  ///< four rows and the label of each
+    ScratchFile tets;  ///< a TetRecord of each
   };
 
   void pass_vertices();

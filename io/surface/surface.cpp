@@ -3,8 +3,6 @@
 // Facets of a mesh as a surface with vertices of its own.
 #include "io/surface/surface.h"
 
-#include <algorithm>
-
 #include "io/file/scratch/external_sort.h"
 #include "io/surface/vertex_sheets.h"
 
@@ -33,17 +31,6 @@ SurfaceShell shell_of(const GroupedMesh& mesh, const ShellPlan& plan) {
                           .triangles = group.facets.size()});
   }
   return shell;
-}
-
-/// Calls use(records) on all of a file, some at a time.
-template <class Record, class Use>
-void each_batch(ScratchFile& file, Use use) {
-  std::vector<Record> batch;
-  for (std::uint64_t at = 0; at < file.size(); at += batch.size() * sizeof(Record)) {
-    batch.resize(std::min<std::uint64_t>(4096, (file.size() - at) / sizeof(Record)));
-    file.read_at(at, std::as_writable_bytes(std::span(batch)));
-    use(batch);
-  }
 }
 
 }  // namespace
@@ -87,8 +74,8 @@ void Surface::add_shell(const SurfaceSource& source, const ShellPlan& plan, bool
 
 void Surface::write(SurfaceSink& sink) {
   sink.begin(header_);
-  each_batch<Position>(vertices_, [&](const auto& batch) { sink.write_vertices(batch); });
-  each_batch<Triangle>(triangles_, [&](const auto& batch) { sink.write_triangles(batch); });
+  vertices_.each_batch<Position>([&](const auto& batch) { sink.write_vertices(batch); });
+  triangles_.each_batch<Triangle>([&](const auto& batch) { sink.write_triangles(batch); });
   sink.finish();
 }
 

@@ -7,6 +7,7 @@
 
 #include "io/file/errors.h"
 #include "io/mesh/grouped/curved_nodes.h"
+#include "io/mesh/tet_record.h"
 #include "kernels/core/assert.h"
 #include "kernels/core/tet_facets.h"
 #include "kernels/core/vector3.h"
@@ -62,11 +63,7 @@ void GroupedSink::write_vertices(std::span<const Position> positions) {
 
 void GroupedSink::write_tets(std::span<const TetRows> tets, std::span<const RawLabel> labels) {
   MW_ASSERT(tets.size() == labels.size());
-  for (std::size_t i = 0; i < tets.size(); ++i) {
-    const auto [a, b, c, d] = tets[i];
-    const std::array<std::uint64_t, 5> record{a, b, c, d, labels[i]};
-    tets_.append(std::as_bytes(std::span(record)));
-  }
+  append_tets(tets_, tets, labels);
   labels_.insert(labels);
 }
 
@@ -88,7 +85,7 @@ std::uint64_t GroupedSink::buffer_bytes() const {
 }
 
 void GroupedSink::group() {
-  check_sink_counts("mesh", mesh_.header_, tets_.size() / sizeof(std::array<std::uint64_t, 5>));
+  check_sink_counts("mesh", mesh_.header_, tets_.size() / sizeof(TetRecord));
   mesh_.table_ = LabelTable(labels_.values(), mesh_.header_.labels_signed);
   find_box();
   if (doubles_) doubles_->find();
@@ -117,16 +114,12 @@ void GroupedSink::find_box() {
 void GroupedSink::sort_tets(Faces& faces) {
   using Record = std::array<std::uint64_t, 6>;
   ExternalSort<6> tets(folder_, kSortBytes);
-  std::vector<std::array<std::uint64_t, 5>> batch;
-  const std::uint64_t bytes = tets_.size();
   std::uint64_t number = 0;
-  for (std::uint64_t at = 0; at < bytes; at += batch.size() * sizeof batch[0]) {
-    batch.resize(std::min<std::uint64_t>(4096, (bytes - at) / sizeof batch[0]));
-    tets_.read_at(at, std::as_writable_bytes(std::span(batch)));
+  tets_.each_batch<TetRecord>([&](std::span<const TetRecord> batch) {
     for (const auto& [a, b, c, d, label] : batch) {
       tets.add({mesh_.table_.dense(label), number++, a, b, c, d});
     }
-  }
+  });
   mesh_.label_tets_.resize(mesh_.table_.size());
   tets.each([&](const Record& record) {
     RowRange& range = mesh_.label_tets_[record[0]];

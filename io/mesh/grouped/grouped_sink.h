@@ -59,7 +59,7 @@ class GroupedSink : public MeshSink {
 
   std::filesystem::path folder_;
   GroupedMesh mesh_;
-  ScratchFile tets_;          ///< four rows and the label of each, as they came
+  ScratchFile tets_;          ///< a TetRecord of each, as they came
   PagedFile<double> values_;  ///< those of tets as they came
   LabelSet labels_;
   std::optional<DoubledVertices> doubles_;

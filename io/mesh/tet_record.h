@@ -1,0 +1,28 @@
+// SPDX-FileCopyrightText: The mwmesh authors
+// SPDX-License-Identifier: Apache-2.0
+// Tets in temporary files.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <span>
+
+#include "io/file/scratch/scratch_file.h"
+#include "io/mesh/mesh_sink.h"
+
+namespace mw::io {
+
+/// Four rows and the label of a tet.
+using TetRecord = std::array<std::uint64_t, 5>;
+
+/// Appends a TetRecord for each tet.  REQUIRES: tets.size() == labels.size().
+inline void append_tets(ScratchFile& file, std::span<const TetRows> tets,
+                        std::span<const RawLabel> labels) {
+  for (std::size_t i = 0; i < tets.size(); ++i) {
+    const auto [a, b, c, d] = tets[i];
+    const TetRecord record{a, b, c, d, labels[i]};
+    file.append(std::as_bytes(std::span(record)));
+  }
+}
+
+}  // namespace mw::io
