@@ -7,6 +7,7 @@
 
 #include "io/file/scratch/external_sort.h"
 #include "io/mesh/mesh_data.h"
+#include "io/mesh/no_sink.h"
 
 namespace mw::io {
 
@@ -23,16 +24,14 @@ namespace mw::io {
 /// Memory: 3 * memory_bytes and 10 MiB; what does not fit waits in temporary files in `folder`,
 /// about 50 bytes a vertex and 80 a tet. ERRORS: kInternal when a tet names a vertex that never
 /// came; see also ScratchFile.
-class DigestSink : public MeshSink {
+class DigestSink : public NoSink {
  public:
   static constexpr std::size_t kMemoryBytes = 16 << 20;
 
   explicit DigestSink(const std::filesystem::path& folder, std::size_t memory_bytes = kMemoryBytes);
 
-  void begin(const MeshHeader&) override {}
   void write_vertices(std::span<const Position> positions) override;
   void write_tets(std::span<const TetRows> tets, std::span<const RawLabel> labels) override;
-  void finish() override {}
   [[nodiscard]] std::uint64_t buffer_bytes() const override {
     return 2 * std::uint64_t{memory_bytes_} + (1 << 20);
   }

@@ -7,7 +7,7 @@
 
 #include "io/file/scratch/external_sort.h"
 #include "io/file/scratch/scratch_file.h"
-#include "io/mesh/mesh_sink.h"
+#include "io/mesh/no_sink.h"
 #include "kernels/audit/compensated_sum.h"
 #include "kernels/audit/shape/shape.h"
 
@@ -17,14 +17,12 @@ namespace mw::cli {
 /// Memory: 40 MiB and 100 bytes a label, whatever the mesh; what does not fit waits in temporary
 /// files in `folder`: 24 bytes a vertex, 128 a tet and 120 an interface triangle.  ERRORS: see
 /// ScratchFile; kInput when a tet names a vertex that has not come.
-class ShapeSink : public io::MeshSink {
+class ShapeSink : public io::NoSink {
  public:
   explicit ShapeSink(const std::filesystem::path& folder);
 
-  void begin(const io::MeshHeader&) override {}
   void write_vertices(std::span<const io::Position> positions) override;
   void write_tets(std::span<const io::TetRows> tets, std::span<const RawLabel> labels) override;
-  void finish() override {}
 
   /// Returns for each label the sum of its absolute volumes, in cubic physical units.
   [[nodiscard]] const std::map<RawLabel, audit::CompensatedSum>& volumes() const {

@@ -7,16 +7,14 @@
 
 #include "engine/cli/mesh/mesh_request.h"
 #include "engine/report/run_report.h"
+#include "io/mesh/no_sink.h"
 
 namespace mw::cli {
 
 /// Counts the tets of each label that pass by.
-class LabelTets : public io::MeshSink {
+class LabelTets : public io::NoSink {
  public:
-  void begin(const io::MeshHeader& /*header*/) override {}
-  void write_vertices(std::span<const io::Position> /*positions*/) override {}
   void write_tets(std::span<const io::TetRows> tets, std::span<const RawLabel> labels) override;
-  void finish() override {}
 
   /// Empty where the mesh was written by several processes.
   [[nodiscard]] const std::map<RawLabel, std::uint64_t>& counts() const { return counts_; }

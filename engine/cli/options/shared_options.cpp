@@ -5,6 +5,7 @@
 
 #include "engine/cli/options/values.h"
 #include "engine/settings/setting_table.h"
+#include "io/mesh/no_sink.h"
 #include "io/mesh/open_mesh.h"
 #include "kernels/core/error.h"
 
@@ -115,17 +116,13 @@ void add_mesh_option(OptionSet& options, std::filesystem::path& mesh, const std:
 namespace {
 
 /// Takes what is known before the first row, and ends the reading by throwing Enough.
-struct NamesSink : io::MeshSink {
+struct NamesSink : io::NoSink {
   struct Enough {};
 
   void begin(const io::MeshHeader& header) override {
     names = header.names;
     throw Enough();
   }
-  void write_vertices(std::span<const io::Position> /*positions*/) override {}
-  void write_tets(std::span<const io::TetRows> /*tets*/,
-                  std::span<const RawLabel> /*labels*/) override {}
-  void finish() override {}
 
   io::LabelNames names;
 };
