@@ -7,7 +7,6 @@
 #include <array>
 #include <optional>
 
-#include "io/file/errors.h"
 #include "io/volume/masks/mask_merger.h"
 #include "io/volume/open_volume.h"
 #include "io/volume/slices/slice_folder.h"
@@ -32,13 +31,6 @@ bool is_mask(const std::filesystem::directory_entry& entry) {
          entry.is_regular_file(ignored);
 }
 
-std::filesystem::directory_iterator listed(const std::filesystem::path& folder) {
-  std::error_code failure;
-  std::filesystem::directory_iterator found(folder, failure);
-  if (!failure) return found;
-  fail_input(folder.string(), {}, "cannot list: " + failure.message(), "check the path");
-}
-
 }  // namespace
 
 std::string mask_name(const std::filesystem::path& file) {
@@ -47,14 +39,14 @@ std::string mask_name(const std::filesystem::path& file) {
 }
 
 bool is_mask_folder(const std::filesystem::path& folder) {
-  const auto found = listed(folder);
+  const auto found = entries_of(folder);
   return std::any_of(begin(found), end(found), is_mask);
 }
 
 std::unique_ptr<LabelVolume> open_mask_folder(const std::filesystem::path& folder,
                                               const OpenOptions& options) {
   std::vector<std::filesystem::path> files;
-  for (const auto& entry : listed(folder)) {
+  for (const auto& entry : entries_of(folder)) {
     if (is_mask(entry)) files.push_back(entry.path());
   }
   std::sort(files.begin(), files.end(), [](const auto& a, const auto& b) {

@@ -214,16 +214,15 @@ constexpr std::size_t kChunkVoxels = 1 << 16;
 
 }  // namespace
 
-VolumeWriter::VolumeWriter(const std::filesystem::path& path, const VolumeInfo& info,
-                           std::string_view header)
+NpyWriter::NpyWriter(const std::filesystem::path& path, const VolumeInfo& info)
     : file_(path),
       name_(path.string()),
       type_(info.type),
       expected_(static_cast<std::uint64_t>(info.shape.product())) {
-  file_.append(header);
+  file_.append(format_npy_header(info));
 }
 
-void VolumeWriter::write(std::span<const RawLabel> labels) {
+void NpyWriter::write(std::span<const RawLabel> labels) {
   const auto size = static_cast<std::size_t>(byte_size(type_));
   std::vector<std::byte> bytes(std::min(labels.size(), kChunkVoxels) * size);
   while (!labels.empty()) {
@@ -239,18 +238,12 @@ void VolumeWriter::write(std::span<const RawLabel> labels) {
   }
 }
 
-void VolumeWriter::finish() {
+void NpyWriter::finish() {
   if (written_ != expected_) {
     throw Error(ErrorKind::kUsage,
                 text(name_, ": ", written_, " voxels written, the shape has ", expected_));
   }
   file_.commit();
 }
-
-NpyWriter::NpyWriter(const std::filesystem::path& path, const VolumeInfo& info)
-    : VolumeWriter(path, info, format_npy_header(info)) {}
-
-RawWriter::RawWriter(const std::filesystem::path& path, const VolumeInfo& info)
-    : VolumeWriter(path, info, {}) {}
 
 }  // namespace mw::io

@@ -50,18 +50,17 @@ struct NpyHeader {
 [[nodiscard]] std::unique_ptr<LabelVolume> open_npy(std::unique_ptr<ByteSource> source,
                                                     const OpenOptions& options);
 
-/// Writes voxels in file order, x fastest, little-endian, in the type of the info.  Nothing appears
-/// under the path before finish() returns.
-/// ERRORS: mw::Error(kUsage) for a label the type cannot hold, a number of voxels that is not the
-/// shape's, or a path that cannot be written; kResource on a full disk.
-class VolumeWriter {
+/// Writes a .npy file in C order [z, y, x], little-endian, in the type of the info.  Nothing
+/// appears under the path before finish() returns. ERRORS: mw::Error(kUsage) for a label the type
+/// cannot hold, a number of voxels that is not the shape's, or a path that cannot be written;
+/// kResource on a full disk.
+class NpyWriter {
  public:
+  NpyWriter(const std::filesystem::path& path, const VolumeInfo& info);
+
   /// Appends whole or partial z-slabs, in order.
   void write(std::span<const RawLabel> labels);
   void finish();
-
- protected:
-  VolumeWriter(const std::filesystem::path& path, const VolumeInfo& info, std::string_view header);
 
  private:
   AtomicFile file_;
@@ -69,18 +68,6 @@ class VolumeWriter {
   VoxelType type_;
   std::uint64_t expected_;
   std::uint64_t written_ = 0;
-};
-
-/// Writes a .npy file in C order [z, y, x].
-class NpyWriter : public VolumeWriter {
- public:
-  NpyWriter(const std::filesystem::path& path, const VolumeInfo& info);
-};
-
-/// Writes the voxels alone.
-class RawWriter : public VolumeWriter {
- public:
-  RawWriter(const std::filesystem::path& path, const VolumeInfo& info);
 };
 
 }  // namespace mw::io

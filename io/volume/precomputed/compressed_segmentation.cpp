@@ -20,9 +20,7 @@ constexpr std::size_t kWordBytes = 4;
 constexpr std::size_t kHeaderBytes = 8;
 
 Index3 grid_of(const SegmentationLayout& layout) {
-  const auto blocks = [](std::int64_t n, std::int64_t block) { return (n - 1) / block + 1; };
-  return {blocks(layout.shape.x, layout.block.x), blocks(layout.shape.y, layout.block.y),
-          blocks(layout.shape.z, layout.block.z)};
+  return cells_of({{0, 0, 0}, layout.shape}, layout.block).hi;
 }
 
 struct Block {

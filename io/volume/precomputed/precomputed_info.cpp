@@ -225,9 +225,7 @@ PrecomputedScale parse_precomputed_info(const Json& json, std::string_view file,
 }
 
 Index3 chunk_grid(const PrecomputedScale& scale) {
-  const auto chunks = [](std::int64_t n, std::int64_t chunk) { return (n - 1) / chunk + 1; };
-  return {chunks(scale.shape.x, scale.chunk.x), chunks(scale.shape.y, scale.chunk.y),
-          chunks(scale.shape.z, scale.chunk.z)};
+  return cells_of({{0, 0, 0}, scale.shape}, scale.chunk).hi;
 }
 
 }  // namespace mw::io

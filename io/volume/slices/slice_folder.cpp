@@ -81,6 +81,13 @@ bool comes_before(std::string_view a, std::string_view b) {
   return a < b;
 }
 
+std::filesystem::directory_iterator entries_of(const std::filesystem::path& folder) {
+  std::error_code failure;
+  std::filesystem::directory_iterator found(folder, failure);
+  if (!failure) return found;
+  fail_input(folder.string(), {}, "cannot list: " + failure.message(), "check the path");
+}
+
 std::optional<NumberGap> find_gap(const std::vector<std::string>& names) {
   if (names.size() < 3) return std::nullopt;
   const auto run = numbered_run(names);
@@ -117,18 +124,9 @@ bool is_slice(const std::filesystem::directory_entry& entry) {
          path.filename().string().front() != '.' && entry.is_regular_file(ignored);
 }
 
-/// The entries of a folder.  ERRORS: mw::Error(kInput) when it cannot be read.
-std::filesystem::directory_iterator entries(const std::filesystem::path& folder) {
-  std::error_code failure;
-  std::filesystem::directory_iterator found(folder, failure);
-  if (failure)
-    fail_input(folder.string(), {}, "cannot list: " + failure.message(), "check the path");
-  return found;
-}
-
 std::vector<std::string> slice_names(const std::filesystem::path& folder) {
   std::vector<std::string> names;
-  for (const auto& entry : entries(folder)) {
+  for (const auto& entry : entries_of(folder)) {
     if (is_slice(entry)) names.push_back(entry.path().filename().string());
     if (static_cast<std::int64_t>(names.size()) > kMaxAxisVoxels) {
       fail_input(folder.string(), {}, text("more than ", kMaxAxisVoxels, " slices"),
@@ -158,7 +156,7 @@ void check_names(const std::filesystem::path& folder, const std::vector<std::str
 }  // namespace
 
 bool is_slice_folder(const std::filesystem::path& folder) {
-  const auto found = entries(folder);
+  const auto found = entries_of(folder);
   return std::any_of(begin(found), end(found), is_slice);
 }
 
