@@ -89,10 +89,4 @@ std::string DigestSink::digest() {
   return "sha256:" + hasher.finish();
 }
 
-std::string mesh_digest(const MeshData& mesh) {
-  DigestSink sink(scratch_folder());
-  write_mesh(mesh, sink);
-  return sink.digest();
-}
-
 }  // namespace mw::io

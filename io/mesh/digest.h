@@ -6,7 +6,6 @@
 #include <string>
 
 #include "io/file/scratch/external_sort.h"
-#include "io/mesh/mesh_data.h"
 #include "io/mesh/no_sink.h"
 
 namespace mw::io {
@@ -47,8 +46,5 @@ class DigestSink : public NoSink {
   ExternalSort<4> positions_;  ///< sortable coordinates, row
   ScratchFile tet_rows_;       ///< a TetRecord of each tet
 };
-
-/// The digest of a mesh in memory.  REQUIRES: rows within vertices.
-[[nodiscard]] std::string mesh_digest(const MeshData& mesh);
 
 }  // namespace mw::io

@@ -24,6 +24,9 @@ enum class Side : std::uint8_t {
 
 inline constexpr std::size_t kSides = 8;
 
+/// Returns where a point is along an edge of the box: 0 at its beginning, 1 at its end.
+[[nodiscard]] double share_along(const MeshBox& box, std::size_t axis, const Position& p);
+
 /// The six planes of a box.
 class BoxSides {
  public:

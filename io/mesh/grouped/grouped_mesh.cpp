@@ -56,27 +56,6 @@ namespace {
 /// A point lies on a side of a box when it is within this share of the box's length.
 constexpr double kTolerance = 1e-9;
 
-/// Returns where a point is along an edge of the box: 0 at its beginning, 1 at its end.
-double share_along(const MeshBox& box, std::size_t axis, const Position& p) {
-  double along = 0;
-  double length = 0;
-  for (std::size_t k = 0; k < 3; ++k) {
-    along += box.edges[axis][k] * (p[k] - box.origin[k]);
-    length += box.edges[axis][k] * box.edges[axis][k];
-  }
-  return along / length;
-}
-
-void write_nodes(GroupedMesh& mesh, MeshSink& sink) {
-  constexpr std::uint64_t kBatchRows = 4096;
-  std::vector<Position> batch;
-  for (std::uint64_t at = 0; at < mesh.node_count(); at += batch.size()) {
-    batch.resize(std::min(kBatchRows, mesh.node_count() - at));
-    for (std::size_t i = 0; i < batch.size(); ++i) batch[i] = mesh.node(at + i);
-    sink.write_vertices(batch);
-  }
-}
-
 void write_values_of(GroupedMesh& mesh, std::uint64_t tet, MeshSink& sink) {
   std::vector<double> row(mesh.header().values.size());
   for (std::size_t i = 0; i < row.size(); ++i) row[i] = mesh.value(tet, i);
@@ -104,6 +83,16 @@ void write_wedges(GroupedMesh& mesh, CellSink& sink) {
 }
 
 }  // namespace
+
+double share_along(const MeshBox& box, std::size_t axis, const Position& p) {
+  double along = 0;
+  double length = 0;
+  for (std::size_t k = 0; k < 3; ++k) {
+    along += box.edges[axis][k] * (p[k] - box.origin[k]);
+    length += box.edges[axis][k] * box.edges[axis][k];
+  }
+  return along / length;
+}
 
 Side BoxSides::side_of(const std::array<Position, 3>& corners) const {
   for (std::size_t axis = 0; axis < 3; ++axis) {
@@ -148,6 +137,16 @@ NodeRows GroupedMesh::wedge_nodes(const Wedge& wedge) {
   out.add(facet_middles({.rows = wedge.bottom, .tet = wedge.bottom_tet}));
   out.add(facet_middles({.rows = wedge.top, .tet = wedge.top_tet}));
   return out;
+}
+
+void write_nodes(GroupedMesh& mesh, MeshSink& sink) {
+  constexpr std::uint64_t kBatchRows = 4096;
+  std::vector<Position> batch;
+  for (std::uint64_t at = 0; at < mesh.node_count(); at += batch.size()) {
+    batch.resize(std::min(kBatchRows, mesh.node_count() - at));
+    for (std::size_t i = 0; i < batch.size(); ++i) batch[i] = mesh.node(at + i);
+    sink.write_vertices(batch);
+  }
 }
 
 void CellWriter::write(GroupedMesh& mesh) {

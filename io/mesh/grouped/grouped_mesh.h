@@ -172,6 +172,9 @@ class GroupedWriter {
   virtual void write(GroupedMesh& mesh) = 0;
 };
 
+/// Writes all nodes into the sink, in row order.
+void write_nodes(GroupedMesh& mesh, MeshSink& sink);
+
 /// A sink that writes tets of four or ten nodes, and wedges.
 class CellSink : public MeshSink {
  public:

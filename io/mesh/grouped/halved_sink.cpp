@@ -2,7 +2,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "io/mesh/grouped/halved_sink.h"
 
-#include <algorithm>
 #include <memory>
 #include <utility>
 
@@ -11,7 +10,7 @@
 namespace mw::io {
 namespace {
 
-constexpr std::size_t kHalvedBatch = 512;  ///< vertices, or uncut tets, passed on at once
+constexpr std::size_t kHalvedBatch = 512;  ///< uncut tets whose parts are passed on at once
 
 /// Passes on the eight parts of each tet of a mesh with ten nodes a tet.
 class HalvedWriter : public GroupedWriter {
@@ -23,7 +22,7 @@ class HalvedWriter : public GroupedWriter {
     header.tets *= kTetParts.size();
     if (header.record.promises) ++header.record.promises->halvings;
     below_.begin(header);
-    pass_nodes(mesh);
+    write_nodes(mesh, below_);
     for (std::uint64_t tet = 0; tet < mesh.tet_count(); ++tet) {
       add_parts_of(mesh, tet);
       if (rows_.size() >= kHalvedBatch * kTetParts.size()) flush();
@@ -33,15 +32,6 @@ class HalvedWriter : public GroupedWriter {
   }
 
  private:
-  void pass_nodes(GroupedMesh& mesh) {
-    std::vector<Position> batch;
-    for (std::uint64_t row = 0; row < mesh.node_count(); row += batch.size()) {
-      batch.resize(std::min<std::uint64_t>(kHalvedBatch, mesh.node_count() - row));
-      for (std::size_t i = 0; i < batch.size(); ++i) batch[i] = mesh.node(row + i);
-      below_.write_vertices(batch);
-    }
-  }
-
   void add_parts_of(GroupedMesh& mesh, std::uint64_t tet) {
     const NodeRows rows = mesh.tet_nodes(tet);
     const RawLabel label = mesh.table().raw(mesh.label_of(tet));

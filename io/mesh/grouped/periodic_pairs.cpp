@@ -22,27 +22,12 @@ namespace {
 /// Shares of the box's edge that differ by no more are one place; lattice points are farther apart.
 constexpr double kSame = 1e-10;
 
-using Shares = std::array<double, 3>;
 using Places = std::array<std::uint32_t, 3>;
 
 struct FaceNode {
   std::uint64_t row = 0;
   Places at{};
 };
-
-/// Returns how far along each edge of the box a position is, from 0 to 1.
-Shares shares_of(const MeshBox& box, const Position& p) {
-  Shares out{};
-  for (std::size_t k = 0; k < 3; ++k) {
-    double dot = 0, square = 0;
-    for (std::size_t i = 0; i < 3; ++i) {
-      dot += (p[i] - box.origin[i]) * box.edges[k][i];
-      square += box.edges[k][i] * box.edges[k][i];
-    }
-    out[k] = dot / square;
-  }
-  return out;
-}
 
 bool is_periodic_side(Side side, unsigned axes) {
   if (side == Side::kInterface || side == Side::kOuter) return false;
@@ -245,19 +230,16 @@ class PairsWriter : public GroupedWriter {
 
 PeriodicPairs periodic_pairs(GroupedMesh& mesh, unsigned axes) {
   const std::vector<std::uint64_t> rows = face_rows(mesh, axes);
-  std::vector<Shares> shares;
-  for (const std::uint64_t row : rows) shares.push_back(shares_of(mesh.box(), mesh.node(row)));
+  std::vector<FaceNode> nodes;
+  for (const std::uint64_t row : rows) nodes.push_back({.row = row});
   std::vector<PlaceList> lists;
   for (std::size_t k = 0; k < 3; ++k) {
-    std::vector<double> along;
-    for (const Shares& s : shares) along.push_back(s[k]);
-    lists.emplace_back(std::move(along));
-  }
-  std::vector<FaceNode> nodes;
-  for (std::size_t i = 0; i < rows.size(); ++i) {
-    const Shares& s = shares[i];
-    nodes.push_back(
-        {rows[i], {lists[0].number(s[0]), lists[1].number(s[1]), lists[2].number(s[2])}});
+    std::vector<double> shares;
+    for (const std::uint64_t row : rows) {
+      shares.push_back(share_along(mesh.box(), k, mesh.node(row)));
+    }
+    lists.emplace_back(shares);
+    for (std::size_t i = 0; i < nodes.size(); ++i) nodes[i].at[k] = lists[k].number(shares[i]);
   }
   const FaceNodes found(std::move(nodes));
   PeriodicPairs out;

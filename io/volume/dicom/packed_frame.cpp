@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <optional>
 
+#include "io/file/byte_order.h"
 #include "io/file/errors.h"
 
 namespace mw::io {
@@ -18,11 +19,10 @@ std::uint32_t byte_at(FrameBytes bytes, std::size_t at) {
   return std::to_integer<std::uint32_t>(bytes[at]);
 }
 std::uint32_t big_16_at(FrameBytes bytes, std::size_t at) {
-  return byte_at(bytes, at) << 8 | byte_at(bytes, at + 1);
+  return load<std::uint16_t>(bytes.data() + at, ByteOrder::kBig);
 }
 std::uint32_t little_32_at(FrameBytes bytes, std::size_t at) {
-  return byte_at(bytes, at) | byte_at(bytes, at + 1) << 8 | byte_at(bytes, at + 2) << 16 |
-         byte_at(bytes, at + 3) << 24;
+  return load<std::uint32_t>(bytes.data() + at, ByteOrder::kLittle);
 }
 
 struct JpegHeader {

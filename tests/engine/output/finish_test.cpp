@@ -4,9 +4,9 @@
 #include "engine/output/finish.h"
 
 #include "engine/output/interface_shape.h"
-#include "io/mesh/digest.h"
 #include "kernels/audit/shape/volumes.h"
 #include "tests/engine/output/marched_blocks.h"
+#include "tests/io/mesh/mesh_digest.h"
 #include "tests/kernels/mesh/dense_mesh.h"
 
 namespace mw::engine {

@@ -3,9 +3,9 @@
 // Every format that is read to every one that is written: the same content, by its digest, with
 // names and labels.
 #include "io/file/errors.h"
-#include "io/mesh/digest.h"
 #include "io/mesh/open_mesh.h"
 #include "tests/io/mesh/grid_mesh.h"
+#include "tests/io/mesh/mesh_digest.h"
 #include "tests/io/mesh/mesh_endings.h"
 #include "tests/io/mesh/read_back.h"
 #include "tests/io/test_files.h"

@@ -5,8 +5,8 @@
 
 #include <csignal>
 
-#include "io/mesh/digest.h"
 #include "io/mesh/open_mesh.h"
+#include "tests/io/mesh/mesh_digest.h"
 #include "tests/io/mesh/sample_mesh.h"
 
 namespace mw::io {

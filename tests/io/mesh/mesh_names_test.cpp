@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: The mwmesh authors
 // SPDX-License-Identifier: Apache-2.0
 // Names of labels survive every mesh format; without names nothing changes; damage is told.
-#include "io/mesh/digest.h"
 #include "io/mesh/open_mesh.h"
+#include "tests/io/mesh/mesh_digest.h"
 #include "tests/io/mesh/sample_mesh.h"
 #include "tests/io/names/random_names.h"
 

@@ -5,6 +5,7 @@
 #include "io/codec/hasher.h"
 #include "io/mesh/digest.h"
 #include "io/mesh/open_mesh.h"
+#include "tests/io/mesh/mesh_digest.h"
 #include "tests/io/mesh/read_back.h"
 #include "tests/io/mesh/sample_mesh.h"
 

@@ -4,8 +4,8 @@
 #include <gmock/gmock.h>
 
 #include "io/file/text_numbers.h"
-#include "io/mesh/digest.h"
 #include "io/mesh/open_mesh.h"
+#include "tests/io/mesh/mesh_digest.h"
 #include "tests/io/mesh/read_back.h"
 #include "tests/io/mesh/written_mesh.h"
 

@@ -3,6 +3,7 @@
 // Files of meshes with wedges are read as the tets that they follow from.
 #include "io/file/errors.h"
 #include "io/mesh/grouped/grouped_sink.h"
+#include "tests/io/mesh/mesh_digest.h"
 #include "tests/io/mesh/mesh_endings.h"
 #include "tests/io/mesh/sample_mesh.h"
 #include "tests/io/mesh/written_mesh.h"

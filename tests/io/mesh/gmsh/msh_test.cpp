@@ -4,6 +4,7 @@
 #include "io/mesh/gmsh/node_classes.h"
 #include "io/mesh/grouped/grouped_sink.h"
 #include "tests/io/mesh/grid_mesh.h"
+#include "tests/io/mesh/mesh_digest.h"
 #include "tests/io/mesh/sample_mesh.h"
 #include "tests/io/mesh/written_mesh.h"
 #include "tests/io/test_files.h"
