@@ -3,11 +3,13 @@
 // Numbers from bytes of either byte order.
 #pragma once
 
+#include <array>
 #include <bit>
 #include <concepts>
 #include <cstddef>
 #include <cstdint>
 #include <cstring>
+#include <string_view>
 
 namespace mw::io {
 
@@ -48,6 +50,14 @@ void store_little(T value, std::byte* bytes) {
       bytes[sizeof value - 1 - i] = kept;
     }
   }
+}
+
+/// Appends a number to a file or text, least significant byte first.
+template <class Out, class T>
+void append_little(Out& out, T value) {
+  std::array<std::byte, sizeof value> bytes;
+  store_little(value, bytes.data());
+  out.append(std::string_view(reinterpret_cast<const char*>(bytes.data()), bytes.size()));
 }
 
 }  // namespace mw::io

@@ -115,14 +115,6 @@ class RunCursor {
 /// the frame is not known.
 [[nodiscard]] std::string space_comment(const SurfaceHeader& header);
 
-/// Appends a number to a file or text, least significant byte first.
-template <class Out, class T>
-void append_little(Out& out, T value) {
-  std::array<std::byte, sizeof value> bytes;
-  store_little(value, bytes.data());
-  out.append(std::string_view(reinterpret_cast<const char*>(bytes.data()), bytes.size()));
-}
-
 /// ERRORS: mw::Error(kUsage) when there are more than `max` of `what`, which is all that a format
 /// with numbers of 32 bits can hold.
 void check_max(std::string_view file, std::string_view what, std::uint64_t count,

@@ -1,13 +1,16 @@
 // SPDX-FileCopyrightText: The mwmesh authors
 // SPDX-License-Identifier: Apache-2.0
-// What every format demands of its numbers, worded the same for all.
+// What every format demands of its numbers, and what shapes are, worded the same for all.
 #pragma once
 
 #include <array>
 #include <cstdint>
 #include <span>
+#include <string>
 #include <string_view>
+#include <vector>
 
+#include "io/file/errors.h"
 #include "io/file/source/byte_source.h"
 #include "io/volume/label_volume.h"
 #include "kernels/core/index.h"
@@ -37,6 +40,22 @@ void check_payload(const ByteSource& source, const VolumeInfo& info, std::uint64
 /// which errors call `what`, such as "masks".
 void check_same_grid(std::string_view file, const VolumeInfo& info, const VolumeInfo& before,
                      std::string_view what);
+
+/// Returns a shape as "3 x 4 x 5".
+template <class Extent>
+[[nodiscard]] std::string shape_text(const std::vector<Extent>& shape) {
+  std::string out;
+  for (const Extent extent : shape) out += text(out.empty() ? "" : " x ", extent);
+  return out;
+}
+
+/// Returns how many numbers an array has.  REQUIRES: extents are not negative, and the product
+/// fits.
+[[nodiscard]] inline std::uint64_t product(std::span<const std::int64_t> extents) {
+  std::uint64_t out = 1;
+  for (const std::int64_t extent : extents) out *= static_cast<std::uint64_t>(extent);
+  return out;
+}
 
 /// Returns how many bytes all voxels take.
 [[nodiscard]] std::uint64_t payload_bytes(const VolumeInfo& info);

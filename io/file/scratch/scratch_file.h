@@ -70,6 +70,17 @@ class ScratchFile {
       visit(std::span<const Record>(batch));
     }
   }
+  /// Appends `bytes` bytes from `offset` on to another file.  REQUIRES: that many bytes are there.
+  template <class File>
+  void copy_to(File& file, std::uint64_t offset, std::uint64_t bytes) {
+    constexpr std::uint64_t kBatch = 1 << 18;
+    std::vector<std::byte> batch;
+    for (std::uint64_t done = 0; done < bytes; done += batch.size()) {
+      batch.resize(std::min(kBatch, bytes - done));
+      read_at(offset + done, batch);
+      file.append(batch);
+    }
+  }
   /// Returns the file itself with all bytes in it.  REQUIRES: the object is not used afterwards.
   [[nodiscard]] FileDescriptor release();
 

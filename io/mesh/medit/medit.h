@@ -39,8 +39,6 @@ class MeditSink : public MeshSink {
   [[nodiscard]] std::uint64_t buffer_bytes() const override { return 2 << 20; }
 
  private:
-  void append_tets();
-
   std::string name_;
   AtomicFile file_;
   ScratchFile tet_lines_;

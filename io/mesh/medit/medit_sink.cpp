@@ -3,8 +3,6 @@
 // Streams a mesh into an ASCII MEDIT .mesh file, with names of labels as its comments.
 #include "io/mesh/medit/medit.h"
 
-#include <algorithm>
-
 #include "io/file/errors.h"
 #include "io/file/text_numbers.h"
 #include "io/mesh/mesh_sink.h"
@@ -18,7 +16,6 @@ namespace {
 constexpr std::string_view kHead = "MeshVersionFormatted 2\nDimension 3\n";
 /// Room for any number of vertices, which is known last.
 constexpr std::size_t kCountWidth = 20;
-constexpr std::uint64_t kCopyBytes = 1 << 18;
 
 }  // namespace
 
@@ -61,19 +58,10 @@ void MeditSink::write_tets(std::span<const TetRows> tets, std::span<const RawLab
   tets_ += tets.size();
 }
 
-void MeditSink::append_tets() {
-  file_.append(text("Tetrahedra\n", header_.tets, "\n"));
-  std::vector<std::byte> bytes;
-  for (std::uint64_t at = 0; at < tet_lines_.size(); at += bytes.size()) {
-    bytes.resize(std::min(kCopyBytes, tet_lines_.size() - at));
-    tet_lines_.read_at(at, bytes);
-    file_.append(bytes);
-  }
-}
-
 void MeditSink::finish() {
   check_sink_counts(name_, header_, tets_);
-  append_tets();
+  file_.append(text("Tetrahedra\n", header_.tets, "\n"));
+  tet_lines_.copy_to(file_, 0, tet_lines_.size());
   file_.append("End\n");
   std::string count = std::to_string(vertices_);
   count.insert(0, kCountWidth - count.size(), ' ');

@@ -45,13 +45,6 @@ std::string index_text(const std::string& stem, std::uint64_t pieces, const Mesh
   return out + "  </PUnstructuredGrid>\n</VTKFile>\n";
 }
 
-template <class T>
-void append(AtomicFile& file, T value) {
-  std::array<std::byte, sizeof value> bytes;
-  store_little(value, bytes.data());
-  file.append(bytes);
-}
-
 /// Returns the rows of the vertices of these tets, ascending.
 std::vector<std::uint64_t> rows_of(const MeshData& mesh, std::span<const std::uint64_t> tets) {
   std::vector<std::uint64_t> rows;
@@ -91,31 +84,31 @@ void PvtuSink::write_piece(std::uint64_t number, std::span<const std::uint64_t> 
   header.record = {};
   const VtuLayout layout = make_vtu_layout(header, rows.size(), Element::kTet4, VtuIds::kOfNodes);
   AtomicFile file(folder_.path() / piece_name(stem_, number));
-  const auto begin = [&](VtuLayout::Array array) { append(file, layout.length[array]); };
+  const auto begin = [&](VtuLayout::Array array) { append_little(file, layout.length[array]); };
   file.append(layout.head);
   for (const TetValues& column : whole.values) {
-    append(file, layout.value_length);
-    for (const std::uint64_t t : tets) append(file, column.numbers[t]);
+    append_little(file, layout.value_length);
+    for (const std::uint64_t t : tets) append_little(file, column.numbers[t]);
   }
   begin(VtuLayout::kConnectivity);
   for (const std::uint64_t t : tets) {
     for (const std::uint64_t v : whole.tets[t]) {
       const auto at = std::lower_bound(rows.begin(), rows.end(), v);
-      append(file, static_cast<std::uint64_t>(at - rows.begin()));
+      append_little(file, static_cast<std::uint64_t>(at - rows.begin()));
     }
   }
   begin(VtuLayout::kOffsets);
-  for (std::uint64_t i = 1; i <= tets.size(); ++i) append(file, 4 * i);
+  for (std::uint64_t i = 1; i <= tets.size(); ++i) append_little(file, 4 * i);
   begin(VtuLayout::kTypes);
-  for (std::size_t i = 0; i < tets.size(); ++i) append(file, vtk_type(Element::kTet4));
+  for (std::size_t i = 0; i < tets.size(); ++i) append_little(file, vtk_type(Element::kTet4));
   begin(VtuLayout::kLabel);
-  for (const std::uint64_t t : tets) append(file, whole.labels[t]);
+  for (const std::uint64_t t : tets) append_little(file, whole.labels[t]);
   begin(VtuLayout::kPoints);
   for (const std::uint64_t v : rows) {
-    for (const double x : whole.vertices[v]) append(file, x);
+    for (const double x : whole.vertices[v]) append_little(file, x);
   }
   begin(VtuLayout::kIds);
-  for (const std::uint64_t v : rows) append(file, v);
+  for (const std::uint64_t v : rows) append_little(file, v);
   file.append(layout.tail);
   file.commit();
 }

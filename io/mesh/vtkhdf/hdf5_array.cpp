@@ -151,9 +151,10 @@ void stream_points(const Hdf5Array& points, RowRange range, const KeptRows* kept
 }
 
 void read_labels(const Hdf5Array& labels, std::uint64_t first, std::vector<RawLabel>& out) {
-  if (!labels.is_signed()) return labels.read(first, out.size(), out.data());
+  const std::uint64_t rows = out.size() / labels.components();
+  if (!labels.is_signed()) return labels.read(first, rows, out.data());
   std::vector<std::int64_t> numbers(out.size());
-  labels.read(first, numbers.size(), numbers.data());
+  labels.read(first, rows, numbers.data());
   std::transform(numbers.begin(), numbers.end(), out.begin(),
                  [](std::int64_t label) { return static_cast<RawLabel>(label); });
 }

@@ -64,7 +64,7 @@ void read_hdf5_apart(const std::string& file, std::uint64_t bytes,
 /// REQUIRES: 3 components.  ERRORS: mw::Error(kInput) when there are fewer, or one is not finite.
 void stream_points(const Hdf5Array& points, RowRange range, const KeptRows* kept, MeshSink& sink);
 
-/// Fills out with labels from row `first` on.  REQUIRES: labels are integers of 1 component.
+/// Fills out, which has room for whole rows, with labels or other integers from row `first` on.
 void read_labels(const Hdf5Array& labels, std::uint64_t first, std::vector<RawLabel>& out);
 
 }  // namespace mw::io

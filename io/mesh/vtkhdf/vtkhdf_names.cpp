@@ -84,13 +84,7 @@ std::vector<std::uint64_t> read_numbers(const Hdf5Array& array, std::uint64_t co
   const bool fits = array.is_integer() && array.components() == components;
   if (!fits || array.rows() > kMaxNumbers / components) array.fail("holds no table of names");
   std::vector<std::uint64_t> numbers(array.rows() * components);
-  if (!array.is_signed()) {
-    array.read(0, array.rows(), numbers.data());
-    return numbers;
-  }
-  std::vector<std::int64_t> below(numbers.size());
-  array.read(0, array.rows(), below.data());
-  std::copy(below.begin(), below.end(), numbers.begin());
+  read_labels(array, 0, numbers);
   return numbers;
 }
 

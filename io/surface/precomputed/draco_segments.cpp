@@ -42,16 +42,6 @@ Json sharding_json(const Sharding& sharding) {
           {"data_encoding", "raw"}};
 }
 
-void copy(ScratchFile& from, std::uint64_t offset, std::uint64_t bytes, AtomicFile& to) {
-  constexpr std::uint64_t kBatch = std::uint64_t{1} << 20U;
-  std::vector<std::byte> batch;
-  for (std::uint64_t done = 0; done < bytes; done += batch.size()) {
-    batch.resize(std::min(kBatch, bytes - done));
-    from.read_at(offset + done, batch);
-    to.append(batch);
-  }
-}
-
 }  // namespace
 
 /// Writes segments, sorted by shard, minishard and number.
@@ -104,7 +94,7 @@ class DracoSegments::ShardWriter {
                                 AtomicFile& file) {
     std::uint64_t bytes = 0;
     for (const Entry& e : entries) {
-      copy(waiting_, e.offset, e.fragment_bytes + e.manifest_bytes, file);
+      waiting_.copy_to(file, e.offset, e.fragment_bytes + e.manifest_bytes);
       bytes += e.fragment_bytes + e.manifest_bytes;
     }
     std::uint64_t last = 0;
@@ -131,8 +121,8 @@ void DracoSegments::add(std::uint64_t segment, std::string_view fragments,
 void DracoSegments::write_single(const Entry& entry) {
   const std::filesystem::path path = folder_ / text(entry.segment);
   AtomicFile fragments(path), manifest(path.string() + ".index");
-  copy(waiting_, entry.offset, entry.fragment_bytes, fragments);
-  copy(waiting_, entry.offset + entry.fragment_bytes, entry.manifest_bytes, manifest);
+  waiting_.copy_to(fragments, entry.offset, entry.fragment_bytes);
+  waiting_.copy_to(manifest, entry.offset + entry.fragment_bytes, entry.manifest_bytes);
   fragments.commit();
   manifest.commit();
 }

@@ -9,6 +9,7 @@
 #include "io/file/errors.h"
 #include "io/file/wall/apart.h"
 #include "io/hdf5/hdf5_file.h"
+#include "io/volume/checks.h"
 #include "io/volume/hdf5/describe_apart.h"
 
 namespace mw::io {
@@ -121,12 +122,6 @@ std::string list_text(const std::vector<Hdf5Entry>& entries) {
                 entry.shape.empty() ? "" : " ", entry.type);
   }
   if (entries.size() > kMaxNamed) out += text(" and ", entries.size() - kMaxNamed, " more");
-  return out;
-}
-
-std::string shape_text(const std::vector<std::uint64_t>& shape) {
-  std::string out;
-  for (const std::uint64_t extent : shape) out += text(out.empty() ? "" : " x ", extent);
   return out;
 }
 

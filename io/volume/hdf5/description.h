@@ -105,9 +105,6 @@ struct Hdf5Entry {
 /// Returns the first few as "/a 3 x 4 x 5 u8, /b 7 f64".
 [[nodiscard]] std::string list_text(const std::vector<Hdf5Entry>& entries);
 
-/// Returns a shape as "3 x 4 x 5".
-[[nodiscard]] std::string shape_text(const std::vector<std::uint64_t>& shape);
-
 /// Describes `data_set`, "/a/b", or the labels in it if it is a group; if it is empty, convention
 /// chooses (choose_data_set()).  The library never sees the file in this process, as damage makes
 /// it crash.

@@ -12,6 +12,7 @@
 #include "io/file/errors.h"
 #include "io/file/scratch/scratch_file.h"
 #include "io/file/source/file_source.h"
+#include "io/volume/checks.h"
 #include "io/volume/hdf5/description.h"
 
 namespace mw::io {

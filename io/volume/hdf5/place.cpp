@@ -7,6 +7,7 @@
 
 #include "io/file/errors.h"
 #include "io/json/json_fields.h"
+#include "io/volume/checks.h"
 
 namespace mw::io {
 namespace {

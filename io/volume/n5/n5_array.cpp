@@ -213,12 +213,6 @@ void check_reaches(const ByteSource& file, const N5Array& array,
   }
 }
 
-std::uint64_t product(const std::vector<std::int64_t>& extents) {
-  std::uint64_t out = 1;
-  for (const std::int64_t extent : extents) out *= static_cast<std::uint64_t>(extent);
-  return out;
-}
-
 }  // namespace
 
 /// Returns the file "x/y/z" of a block, with 0 for axes that are left out.

@@ -8,6 +8,7 @@
 
 #include "io/file/errors.h"
 #include "io/json/json_fields.h"
+#include "io/volume/checks.h"
 #include "io/volume/zarr/zarr_array.h"
 
 namespace mw::io {
@@ -32,12 +33,6 @@ std::vector<std::size_t> last_three(const std::vector<std::int64_t>& shape) {
     }
   }
   return kept;
-}
-
-std::string shape_text(const std::vector<std::int64_t>& shape) {
-  std::string out;
-  for (const std::int64_t extent : shape) out += text(out.empty() ? "" : " x ", extent);
-  return out;
 }
 
 void check_others(std::string_view file, const std::vector<std::int64_t>& shape,

@@ -25,12 +25,6 @@ std::uint64_t kept_bytes(std::uint64_t index) {
   return std::max<std::uint64_t>(2U << 20U, index + 1024);
 }
 
-std::uint64_t product(const std::vector<std::int64_t>& extents) {
-  std::uint64_t out = 1;
-  for (const std::int64_t extent : extents) out *= static_cast<std::uint64_t>(extent);
-  return out;
-}
-
 /// Returns a number for a shard; there are at most kMaxAxisVoxels of them along an axis.
 std::uint64_t number_of(Index3 shard) {
   constexpr Index3 kAll{kMaxAxisVoxels, kMaxAxisVoxels, kMaxAxisVoxels};
