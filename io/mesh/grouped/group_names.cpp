@@ -56,8 +56,7 @@ const char* side_name(Side side) {
 }
 
 std::string label_digits(const LabelTable& table, Label rank) {
-  const RawLabel raw = table.raw(rank);
-  return table.is_signed() ? text(static_cast<std::int64_t>(raw)) : text(raw);
+  return label_text(table.raw(rank), table.is_signed());
 }
 
 GroupNames::GroupNames(const GroupedMesh& mesh, const Spelling& spelled) {

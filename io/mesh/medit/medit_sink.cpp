@@ -5,6 +5,7 @@
 
 #include "io/file/errors.h"
 #include "io/file/text_numbers.h"
+#include "io/labels/label_table.h"
 #include "io/mesh/mesh_sink.h"
 #include "io/mesh/number_line.h"
 #include "io/names/colour_table.h"
@@ -103,13 +104,7 @@ std::optional<Colour> parse_colour(std::string_view numbers) {
 }  // namespace
 
 std::string medit_comment(const LabelName& row, bool is_signed) {
-  std::string line = text("# ", kWord);
-  if (is_signed) {
-    line += text(static_cast<std::int64_t>(row.label));
-  } else {
-    line += text(row.label);
-  }
-  line += " \"";
+  std::string line = text("# ", kWord, label_text(row.label, is_signed), " \"");
   for (const char c : row.name) {
     if (c == '"' || c == '\\') line += '\\';
     line += c;

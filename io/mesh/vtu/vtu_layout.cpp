@@ -8,6 +8,7 @@
 #include <string_view>
 
 #include "io/file/errors.h"
+#include "io/labels/label_table.h"
 #include "kernels/core/assert.h"
 
 namespace mw::io {
@@ -17,10 +18,6 @@ std::string open_tag(const char* element, const char* type, const char* name, in
                      std::size_t count) {
   return text("      <", element, " type=\"", type, "\" Name=\"", name, "\" NumberOfComponents=\"",
               components, "\" NumberOfTuples=\"", count, "\" format=\"ascii\">\n");
-}
-
-std::string id_text(RawLabel label, bool labels_signed) {
-  return labels_signed ? text(static_cast<std::int64_t>(label)) : text(label);
 }
 
 /// Returns the child `element` of FieldData with that name, or an empty node.
@@ -47,7 +44,7 @@ std::string name_arrays(const LabelNames& names, bool labels_signed) {
   std::string ids, characters, colours;
   std::size_t bytes = 0;
   for (const LabelName& row : names.rows()) {
-    ids += id_text(row.label, labels_signed) + " ";
+    ids += label_text(row.label, labels_signed) + " ";
     for (const char c : row.name) characters += text(static_cast<unsigned char>(c), " ");
     characters += "0\n";
     bytes += row.name.size() + 1;
@@ -75,8 +72,8 @@ std::string cohesive_labels(const MeshHeader& header) {
   if (header.wedges.count == 0) return {};
   std::string labels;
   for (const auto& [bottom, top] : header.wedges.interfaces) {
-    labels +=
-        id_text(bottom, header.labels_signed) + " " + id_text(top, header.labels_signed) + "\n";
+    labels += label_text(bottom, header.labels_signed) + " " +
+              label_text(top, header.labels_signed) + "\n";
   }
   return text(open_tag("DataArray", header.labels_signed ? "Int64" : "UInt64", kCohesiveLabels, 2,
                        header.wedges.interfaces.size()),

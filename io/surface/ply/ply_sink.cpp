@@ -55,9 +55,8 @@ void PlySink::append_comments() {
     }
     const std::int64_t number = (*numbers_)[rank];
     if (static_cast<RawLabel>(number) != raw) {
-      file_.append(text("comment number ", number, " is label ",
-                        table.is_signed() ? text(static_cast<std::int64_t>(raw)) : text(raw),
-                        "\n"));
+      file_.append(
+          text("comment number ", number, " is label ", label_text(raw, table.is_signed()), "\n"));
     }
   }
 }
