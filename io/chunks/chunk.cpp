@@ -64,4 +64,11 @@ std::optional<VoxelType> parse_store_type(std::string_view text) {
   return static_cast<VoxelType>(found - kNames.begin());
 }
 
+VoxelType store_type(const JsonFields& fields, std::string_view key) {
+  const std::string type = fields.text(key);
+  if (const auto known = parse_store_type(type)) return *known;
+  fields.fail(key, text("unsupported type '", type, "'"),
+              "supported are uint8 to uint64, int8 to int64, float32 and float64");
+}
+
 }  // namespace mw::io

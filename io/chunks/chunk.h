@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "io/file/source/file_source.h"
+#include "io/json/json_fields.h"
 #include "io/volume/decode.h"
 #include "io/volume/label_volume.h"
 
@@ -102,5 +103,8 @@ inline constexpr std::int64_t kMaxLooks = 4096;
 /// Returns the type called "uint8" .. "uint64", "int8" .. "int64", "float32" or "float64", in small
 /// or capital letters; nothing for another text.
 [[nodiscard]] std::optional<VoxelType> parse_store_type(std::string_view text);
+/// Returns the type that a field tells in these words.
+/// ERRORS: those of JsonFields, also for another text.
+[[nodiscard]] VoxelType store_type(const JsonFields& fields, std::string_view key);
 
 }  // namespace mw::io

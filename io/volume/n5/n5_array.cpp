@@ -16,13 +16,6 @@ namespace {
 /// The most axes that an array may have.
 constexpr std::size_t kMaxAxes = 16;
 
-VoxelType type_of(const JsonFields& attributes) {
-  const std::string type = attributes.text("dataType");
-  if (const auto known = parse_store_type(type)) return *known;
-  attributes.fail("dataType", text("unsupported type '", type, "'"),
-                  "supported are uint8 to uint64, int8 to int64, float32 and float64");
-}
-
 Codec codec_of_name(const JsonFields& attributes, const std::string& field,
                     const std::string& type) {
   if (type == "raw") return Codec::kNone;
@@ -105,7 +98,7 @@ N5Array parse_n5_array(const JsonFields& attributes) {
     attributes.fail("isLabelMultiset", "voxels that have several labels are not read here",
                     "export the array with one label a voxel");
   }
-  N5Array array{.type = type_of(attributes),
+  N5Array array{.type = store_type(attributes, "dataType"),
                 .codec = codec_of(attributes),
                 .dimensions = attributes.integers("dimensions"),
                 .block_size = attributes.integers("blockSize")};

@@ -69,11 +69,7 @@ VoxelType type_of(const JsonFields& info) {
               text(info.integer("num_channels"), " channels, and labels are one number a voxel"),
               "write one channel to a volume of its own");
   }
-  const std::string type = info.text("data_type");
-  const auto known = parse_store_type(type);
-  if (known) return *known;
-  info.fail("data_type", text("unsupported type '", type, "'"),
-            "supported are uint8 to uint64, int8 to int64, float32 and float64");
+  return store_type(info, "data_type");
 }
 
 Index3 offset_of(const JsonFields& fields) {
