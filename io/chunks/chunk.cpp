@@ -5,9 +5,9 @@
 
 #include <algorithm>
 #include <array>
-#include <cctype>
 
 #include "io/file/errors.h"
+#include "io/file/lower_case.h"
 #include "io/file/scratch/scratch_file.h"
 
 namespace mw::io {
@@ -56,10 +56,7 @@ std::optional<VoxelType> parse_store_type(std::string_view text) {
   constexpr std::array<std::string_view, 10> kNames{"uint8",   "uint16", "uint32", "uint64",
                                                     "int8",    "int16",  "int32",  "int64",
                                                     "float32", "float64"};
-  std::string small(text);
-  std::transform(small.begin(), small.end(), small.begin(),
-                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  const auto found = std::find(kNames.begin(), kNames.end(), small);
+  const auto found = std::find(kNames.begin(), kNames.end(), lower_case(text));
   if (found == kNames.end()) return std::nullopt;
   return static_cast<VoxelType>(found - kNames.begin());
 }

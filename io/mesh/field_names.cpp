@@ -4,10 +4,10 @@
 #include "io/mesh/field_names.h"
 
 #include <algorithm>
-#include <cctype>
 #include <set>
 
 #include "io/file/errors.h"
+#include "io/file/lower_case.h"
 
 namespace mw::io {
 namespace {
@@ -23,11 +23,6 @@ std::optional<Colour> colour_of(const FieldNames& fields, std::size_t row) {
 }
 
 constexpr std::size_t kMostLetters = 31;
-
-std::string in_small_letters(std::string text) {
-  for (char& c : text) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
-  return text;
-}
 
 std::string value_name(const std::string& array) {
   const auto is_letter = [](char c) { return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z'); };
@@ -69,7 +64,7 @@ std::vector<std::string> value_names(const std::vector<std::string>& arrays) {
   for (const std::string& array : arrays) {
     const std::string wanted = value_name(array);
     std::string name = wanted;
-    for (int i = 2; !taken.insert(in_small_letters(name)).second; ++i) {
+    for (int i = 2; !taken.insert(lower_case(name)).second; ++i) {
       const std::string behind = text("_", i);
       name = wanted.substr(0, kMostLetters - behind.size()) + behind;
     }

@@ -10,6 +10,7 @@
 #include <memory>
 
 #include "io/file/errors.h"
+#include "io/file/lower_case.h"
 
 namespace mw::io {
 namespace {
@@ -113,10 +114,7 @@ std::string server_of(const std::string& address) {
     out += text(found, " ");
     curl_free(found);
   }
-  std::transform(out.begin(), out.end(), out.begin(), [](char c) {
-    return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
-  });
-  return out;
+  return lower_case(out);
 }
 
 }  // namespace

@@ -17,6 +17,7 @@
 #include <vector>
 
 #include "io/file/errors.h"
+#include "io/file/lower_case.h"
 #include "io/file/text_numbers.h"
 #include "io/remote/address.h"
 
@@ -51,9 +52,7 @@ constexpr const char* kTryLater = "try again later; a run that was saved goes on
 constexpr const char* kBrokenServer = "ask those who run the server, or copy the volume to a disk";
 
 bool is_same_letters(std::string_view a, std::string_view b) {
-  const auto small = [](char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c + 32) : c; };
-  return std::equal(a.begin(), a.end(), b.begin(), b.end(),
-                    [&](char x, char y) { return small(x) == small(y); });
+  return lower_case(a) == lower_case(b);
 }
 
 /// Takes a number off the front of text; false when there is none.

@@ -4,7 +4,6 @@
 #include "io/volume/nrrd/open_nrrd.h"
 
 #include <algorithm>
-#include <cctype>
 #include <charconv>
 #include <cmath>
 #include <map>
@@ -12,6 +11,7 @@
 #include <vector>
 
 #include "io/file/errors.h"
+#include "io/file/lower_case.h"
 #include "io/volume/checks.h"
 
 namespace mw::io {
@@ -25,15 +25,9 @@ std::string_view trim(std::string_view s) {
   return s.substr(first, s.find_last_not_of(" \t\r") - first + 1);
 }
 
-std::string lower(std::string_view s) {
-  std::string out(s);
-  for (char& c : out) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
-  return out;
-}
-
 /// Makes one key of "space directions" and "spacedirections", which are the same field.
 std::string field_key(std::string_view name) {
-  std::string key = lower(trim(name));
+  std::string key = lower_case(trim(name));
   std::erase(key, ' ');
   return key;
 }
@@ -124,7 +118,7 @@ VoxelType parse_type(const std::string& value, std::string_view file) {
       {"unsigned long long int", VoxelType::kU64},
       {"uint64", VoxelType::kU64},
       {"uint64_t", VoxelType::kU64}};
-  const auto found = types.find(lower(value));
+  const auto found = types.find(lower_case(value));
   if (found != types.end()) return found->second;
   fail_input(file, text("NRRD field 'type' = ", value),
              "unsupported; labels must be integers of 8 to 64 bits", "convert the voxels");
@@ -155,7 +149,7 @@ std::vector<bool> is_domain(const FieldMap& fields) {
   std::vector<bool> out;
   const auto found = fields.find("kinds");
   if (found == fields.end()) return out;
-  std::istringstream kinds(lower(found->second));
+  std::istringstream kinds(lower_case(found->second));
   for (std::string kind; kinds >> kind;) {
     out.push_back(kind == "domain" || kind == "space" || kind == "none" || kind == "???");
   }
@@ -230,14 +224,14 @@ void check_layers(const NrrdHeader& header, std::string_view file) {
 
 ByteOrder parse_endian(const FieldMap& fields, VoxelType type, std::string_view file) {
   if (byte_size(type) == 1) return ByteOrder::kLittle;
-  const std::string value = lower(required(fields, "endian", file));
+  const std::string value = lower_case(required(fields, "endian", file));
   if (value == "big") return ByteOrder::kBig;
   if (value == "little") return ByteOrder::kLittle;
   fail_input(file, "NRRD field 'endian'", text(value, " is neither little nor big"));
 }
 
 bool parse_encoding(const FieldMap& fields, std::string_view file) {
-  const std::string value = lower(required(fields, "encoding", file));
+  const std::string value = lower_case(required(fields, "encoding", file));
   if (value == "gzip" || value == "gz") return true;
   if (value == "raw") return false;
   fail_input(file, text("NRRD field 'encoding' = ", value), "unsupported", "save as raw or gzip");
@@ -294,7 +288,7 @@ void parse_steps(const FieldMap& fields, FileSpace& space, std::string_view file
 void parse_frame(const FieldMap& fields, FileSpace& space) {
   const auto found = fields.find("space");
   if (found == fields.end()) return;
-  const std::string name = lower(found->second);
+  const std::string name = lower_case(found->second);
   if (name == "right-anterior-superior" || name == "ras") space.frame = WorldFrame::kRas;
   if (name == "left-posterior-superior" || name == "lps") space.frame = WorldFrame::kLps;
   if (name == "left-anterior-superior" || name == "las") {

@@ -4,11 +4,11 @@
 #include "io/volume/precomputed/open_precomputed.h"
 
 #include <algorithm>
-#include <cctype>
 #include <cstdlib>
 
 #include "io/chunks/chunk.h"
 #include "io/file/errors.h"
+#include "io/file/lower_case.h"
 #include "io/json/json_fields.h"
 #include "io/volume/checks.h"
 #include "io/volume/file_space.h"
@@ -20,12 +20,6 @@ namespace {
 constexpr std::int64_t kMaxOffset = std::int64_t{1} << 48;
 /// The largest index of a minishard that is kept in memory.
 constexpr std::uint64_t kMaxIndexBytes = 256ULL << 20U;
-
-std::string in_small_letters(std::string text) {
-  std::transform(text.begin(), text.end(), text.begin(),
-                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  return text;
-}
 
 std::string keys_of(const JsonFields& info) {
   constexpr std::size_t kMax = 20;
@@ -116,7 +110,7 @@ void check_block(const JsonFields& fields, const SegmentationLayout& layout) {
 
 /// Returns the size of a block; nothing for raw chunks.
 std::optional<Index3> block_of(const JsonFields& fields, Index3 chunk, VoxelType type) {
-  const std::string encoding = in_small_letters(fields.text("encoding"));
+  const std::string encoding = lower_case(fields.text("encoding"));
   if (encoding == "raw") return std::nullopt;
   if (encoding != "compressed_segmentation") {
     fields.fail("encoding", text("chunks in '", encoding, "' are not read here"),

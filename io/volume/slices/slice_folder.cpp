@@ -4,11 +4,11 @@
 #include "io/volume/slices/slice_folder.h"
 
 #include <algorithm>
-#include <cctype>
 #include <cstdint>
 #include <limits>
 
 #include "io/file/errors.h"
+#include "io/file/lower_case.h"
 #include "io/file/text_numbers.h"
 #include "io/volume/checks.h"
 #include "io/volume/png/open_png.h"
@@ -107,9 +107,7 @@ std::optional<NumberGap> find_gap(const std::vector<std::string>& names) {
 namespace {
 
 std::string lower_extension(const std::filesystem::path& path) {
-  std::string extension = path.extension().string();
-  for (char& c : extension) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
-  return extension;
+  return lower_case(path.extension().string());
 }
 
 bool is_png(const std::filesystem::path& path) {
