@@ -197,7 +197,8 @@ Json size_json(const FinishedRun& run) {
            {"inner_vertices_added", run.engine.inner_vertices},
            {"count", count_json(run)},
            {"across", across_json(run)}};
-  if (!run.sizes.rules.any()) return out;
+  // Edges are compared with the sizes of labels only.
+  if (run.sizes.rules.labels.empty() && !run.sizes.rules.others) return out;
   const engine::EdgeRatios& ratios = run.engine.edge_ratios;
   out["edges_over_size"] = {{"bounds", ratios.kBounds}, {"counts", ratios.counts}};
   return out;

@@ -73,6 +73,16 @@ void print_count(const report::FinishedRun& run) {
   }
 }
 
+/// Warns if the mesh is far from the number that was asked for, though sizes could give it.
+void print_count_missed(const report::FinishedRun& run) {
+  if (!run.count || run.count->is_least || run.count->is_most) return;
+  const auto asked = static_cast<double>(run.count->asked);
+  if (std::abs(static_cast<double>(run.engine.tets) - asked) <= 0.1 * asked) return;
+  log_warning(
+      io::text("--count ", run.count->asked, ": the mesh has ", run.engine.tets,
+               run.connected ? " tets, as parts of labels were left out or cut apart" : " tets"));
+}
+
 void print_halvings(const report::FinishedRun& run) {
   const int times = run.engine.halvings;
   if (times == 0) return;
@@ -96,7 +106,13 @@ void print_parts(const report::FinishedRun& run) {
 }
 
 void print_across(const report::FinishedRun& run) {
+  if (run.sizes.across == 0) return;
   const engine::ThinParts& parts = run.engine.thin_parts;
+  if (parts.voxels == 0) {
+    log_warning(io::text("--across ", run.sizes.across,
+                         ": no part of these labels is thin enough to be looked at: up to 32 voxels"
+                         " of the lattice, which has the layers of thick slices"));
+  }
   if (parts.too_thin == 0) return;
   log_warning(io::text("--across ", run.sizes.across, ": ", parts.too_thin, " of ", parts.voxels,
                        " voxels amid thin parts are in parts too thin for that, as edges are at "
@@ -196,6 +212,7 @@ void print_summary(const report::FinishedRun& run, const MeshRequest& request,
   print_count(run);
   print_halvings(run);
   print_sizes(run);
+  print_count_missed(run);
   print_across(run);
   print_samples(run);
   print_certificate(run);

@@ -5,6 +5,8 @@
 #pragma once
 
 #include <algorithm>
+#include <cmath>
+#include <limits>
 #include <memory>
 #include <optional>
 #include <span>
@@ -99,6 +101,10 @@ class GroupedMesh {
   /// Returns the box of the record; if it has none, that of the vertices along the world's axes.
   [[nodiscard]] const MeshBox& box() const { return box_; }
   [[nodiscard]] Element element() const { return element_; }
+  /// Returns the largest coordinate of a vertex, without its sign.
+  [[nodiscard]] double largest_coordinate() const { return largest_coordinate_; }
+  /// Returns the length of the shortest edge of a tet, infinity if there is no tet.
+  [[nodiscard]] double shortest_edge() const { return std::sqrt(shortest_square_); }
 
   /// Return the number of vertices, and of nodes: where tets have middles each edge adds one.
   [[nodiscard]] std::uint64_t vertex_count() const { return vertices_.size(); }
@@ -151,6 +157,8 @@ class GroupedMesh {
   LabelTable table_;
   MeshBox box_;
   Element element_ = Element::kTet4;
+  double largest_coordinate_ = 0;
+  double shortest_square_ = std::numeric_limits<double>::infinity();
   PagedFile<Position> vertices_;
   PagedFile<TetRows> tets_;
   PagedFile<double> values_;  ///< by tet, one for each name

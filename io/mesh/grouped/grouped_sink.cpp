@@ -53,6 +53,7 @@ void GroupedSink::write_vertices(std::span<const Position> positions) {
   for (const Position& p : positions) {
     if (mesh_.vertices_.size() == 0) lo_ = hi_ = p;
     for (std::size_t k = 0; k < 3; ++k) {
+      mesh_.largest_coordinate_ = std::max(mesh_.largest_coordinate_, std::abs(p[k]));
       lo_[k] = std::min(lo_[k], p[k]);
       hi_[k] = std::max(hi_[k], p[k]);
     }
@@ -143,6 +144,10 @@ void GroupedSink::place_tet(TetRows tet, Faces& faces) {
     }
   }
   const auto at = [&](std::size_t corner) { return mesh_.vertices_[tet[corner]]; };
+  for (const auto& [from, to] : kTetEdges) {
+    const Position edge = minus(at(to), at(from));
+    mesh_.shortest_square_ = std::min(mesh_.shortest_square_, dot(edge, edge));
+  }
   if (volume6(at(0), at(1), at(2), at(3)) < 0) std::swap(tet[2], tet[3]);
   const std::uint64_t number = mesh_.tets_.size();
   mesh_.tets_.append(tet);

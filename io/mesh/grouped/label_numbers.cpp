@@ -4,11 +4,13 @@
 #include "io/mesh/grouped/label_numbers.h"
 
 #include <algorithm>
+#include <cmath>
 #include <set>
 
 #include "io/file/errors.h"
 #include "io/file/source/inflated_source.h"
 #include "io/mesh/grouped/group_names.h"
+#include "io/mesh/grouped/grouped_mesh.h"
 #include "io/names/colour_table.h"
 #include "io/names/csv_names.h"
 
@@ -82,6 +84,17 @@ void check_number(std::string_view file, std::uint64_t largest, const NumberLimi
   if (largest <= limit.max) return;
   throw Error(ErrorKind::kUsage, text(file, ": ", limit.subject, " numbers up to ", limit.max, ", ",
                                       largest, " are needed; write ", limit.others));
+}
+
+void check_digits(std::string_view file, const GroupedMesh& mesh, int digits) {
+  const double largest = mesh.largest_coordinate();
+  if (largest == 0) return;
+  const double last_digit = std::pow(10.0, std::floor(std::log10(largest)) - (digits - 1));
+  if (0.5 * last_digit <= mesh.shortest_edge() / 64) return;
+  throw Error(ErrorKind::kUsage,
+              text(file, ": the format has ", digits, " digits, too few for edges of ",
+                   mesh.shortest_edge(), " at coordinates of ", largest,
+                   "; set --origin nearer to 0, or write .inp, .exo or .vtkhdf"));
 }
 
 std::filesystem::path label_table_path(const std::filesystem::path& mesh) {

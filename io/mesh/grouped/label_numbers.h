@@ -16,6 +16,8 @@
 
 namespace mw::io {
 
+class GroupedMesh;
+
 /// The numbers that a format can hold, both ends included; min is 0 or 1.
 struct NumberRange {
   std::int64_t min = 1;
@@ -49,6 +51,10 @@ struct NumberLimit {
 
 /// ERRORS: mw::Error(kUsage) naming the file where `largest` is above the limit.
 void check_number(std::string_view file, std::uint64_t largest, const NumberLimit& limit);
+
+/// ERRORS: mw::Error(kUsage) naming the file where coordinates of so many significant digits would
+/// move nodes by more than a 64th of the shortest edge: tets lose their shape then.
+void check_digits(std::string_view file, const GroupedMesh& mesh, int digits);
 
 /// Returns the path of the table that lies beside a mesh: MESH.labels.csv.
 [[nodiscard]] std::filesystem::path label_table_path(const std::filesystem::path& mesh);

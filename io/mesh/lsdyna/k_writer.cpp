@@ -11,6 +11,7 @@ namespace mw::io {
 namespace {
 
 constexpr std::uint64_t kMaxNumber = 99'999'999;
+constexpr int kDigits = 9;          // behind the point of a coordinate
 constexpr std::size_t kShort = 8;   // columns of a field in nodes and elements
 constexpr std::size_t kField = 10;  // columns of other fields
 
@@ -29,6 +30,7 @@ std::string card(std::initializer_list<std::uint64_t> numbers, std::size_t colum
 void LsdynaWriter::write(GroupedMesh& mesh) {
   check_number(name_, std::max(mesh.node_count(), mesh.tet_count()),
                {.max = kMaxNumber, .subject = "LS-DYNA has", .others = ".exo or .vtkhdf"});
+  check_digits(name_, mesh, kDigits + 1);
   constexpr std::uint64_t kTet4Form = 10, kTet10Form = 16;
   const bool ten = has_middles(mesh.element());
   const LabelNumbers numbers(mesh.table(), {.max = kMaxNumber});
@@ -56,7 +58,6 @@ void LsdynaWriter::write(GroupedMesh& mesh) {
 
 void LsdynaWriter::write_nodes(GroupedMesh& mesh) {
   constexpr std::size_t kColumns = 16;
-  constexpr int kDigits = 9;
   line("*NODE");
   for (std::uint64_t row = 0; row < mesh.node_count(); ++row) {
     std::string out = fixed_integer(row + 1, kShort);

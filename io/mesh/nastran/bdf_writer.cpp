@@ -30,6 +30,7 @@ std::string number_field(std::uint64_t number, std::size_t columns = kFieldColum
 void BdfWriter::write(GroupedMesh& mesh) {
   check_number(name_, std::max(mesh.node_count(), mesh.tet_count()),
                {.max = kMaxNumber, .subject = "Nastran has", .others = ".exo or .vtkhdf"});
+  check_digits(name_, mesh, kDigits + 1);
   const LabelNumbers numbers(mesh.table(), {.max = kMaxNumber});
   const PlainNames names(mesh);
   line(text("$ mwmesh: tetrahedra of ", mesh.table().size(),
