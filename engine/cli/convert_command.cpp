@@ -5,6 +5,7 @@
 
 #include "engine/cli/command.h"
 #include "engine/cli/exit_code.h"
+#include "engine/cli/options/file_names.h"
 #include "engine/cli/options/shared_options.h"
 #include "engine/cli/options/values.h"
 #include "engine/settings/material_text.h"
@@ -39,19 +40,12 @@ class SourceFacts : public io::NoSink {
   bool is_curved_ = false;
 };
 
-/// Checks that no file beside the output is the mesh, which is read meanwhile, or the output.
-void require_other_files(const ConvertJob& job) {
-  std::vector<std::filesystem::path> files = io::mesh_files(job.to);
-  if (job.extras.materials) files.push_back(io::material_table_path(job.to));
-  if (!job.extras.pairs.empty()) files.push_back(job.extras.pairs);
-  for (std::size_t i = 1; i < files.size(); ++i) {
-    std::error_code ignored;
-    if (!std::filesystem::equivalent(job.from, files[i], ignored)) continue;
-    throw Error(ErrorKind::kUsage, files[i].string() + ": this is the mesh to read");
-  }
-  const std::filesystem::path& pairs = job.extras.pairs;
-  if (pairs.empty() || pairs.lexically_normal() != job.to.lexically_normal()) return;
-  throw Error(ErrorKind::kUsage, "--pairs " + pairs.string() + ": this is the mesh to write");
+void require_files_apart(const ConvertJob& job) {
+  FileNames files;
+  files.read_mesh(job.from);
+  files.write_mesh(job.to, job.extras.materials.has_value());
+  files.write("--pairs", job.extras.pairs);
+  files.require_apart();
 }
 
 std::unique_ptr<io::MeshSink> open_output(const ConvertJob& job) {
@@ -81,7 +75,7 @@ void tell_left_out(const ConvertJob& job, const SourceFacts& source) {
 }
 
 int run_convert(const ConvertJob& job) {
-  require_other_files(job);
+  require_files_apart(job);
   const std::unique_ptr<io::MeshSink> sink = open_output(job);
   SourceFacts source;
   io::TeeSink both(*sink, source);

@@ -3,6 +3,7 @@
 // The options of `mwmesh verify`.
 #include "engine/cli/verify_request.h"
 
+#include "engine/cli/options/file_names.h"
 #include "engine/cli/options/shared_options.h"
 #include "engine/cli/options/values.h"
 #include "engine/system/memory.h"
@@ -76,6 +77,11 @@ void check_verify_request(VerifyRequest& request) {
                 "--topology interfaces: is for meshes of all labels, without --labels and "
                 "--background");
   }
+  FileNames files;
+  files.read_volume(request.volume);
+  files.read_mesh(request.mesh);
+  files.write("--report", request.report);
+  files.require_apart();
   if (!request.memory) request.memory = engine::default_memory_budget();
   request.volume.cache_bytes = cache_bytes(*request.memory);
 }

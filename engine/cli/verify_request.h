@@ -27,7 +27,7 @@ using report::kOtherPromises;
 void add_verify_options(OptionSet& options, VerifyRequest& request);
 
 /// Fills in what follows from other values.
-/// ERRORS: mw::Error(kUsage) when values contradict each other.
+/// ERRORS: mw::Error(kUsage) when values contradict each other, or names of files collide.
 void check_verify_request(VerifyRequest& request);
 
 }  // namespace mw::cli

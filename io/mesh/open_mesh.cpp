@@ -321,6 +321,18 @@ std::vector<std::filesystem::path> mesh_files(const std::filesystem::path& path)
   return out;
 }
 
+std::vector<std::filesystem::path> mesh_sources(const std::filesystem::path& path) {
+  std::vector<std::filesystem::path> out = mesh_files(path);
+  if (path.extension() != kPiecesExtension) return out;
+  try {
+    const std::vector<std::filesystem::path> pieces = piece_files(path);
+    out.insert(out.end(), pieces.begin(), pieces.end());
+  } catch (const Error& error) {
+    if (error.kind() == ErrorKind::kResource) throw;
+  }
+  return out;
+}
+
 MeshData read_mesh(const std::filesystem::path& path) {
   const MeshFormat& format = read_format(path);
   if (format.read != nullptr) return format.read(path);

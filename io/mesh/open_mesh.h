@@ -36,6 +36,10 @@ void require_place_for_wedges(const std::filesystem::path& path, Element element
 /// Returns the files that are always written for a mesh of that name: that file, then those beside.
 [[nodiscard]] std::vector<std::filesystem::path> mesh_files(const std::filesystem::path& path);
 
+/// Returns the files that a mesh of that name is read from: mesh_files(), and the pieces that a
+/// .pvtu names.  Pieces of a .pvtu that cannot be read are left out, as reading it says why.
+[[nodiscard]] std::vector<std::filesystem::path> mesh_sources(const std::filesystem::path& path);
+
 /// ERRORS: mw::Error(kUsage) for an extension that is unknown or written only; kInput with file and
 /// place when missing, truncated, corrupt or not of tetrahedra.
 [[nodiscard]] MeshData read_mesh(const std::filesystem::path& path);

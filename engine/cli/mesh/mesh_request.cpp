@@ -146,7 +146,8 @@ void add_run_options(OptionSet& options, MeshRequest& request) {
                .help = "a key for each option, '-' as '_'; MW_NAME and flags are stronger",
                .group = kRunGroup,
                .listed = Listed::kInHelpAll,
-               .only_flag = true});
+               .only_flag = true,
+               .assign = into(request.config)});
   options.add({.name = "print-config",
                .help = "prints the effective config and exits",
                .group = kRunGroup,
@@ -386,7 +387,7 @@ void check_mesh_request(MeshRequest& request) {
   (void)open_options(request.volume);
   engine::check_choice(request.job.choice);
   require_paths_apart(request);
-  if (!request.force) require_own_output(request.output);
+  if (!request.force) require_own_output(request);
   require_memory_for_page(request);
   require_room_for_values(request);
   require_room_for_wedges(request);

@@ -23,6 +23,7 @@ struct MeshRequest {
   std::filesystem::path report;          ///< empty: none
   std::filesystem::path html;            ///< empty: none
   std::filesystem::path trace;           ///< empty: none
+  std::filesystem::path config;          ///< the file that options come from; empty: none
   std::vector<std::string> size_tables;  ///< files that sizes come from
   std::optional<std::uint64_t> memory;   ///< bytes, as asked for
   std::filesystem::path keep;            ///< empty: nothing new is kept
@@ -42,14 +43,14 @@ void add_mesh_options(OptionSet& options, MeshRequest& request);
 /// ERRORS: mw::Error(kUsage) when values that are allowed by themselves contradict each other.
 void check_mesh_request(MeshRequest& request);
 
-/// Checks before any work that no file is both read and written, that no name is written twice, and
-/// that the work folder neither is one of these files, nor lies in one, nor has one in it.
+/// Checks before any work that names of files are apart (FileNames::require_apart()), and that the
+/// work folder neither is one of these files, nor lies in one, nor has one in it.
 /// REQUIRES: the work folder of the request is settled.
 /// ERRORS: mw::Error(kUsage) naming flag and path.
 void require_paths_apart(const MeshRequest& request);
 
-/// Checks that a file that is to be replaced is empty or was written by this program.
-/// ERRORS: mw::Error(kUsage) naming --force.
-void require_own_output(const std::filesystem::path& output);
+/// Checks that the files of a mesh that are to be replaced are empty or were written by this
+/// program, as those beside a mesh of its own were.  ERRORS: mw::Error(kUsage) naming --force.
+void require_own_output(const MeshRequest& request);
 
 }  // namespace mw::cli

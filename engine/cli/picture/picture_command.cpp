@@ -5,6 +5,7 @@
 
 #include "engine/cli/command.h"
 #include "engine/cli/exit_code.h"
+#include "engine/cli/options/file_names.h"
 #include "engine/cli/options/shared_options.h"
 #include "engine/cli/options/values.h"
 #include "engine/cli/picture/picture_request.h"
@@ -22,6 +23,11 @@ void check(const PictureRequest& request) {
     throw Error(ErrorKind::kUsage,
                 "-o " + request.output.string() + ": pictures are written as .png");
   }
+  FileNames files;
+  files.read_mesh(request.mesh);
+  files.read("--names", request.names);
+  files.write("-o", request.output);
+  files.require_apart();
 }
 
 /// Returns by rank whether a label was asked for.

@@ -5,6 +5,7 @@
 
 #include "engine/cli/command.h"
 #include "engine/cli/exit_code.h"
+#include "engine/cli/options/file_names.h"
 #include "engine/cli/options/shared_options.h"
 #include "engine/cli/options/values.h"
 #include "engine/cli/report_names.h"
@@ -141,6 +142,12 @@ class SurfaceJob {
 
 int run_surface(const SurfaceFlags& flags) {
   const SurfaceRequest request = parse_surface_request(flags);
+  if (request.target == SurfaceTarget::kFile) {
+    FileNames files;
+    files.read_mesh(request.mesh);
+    files.write("-o", request.output);
+    files.require_apart();
+  }
   const std::unique_ptr<SurfaceOutput> output = open_surface_output(request);
   io::GroupedSink grouped(io::scratch_folder(), nullptr);
   io::copy_mesh(request.mesh, grouped);

@@ -46,6 +46,10 @@ class PvtuSink : public MeshDataSink {
   std::string stem_;
 };
 
+/// Returns the files of the pieces that a .pvtu names, in order.
+/// ERRORS: mw::Error(kInput) for a file that names none, or pieces that overlap.
+[[nodiscard]] std::vector<std::filesystem::path> piece_files(const std::filesystem::path& path);
+
 /// Reads the .vtu files that a .pvtu names, in its folder or below, and puts them together:
 /// vertices by ascending PointData/GlobalNodeIds, tets piece by piece, names of labels from all.  A
 /// single piece needs no ids.  What PvtuSink wrote comes back as the mesh; only the order of tets

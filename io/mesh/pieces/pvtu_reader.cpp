@@ -17,23 +17,6 @@
 namespace mw::io {
 namespace {
 
-/// Returns the files of the pieces, in order.
-std::vector<std::filesystem::path> piece_files(const std::filesystem::path& path) {
-  const auto source = open_bytes(path);
-  const VtkDocument document(*source,
-                             {"PUnstructuredGrid", "give a .pvtu whose pieces are .vtu files"});
-  const pugi::xml_node grid = document.grid();
-  if (document.number(grid, "GhostLevel", 0) != 0) {
-    fail_input(document.file(), "GhostLevel", "pieces overlap", "write them without ghost cells");
-  }
-  std::vector<std::filesystem::path> out;
-  for (const pugi::xml_node piece : grid.children("Piece")) {
-    out.push_back(named_beside(path, "Source", piece.attribute("Source").as_string()));
-  }
-  if (out.empty()) fail_input(document.file(), "Piece", "missing: the file names no mesh");
-  return out;
-}
-
 /// Appends the values of a piece, to be called before its tets are appended.
 void append_values(const MeshData& piece, MeshData& mesh) {
   for (const TetValues& column : piece.values) {
@@ -91,6 +74,22 @@ void join_vertices(MeshData& mesh, const std::vector<std::uint64_t>& ids, const 
 }
 
 }  // namespace
+
+std::vector<std::filesystem::path> piece_files(const std::filesystem::path& path) {
+  const auto source = open_bytes(path);
+  const VtkDocument document(*source,
+                             {"PUnstructuredGrid", "give a .pvtu whose pieces are .vtu files"});
+  const pugi::xml_node grid = document.grid();
+  if (document.number(grid, "GhostLevel", 0) != 0) {
+    fail_input(document.file(), "GhostLevel", "pieces overlap", "write them without ghost cells");
+  }
+  std::vector<std::filesystem::path> out;
+  for (const pugi::xml_node piece : grid.children("Piece")) {
+    out.push_back(named_beside(path, "Source", piece.attribute("Source").as_string()));
+  }
+  if (out.empty()) fail_input(document.file(), "Piece", "missing: the file names no mesh");
+  return out;
+}
 
 MeshData read_pvtu(const std::filesystem::path& path) {
   const std::vector<std::filesystem::path> files = piece_files(path);

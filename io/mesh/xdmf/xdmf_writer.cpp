@@ -182,9 +182,10 @@ std::string xdmf_text(const XdmfFacts& facts) {
                        facet_tags_text(facts));
 }
 
-/// Returns the document with the first grid alone.
+/// Returns the document with the first grid alone.  A comment says who wrote it, as some readers
+/// take nothing but a grid in the domain.
 std::string xdmf_cells_text(const XdmfFacts& facts) {
-  return document_text(mesh_text(facts));
+  return document_text(mesh_text(facts)) + text("<!-- ", kRecordName, " -->\n");
 }
 
 /// ERRORS: mw::Error(kUsage) for a name that readers would not find the HDF5 file by, since they
@@ -225,7 +226,7 @@ void XdmfWriter::write(GroupedMesh& mesh) {
       .name = "MeshTags",
       .groups = {{.name = "cell_tags", .sets = {cell_tags(mesh, numbers)}},
                  {.name = "facet_tags", .sets = {facets(mesh, runs), facet_tags(runs)}}}};
-  Hdf5Group root{.groups = {meshes, tags}};
+  Hdf5Group root{.attributes = {{"writer", std::string(kRecordName)}}, .groups = {meshes, tags}};
   if (!mesh.header().values.empty()) root.groups.push_back({.name = "Values"});
   for (std::size_t i = 0; i < mesh.header().values.size(); ++i) {
     root.groups.back().sets.push_back(value(mesh, i));

@@ -28,6 +28,8 @@ namespace mw::io {
 ///   /MeshTags/facet_tags/topology  Int64 [facets][3 or 6], normal out of the lower label
 ///   /MeshTags/facet_tags/Values    Int32 [facets]
 ///   /Values/NAME                   Float64 [tets], for each of the values
+/// The root of M.h5 has an attribute `writer`, which is "mwmesh", and M.cells.xdmf a comment at its
+/// end that says so, too, for those who want to know whose these files are.
 /// M.cells.xdmf has only the grid `mesh`, for readers that take one grid from a file (meshio).  The
 /// tables are M.xdmf.labels.csv and M.facets.csv.
 /// ERRORS: see AtomicFile; mw::Error(kUsage) for a name with ':', at which readers would end that
