@@ -87,6 +87,7 @@ void add_options(OptionSet& options, SynthJob& job) {
                .help = "labels; a few may have no voxel where the box cuts their cells",
                .flags = "--count,--labels",
                .required = true,
+               .only_flag = true,  // MW_COUNT is a number of tets
                .assign = into(job.spec.labels, parse_count)});
   options.add({.name = "seed",
                .value = "S",

@@ -4,7 +4,6 @@
 #include "engine/cli/info/shape_sink.h"
 
 #include <algorithm>
-#include <cmath>
 #include <string>
 
 #include "io/mesh/grouped/grouped_mesh.h"
@@ -75,7 +74,6 @@ void ShapeSink::add_tet(const io::TetRows& tet, RawLabel label) {
   }
   const auto [a, b, c, d] = rows;
   const double volume6 = mw::volume6(positions_[a], positions_[b], positions_[c], positions_[d]);
-  volumes_[label].add(std::abs(volume6) / 6);
   // The normal of a b c points at d, into the tet, when that is positive; with each swap it turns.
   const std::uint64_t positive = volume6 > 0 ? 1 : 0;
   const std::uint64_t negative = 1 - positive;

@@ -1,22 +1,19 @@
 // SPDX-FileCopyrightText: The mwmesh authors
 // SPDX-License-Identifier: Apache-2.0
-// Volumes of labels, area and bends of interfaces of a mesh that streams by.
+// Area and bends of interfaces of a mesh that streams by.
 #pragma once
-
-#include <map>
 
 #include "io/file/scratch/external_sort.h"
 #include "io/file/scratch/scratch_file.h"
 #include "io/mesh/no_sink.h"
-#include "kernels/audit/compensated_sum.h"
 #include "kernels/audit/shape/shape.h"
 
 namespace mw::cli {
 
 /// Measures any mesh whose tets come after their vertices, in double.
-/// Memory: 40 MiB and 100 bytes a label, whatever the mesh; what does not fit waits in temporary
-/// files in `folder`: 24 bytes a vertex, 128 a tet and 120 an interface triangle.  ERRORS: see
-/// ScratchFile; kInput when a tet names a vertex that has not come.
+/// Memory: 40 MiB, whatever the mesh; what does not fit waits in temporary files in `folder`: 24
+/// bytes a vertex, 128 a tet and 120 an interface triangle.  ERRORS: see ScratchFile; kInput when a
+/// tet names a vertex that has not come.
 class ShapeSink : public io::NoSink {
  public:
   explicit ShapeSink(const std::filesystem::path& folder);
@@ -24,10 +21,6 @@ class ShapeSink : public io::NoSink {
   void write_vertices(std::span<const io::Position> positions) override;
   void write_tets(std::span<const io::TetRows> tets, std::span<const RawLabel> labels) override;
 
-  /// Returns for each label the sum of its absolute volumes, in cubic physical units.
-  [[nodiscard]] const std::map<RawLabel, audit::CompensatedSum>& volumes() const {
-    return volumes_;
-  }
   /// Sorts and measures.  REQUIRES: finished; called once.
   [[nodiscard]] audit::ShapeReport shape();
 
@@ -41,7 +34,6 @@ class ShapeSink : public io::NoSink {
   /// Three ascending rows of a triangle, and the label of its tet.  The last row is doubled, and
   /// odd when the triangle's normal points out of the tet.
   io::ExternalSort<4> faces_;
-  std::map<RawLabel, audit::CompensatedSum> volumes_;
 };
 
 }  // namespace mw::cli

@@ -140,7 +140,7 @@ void add_array_options(OptionSet& options, VolumeRequest& request) {
 void add_step_options(OptionSet& options, VolumeRequest& request) {
   options.add({.name = "merge",
                .value = "A,B=C;D=E",
-               .help = "labels A and B become C, then D becomes E",
+               .help = "labels A and B become C, and D becomes E, all at once",
                .group = kLabelGroup,
                .has_labels = true,
                .assign = into(request.steps.merge, parse_merge)});

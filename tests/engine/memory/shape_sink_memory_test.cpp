@@ -50,7 +50,6 @@ TEST(Promise6BoundedMemory, OfMeasuringAMeshThatStreamsBy) {
   EXPECT_LE(mw::test::peak_allocated_bytes() - before, kMaxBytes);
   EXPECT_EQ(shape.triangles, 2 * (kCubes - 1));
   EXPECT_NEAR(shape.area, kCubes - 1, 1e-6);
-  EXPECT_NEAR(sink.volumes().at(1).value(), kCubes / 2.0, 1e-6);
 }
 
 }  // namespace
