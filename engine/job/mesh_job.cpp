@@ -3,6 +3,7 @@
 // The steps of the main job in their order.
 #include "engine/job/mesh_job.h"
 
+#include <algorithm>
 #include <atomic>
 #include <cmath>
 #include <limits>
@@ -121,10 +122,11 @@ class KeptInput {
     const PatchedVolume unpatched(counted_, *before_, {});
     const io::PreparedInput before(unpatched, steps_in(text),
                                    io::SpeckLimits::of_budget(job.run.store.memory));
-    const VerifyTask task{.options = {},
-                          .threads = thread_count(job.run.threads),
-                          .folder = folder_->path(),
-                          .between = job.stop};
+    VerifyTask task{.options = {},
+                    .threads = thread_count(job.run.threads),
+                    .folder = folder_->path(),
+                    .between = job.stop};
+    task.memory_bytes = std::min(task.memory_bytes, job.run.store.memory / 8);
     return delta_json(delta_of(before.volume(), after, task),
                       is_known ? std::optional(old_size) : std::nullopt, size);
   }
