@@ -95,7 +95,7 @@ void OptionSet::resolve(const std::map<std::string, std::string>& flags) {
   for (Entry& entry : entries_) {
     entry.text = entry.option.fallback;
     entry.where = entry.option.name;
-    entry.is_given = false;
+    entry.is_given = entry.is_flag = false;
   }
   const auto config = flags.find("config");
   if (config != flags.end()) read_config(config->second);
@@ -166,7 +166,7 @@ void OptionSet::read_flags(const std::map<std::string, std::string>& flags) {
     if (text.empty()) refuse(flag, ": empty value");
     entry.text = text;
     entry.where = entry.option.kind == ValueKind::kSwitch ? flag : flag + " " + text;
-    entry.is_given = true;
+    entry.is_given = entry.is_flag = true;
   }
 }
 
@@ -214,6 +214,11 @@ std::string OptionSet::toml() const {
     if (entry.option.only_flag) continue;
     const std::string key = key_of(entry.option);
     if (!entry.text.empty()) {
+      if (!fits_in_toml(entry.text)) {
+        refuse(entry.where,
+               ": has bytes that are no UTF-8, which a config file cannot hold; rename what it "
+               "names, or leave it out here and give it as a flag of each run");
+      }
       out += key + " = " + toml_of_text(entry.option.kind, entry.text) + "\n";
     } else if (entry.option.listed != Listed::kNowhere) {
       out += "# " + key + ": not set\n";

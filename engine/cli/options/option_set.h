@@ -79,7 +79,10 @@ class OptionSet {
   void require_all() const;
   /// Returns the effective value, empty if unset.  REQUIRES: there is an option of that name.
   [[nodiscard]] const std::string& text(const std::string& name) const { return find(name).text; }
+  /// Returns whether the value was given as a flag.  REQUIRES: there is an option of that name.
+  [[nodiscard]] bool is_flag(const std::string& name) const { return find(name).is_flag; }
   /// Returns the effective values as a config file that gives the same ones.
+  /// ERRORS: mw::Error(kUsage) naming a value that such a file cannot hold (fits_in_toml()).
   [[nodiscard]] std::string toml() const;
   /// Returns the values of toml() as JSON; an unset one is null.
   [[nodiscard]] io::Json json() const;
@@ -88,7 +91,8 @@ class OptionSet {
     Option option;
     std::string text;   ///< effective, in canonical form; empty if unset
     std::string where;  ///< "--window 41", "MW_WINDOW=41", "run.toml:3: window = 41"
-    bool is_given = false;
+    bool is_given = false;  ///< by a flag, a variable or a config file
+    bool is_flag = false;   ///< by a flag
   };
   [[nodiscard]] const std::vector<Entry>& entries() const { return entries_; }
 

@@ -154,6 +154,11 @@ const char* toml_type(ValueKind kind) {
   return "";
 }
 
+bool fits_in_toml(const std::string& text) {
+  // JSON replaces bytes that are no UTF-8.
+  return io::parse_json(io::Json(text).dump_ascii(), "settings").text() == text;
+}
+
 std::string toml_of_text(ValueKind kind, const std::string& text) {
   switch (kind) {
     case ValueKind::kInteger:

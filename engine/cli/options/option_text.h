@@ -22,8 +22,12 @@ namespace mw::cli {
 /// Returns what a config file holds for the kind, in words for messages: "an integer".
 [[nodiscard]] const char* toml_type(ValueKind kind);
 
-/// REQUIRES: canonical text.
+/// Returns whether a config file can hold the text: its strings are UTF-8.
+[[nodiscard]] bool fits_in_toml(const std::string& text);
+
+/// REQUIRES: canonical text that fits_in_toml().
 [[nodiscard]] std::string toml_of_text(ValueKind kind, const std::string& text);
+/// Returns the value as JSON, in which bytes that are no UTF-8 become U+FFFD.
 [[nodiscard]] io::Json json_of_text(ValueKind kind, const std::string& text);
 
 }  // namespace mw::cli
