@@ -99,11 +99,33 @@ void tell_of_mesh(const InfoJob& job) {
   }
 }
 
-int run_info(InfoJob& job) {
+/// Returns whether the file is looked at as a mesh.  --shape says that a file is raw; without a
+/// volume there is no other file.
+bool is_about_mesh(const InfoJob& job) {
+  return io::is_mesh_path(job.file) && (!job.volume.path.empty() || !job.volume.shape);
+}
+
+/// Throws for a flag about volumes, as there is none.  Variables may be meant for other commands.
+void refuse_volume_flags(const OptionSet& options, const std::string& mesh) {
+  VolumeRequest unused;
+  OptionSet of_volumes;
+  add_volume_options(of_volumes, unused);
+  add_step_options(of_volumes, unused);
+  for (const OptionSet::Entry& entry : of_volumes.entries()) {
+    const std::string& name = entry.option.name;
+    if (name == "names" || !options.is_flag(name)) continue;
+    throw Error(ErrorKind::kUsage, "--" + name + ": says something of a volume, and " + mesh +
+                                       " is a mesh; leave it out, or name the volume behind the "
+                                       "mesh, as in mwmesh info " +
+                                       mesh + " VOLUME");
+  }
+}
+
+int run_info(InfoJob& job, const OptionSet& options) {
   if (job.json && job.csv) throw Error(ErrorKind::kUsage, "--json and --csv: only one of them");
   const bool has_volume = !job.volume.path.empty();
-  // --shape says that a file is raw; without a volume there is no other file.
-  if (io::is_mesh_path(job.file) && (has_volume || !job.volume.shape)) {
+  if (is_about_mesh(job)) {
+    if (!has_volume) refuse_volume_flags(options, job.file.string());
     tell_of_mesh(job);
     return kExitDone;
   }
@@ -149,11 +171,14 @@ Command info_command() {
   Command command{.name = "info",
                   .about = "tells facts of a volume or mesh, and of each label",
                   .options = {},
-                  .run = [job](const OptionSet&) { return run_info(*job); },
+                  .run = [job](const OptionSet& options) { return run_info(*job, options); },
                   .older_name = "stats",
                   .note = volume_note() + mesh_note(),
                   .names =
                       [job] {
+                        if (is_about_mesh(*job) && job->volume.path.empty()) {
+                          return names_of(job->file);
+                        }
                         VolumeRequest volume = job->volume;
                         if (volume.path.empty()) volume.path = job->file;
                         return names_of(volume);

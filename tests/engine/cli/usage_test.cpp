@@ -228,7 +228,7 @@ TEST_F(UsageTest, EndsWith130AndCleanWhenInterrupted) {
 TEST_F(UsageTest, ConvertWritesTwoFilesUnderTwoNames) {
   expect_done("synth spheres --shape 8,8,8 --labels 2 --seed 1 -o v.npy");
   expect_done("mesh v.npy -o v.vtu --periodic x");
-  expect_failure(2, "convert v.vtu z.inp --pairs z.inp", "this is the mesh to write");
+  expect_failure(2, "convert v.vtu z.inp --pairs z.inp", "--pairs z.inp: name used twice");
 }
 
 /// Points of the lattice are told apart in what is written, or the run is refused; up to what the
