@@ -113,7 +113,8 @@ struct RegionVolume {
   Space space{};
   std::vector<LabelName> names{};
   /// Writes the labels of the box, x fastest.  Many threads call it at once, and it is asked for
-  /// each voxel about three times.  What it throws ends the run.
+  /// each voxel about three times.  What it throws ends the run, and so does a label that `type`
+  /// cannot hold (kInput).
   std::function<void(const Box& box, std::span<std::uint64_t> out)> read{};
 };
 

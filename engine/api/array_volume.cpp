@@ -46,10 +46,36 @@ io::VolumeInfo info_of(const Told& told) {
           .names = io_names(told.names)};
 }
 
+/// The shape is checked first, as one that is too large has no product.
 mwmesh::Index strides_of(const mwmesh::ArrayVolume& array) {
+  const Index3 shape = shape_of(array.shape);
   if (array.strides != mwmesh::Index{}) return array.strides;
   const std::int64_t x = io::byte_size(type_of(array.type));
-  return {x, x * array.shape[0], x * array.shape[0] * array.shape[1]};
+  return {x, x * shape.x, x * shape.x * shape.y};
+}
+
+/// Returns whether a type holds the label; one of floats is taken to hold all of them.
+bool holds(io::VoxelType type, RawLabel label) {
+  const auto bits = static_cast<unsigned>(8 * io::byte_size(type));
+  if (io::is_float(type) || bits == 64) return true;
+  if (!io::is_signed(type)) return label >> bits == 0;
+  // A negative label has ones in all higher bits.
+  const std::int64_t rest = static_cast<std::int64_t>(label) >> (bits - 1);
+  return rest == 0 || rest == -1;
+}
+
+/// Throws if the type of the volume cannot hold one of the labels of the box.
+void require_held(const io::VolumeInfo& info, const Box3& box, std::span<const RawLabel> labels) {
+  const auto wrong = std::find_if(labels.begin(), labels.end(),
+                                  [&](RawLabel label) { return !holds(info.type, label); });
+  if (wrong == labels.end()) return;
+  const std::int64_t at = wrong - labels.begin();
+  const std::int64_t row = box.hi.x - box.lo.x, plane = row * (box.hi.y - box.lo.y);
+  throw Error(ErrorKind::kInput,
+              io::text("volume: voxel (", box.lo.x + at % row, ", ",
+                       box.lo.y + at % plane / row, ", ", box.lo.z + at / plane,
+                       ") came back with a label that ", io::name(info.type),
+                       ", the type of the volume, cannot hold; give the type of the labels"));
 }
 
 }  // namespace
@@ -101,6 +127,7 @@ RegionReader::RegionReader(const mwmesh::RegionVolume& region)
 
 void RegionReader::read(const Box3& box, std::span<RawLabel> out) const {
   read_(library_box(box), out);
+  require_held(info_, box, out);
 }
 
 }  // namespace mw::api

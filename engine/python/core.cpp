@@ -59,7 +59,8 @@ HeldVolume volume_of_array(const py::array& array, const Space& space,
   return {Volume::of(told), shared(array)};
 }
 
-/// Makes a volume of fetch(x0, y0, z0, x1, y1, z1), which returns 64-bit labels, x fastest.
+/// Makes a volume of fetch(x0, y0, z0, x1, y1, z1), which returns 64-bit labels [z, y, x], without
+/// gaps.
 HeldVolume volume_of_region(const py::object& fetch, const py::dtype& type, const Index& shape,
                             const Index& chunk, const Space& space,
                             const std::vector<LabelName>& names) {
@@ -71,7 +72,12 @@ HeldVolume volume_of_region(const py::object& fetch, const py::dtype& type, cons
     const py::object made =
         (*held)(box.lo[0], box.lo[1], box.lo[2], box.hi[0], box.hi[1], box.hi[2]);
     const auto labels = py::cast<py::array>(made);
-    if (static_cast<std::size_t>(labels.size()) != out.size() || labels.itemsize() != 8) {
+    const auto has_extent = [&](py::ssize_t axis, std::size_t k) {
+      return labels.shape(axis) == box.hi[k] - box.lo[k];
+    };
+    const bool has_shape =
+        labels.ndim() == 3 && has_extent(0, 2) && has_extent(1, 1) && has_extent(2, 0);
+    if (!has_shape || labels.itemsize() != 8) {
       throw Error(ErrorKind::kInput, "volume: a region came back with another shape");
     }
     std::memcpy(out.data(), labels.data(), out.size_bytes());

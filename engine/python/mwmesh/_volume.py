@@ -7,7 +7,7 @@ import os
 import numpy as np
 
 from . import _core
-from ._errors import UsageError
+from ._errors import InputError, UsageError
 from ._values import (check_names, name_rows, numbers, path_bytes, switch, text, three,
                       unexpected, whole, whole_numbers)
 
@@ -89,6 +89,16 @@ def _chunk(array):
     return [int(c if np.ndim(c) == 0 else c[0]) for c in chunks]
 
 
+def _check_sign(labels, dtype):
+    """Refuses labels of a region that the array's type cannot have; the core, which has the bits
+    of labels alone, refuses those that are too large for it."""
+    is_signed = np.dtype(dtype).kind in "if"
+    limit = np.iinfo(np.int64).max
+    if labels.size and (labels.max() > limit if is_signed else labels.min() < 0):
+        raise InputError(f"array: a region has a label that {np.dtype(dtype)}, the type of the "
+                         "array, cannot hold; give the array the type of its labels")
+
+
 def _region_volume(array, axes, space):
     shape = [int(n) for n in array.shape]
     chunk = _chunk(array)
@@ -100,7 +110,9 @@ def _region_volume(array, axes, space):
             values = np.asarray(_unmasked(array[z0:z1, y0:y1, x0:x1]))
         else:
             values = np.asarray(_unmasked(array[x0:x1, y0:y1, z0:z1])).T
-        return np.ascontiguousarray(whole_numbers(values, "array"))
+        labels = whole_numbers(values, "array")
+        _check_sign(labels, array.dtype)
+        return np.ascontiguousarray(labels)
 
     return _core.volume_of_region(fetch, np.dtype(array.dtype), shape, chunk, space, [])
 
