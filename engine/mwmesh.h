@@ -272,6 +272,9 @@ struct Options {
   /// After drop_specks, voxels of these labels are filled where others hang together by an edge or
   /// a corner alone.
   std::vector<std::uint64_t> weld{};
+  /// Labels before merge, as VolumeFile::object has them: the mesh has what these become, and no
+  /// others.  Where labels or background is given, that counts instead.
+  std::vector<std::uint64_t> object{};
 };
 
 struct Progress {

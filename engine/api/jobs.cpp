@@ -11,6 +11,7 @@
 #include "engine/settings/setting_table.h"
 #include "engine/system/memory.h"
 #include "io/file/scratch/scratch_file.h"
+#include "io/labels/merged_labels.h"
 #include "io/volume/open_volume.h"
 #include "kernels/core/error.h"
 
@@ -38,6 +39,15 @@ std::vector<engine::SampleImage> samples_of(const mwmesh::Options& options) {
   } catch (const Error& error) {
     throw Error(error.kind(), std::string("--sample: ") + error.what());
   }
+}
+
+/// Returns which labels the mesh is to have; those of an object are what its steps make of them.
+engine::LabelChoice choice_of(const mwmesh::Options& options, const io::InputSteps& steps) {
+  engine::LabelChoice choice = label_choice(options);
+  if (!options.object.empty() && !choice.labels && !choice.background) {
+    choice.labels = io::merged_labels(options.object, steps.merge);
+  }
+  return choice;
 }
 
 engine::RunHooks run_hooks(const mwmesh::Options& options, const mwmesh::Hooks& hooks) {
@@ -113,12 +123,14 @@ engine::MeshJob mesh_job(const io::VolumeInfo& labels, const mwmesh::Settings& s
   if (const std::string& image = values.sizes.rules.image; !image.empty()) {
     sizes = io::open_volume(image);
   }
+  io::InputSteps steps = input_steps(options, io::has_signed_labels(labels));
+  engine::LabelChoice choice = choice_of(options, steps);
   return {
-      .steps = input_steps(options, io::has_signed_labels(labels)),
+      .steps = std::move(steps),
       .settings = std::move(values),
       .size_image = std::move(sizes),
       .samples = samples_of(options),
-      .choice = label_choice(options),
+      .choice = std::move(choice),
       .connect = {.parts = engine::parse_parts(options.parts),
                   .split = options.split.empty() ? engine::SplitRule{}
                                                  : engine::parse_split(options.split),

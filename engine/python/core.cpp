@@ -212,6 +212,7 @@ void add_options(py::module_& module) {
       .def_readwrite("merge", &Options::merge)
       .def_readwrite("drop_specks", &Options::drop_specks)
       .def_readwrite("weld", &Options::weld)
+      .def_readwrite("object", &Options::object)
       .def_readwrite("specks_joined_by_corners", &Options::specks_joined_by_corners)
       .def_readwrite("labels", &Options::labels)
       .def_readwrite("background", &Options::background)

@@ -13,9 +13,9 @@
 #include "engine/settings/size_text.h"
 #include "engine/system/memory.h"
 #include "io/file/errors.h"
+#include "io/labels/merged_labels.h"
 #include "io/mesh/open_mesh.h"
 #include "kernels/core/error.h"
-#include "kernels/core/sort_distinct.h"
 
 namespace mw::cli {
 namespace {
@@ -336,19 +336,6 @@ void settle_keep(MeshRequest& request) {
                                             : engine::KeepUse::kBegin;
 }
 
-/// Returns the labels that these have become when the rules were applied.
-std::vector<RawLabel> merged(std::vector<RawLabel> labels,
-                             const std::vector<io::MergeRule>& rules) {
-  for (RawLabel& label : labels) {
-    const auto rule = std::find_if(rules.begin(), rules.end(), [&](const io::MergeRule& r) {
-      return std::find(r.from.begin(), r.from.end(), label) != r.from.end();
-    });
-    if (rule != rules.end()) label = rule->to;
-  }
-  sort_distinct(labels);
-  return labels;
-}
-
 /// Fills in what follows from other values.
 void settle_job(MeshRequest& request) {
   engine::MeshJob& job = request.job;
@@ -359,7 +346,7 @@ void settle_job(MeshRequest& request) {
   job.steps = request.volume.steps;
   const bool has_choice = job.choice.labels || job.choice.background;
   if (!request.volume.object.empty() && !has_choice) {
-    job.choice.labels = merged(request.volume.object, job.steps.merge);
+    job.choice.labels = io::merged_labels(request.volume.object, job.steps.merge);
   }
   job.folder = request.output.parent_path();
   job.is_measured = !request.report.empty() || !request.html.empty();

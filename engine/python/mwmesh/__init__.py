@@ -202,14 +202,14 @@ def _run(call, volume, arguments, progress):
     place = {k: arguments.pop(k) for k in (*PLACE, "names") if k in arguments}
     options = {k: arguments.pop(k) for k in _OPTIONS if k in arguments}
     check_names(arguments, settings(), (*PLACE, "names", *_OPTIONS, "progress"))
-    if place.get("object") is not None and not {"labels", "background"} & options.keys():
-        options["labels"] = place["object"]
     volume = as_volume(volume, **place)
     settings_text = {k: _size_text(volume, v) if k == "size" else _setting_text(v)
                      for k, v in arguments.items() if k != "size" or v is not None}
     bar = _progress(progress)
     try:
-        return call(volume, settings_text, _options(volume, **options), bar)
+        chosen = _options(volume, **options)
+        chosen.object = _labels(volume, place.get("object"), "object")
+        return call(volume, settings_text, chosen, bar)
     finally:
         if isinstance(bar, _Bar):
             bar.close()
