@@ -300,7 +300,9 @@ struct Mesh {
   std::vector<std::uint64_t> labels{};               ///< by tet
   bool labels_are_signed = false;
   std::vector<LabelName> names{};  ///< of labels that are in the mesh
-  /// For each name a number for each tet (Options::sample, or from a file); NaN if unknown.
+  /// For each name a number for each tet (Options::sample, or from a file); NaN if unknown.  Files
+  /// have names of a letter and up to 30 letters, digits and '_', none of them "label" and no two
+  /// alike but for capitals; others are written as such names ("Stress XX" as "Stress_XX").
   std::map<std::string, std::vector<double>> values{};
   /// JSON, the keys of `mwmesh mesh --report`; empty when there is none.  Its "settings" are those
   /// of Settings, with threads, memory and workdir.
@@ -332,6 +334,7 @@ class MeshWriter {
                         const Options& options = {}, const Hooks& hooks = {});
 
 /// Meshes the volume into a writer, as mesh() does, but without wedges.  Returns the report.
+/// ERRORS: also kUsage for Options::sample, as a writer takes no values of tets.
 std::string mesh_to(MeshWriter& writer, const Volume& volume, const Settings& settings = {},
                     const Options& options = {}, const Hooks& hooks = {});
 
@@ -340,7 +343,7 @@ struct FileOptions {
   std::string element = "tet4";  ///< or "tet10", or "tet10-curved" (io/README.md, "Curved tets")
   bool values = true;            ///< whether the values of tets are written
   /// Materials by equal ranges of a value, as `mwmesh mesh --materials` has them: "NAME=N" or
-  /// "NAME=N:LO:HI"; empty for none.
+  /// "NAME=N:LO:HI"; empty for none.  A file that has a place for values has them, too.
   std::string materials{};
   bool deck = false;  ///< adds a job for CalculiX (.inp) or FEBio (.feb), as --deck static
   /// A file for the pairs of nodes of a mesh with the setting periodic, as --pairs, or empty.

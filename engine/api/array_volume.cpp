@@ -71,11 +71,11 @@ void require_held(const io::VolumeInfo& info, const Box3& box, std::span<const R
   if (wrong == labels.end()) return;
   const std::int64_t at = wrong - labels.begin();
   const std::int64_t row = box.hi.x - box.lo.x, plane = row * (box.hi.y - box.lo.y);
-  throw Error(ErrorKind::kInput,
-              io::text("volume: voxel (", box.lo.x + at % row, ", ",
-                       box.lo.y + at % plane / row, ", ", box.lo.z + at / plane,
-                       ") came back with a label that ", io::name(info.type),
-                       ", the type of the volume, cannot hold; give the type of the labels"));
+  throw Error(
+      ErrorKind::kInput,
+      io::text("volume: voxel (", box.lo.x + at % row, ", ", box.lo.y + at % plane / row, ", ",
+               box.lo.z + at / plane, ") came back with a label that ", io::name(info.type),
+               ", the type of the volume, cannot hold; give the type of the labels"));
 }
 
 }  // namespace

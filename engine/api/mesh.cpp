@@ -39,6 +39,31 @@ class WriterSink : public io::MeshSink {
   MeshWriter& writer_;
 };
 
+/// Passes a mesh on without the values of its tets.
+class SinkWithoutValues : public io::MeshSink {
+ public:
+  explicit SinkWithoutValues(io::MeshSink& below) : below_(below) {}
+
+  void begin(const io::MeshHeader& header) override {
+    io::MeshHeader without = header;
+    without.values.clear();
+    below_.begin(without);
+  }
+  void write_vertices(std::span<const io::Position> positions) override {
+    below_.write_vertices(positions);
+  }
+  void write_tets(std::span<const io::TetRows> tets,
+                  std::span<const mw::RawLabel> labels) override {
+    below_.write_tets(tets, labels);
+  }
+  void write_values(std::span<const double> /*rows*/) override {}
+  void finish() override { below_.finish(); }
+  [[nodiscard]] std::uint64_t buffer_bytes() const override { return below_.buffer_bytes(); }
+
+ private:
+  io::MeshSink& below_;
+};
+
 /// Returns a job with its images opened.
 engine::MeshJob job_of(const Volume& volume, const Settings& settings, const Options& options,
                        const Hooks& hooks) {
@@ -103,6 +128,11 @@ Mesh mesh(const Volume& volume, const Settings& settings, const Options& options
 std::string mesh_to(MeshWriter& writer, const Volume& volume, const Settings& settings,
                     const Options& options, const Hooks& hooks) {
   return mw::api::guarded([&] {
+    if (!options.sample.empty()) {
+      throw mw::Error(mw::ErrorKind::kUsage,
+                      "sample: a writer takes no values of tets; mesh() and mesh_to_file() have a "
+                      "place for them");
+    }
     WriterSink sink(writer);
     return run_into(sink, {}, volume, job_of(volume, settings, options, hooks));
   });
@@ -113,16 +143,19 @@ std::string mesh_to_file(const std::filesystem::path& path, const Volume& volume
                          const FileOptions& file) {
   return mw::api::guarded([&] {
     // What the format cannot have is said before images are opened.
-    if (!options.sample.empty() && file.materials.empty()) io::require_place_for_values(path);
+    const bool has_values = !options.sample.empty() && file.values;
+    if (has_values && file.materials.empty()) io::require_place_for_values(path);
     const bool has_wedges = !options.cohesive.empty();
     if (has_wedges) io::require_place_for_wedges(path, io::parse_element(file.element));
     engine::MeshJob job = job_of(volume, settings, options, hooks);
     job.folder = mw::api::checked_path(path).parent_path();
     bool is_delivered = false;
     job.delivered = [&] { is_delivered = true; };
-    const auto sink = mw::api::open_file(path, file, !options.sample.empty(), has_wedges);
+    const auto sink = mw::api::open_file(path, file, has_values, has_wedges);
+    SinkWithoutValues without(*sink);
+    const bool passes_values = file.values || !file.materials.empty();
     try {
-      return run_into(*sink, path, volume, job);
+      return run_into(passes_values ? *sink : without, path, volume, job);
     } catch (const Error& error) {
       if (!is_delivered || error.kind() != ErrorKind::kCancelled) throw;
       throw Error(error.kind(), error.what() + ("; " + path.string() + " is complete"));

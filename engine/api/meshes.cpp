@@ -25,7 +25,9 @@ void write_mesh(const Mesh& mesh, const std::filesystem::path& path, const FileO
                       "curved again; write them as tet4 or tet10");
     }
     const bool has_values = file.values && !mesh.values.empty();
-    mw::api::deliver(mesh, *mw::api::open_file(path, file, has_values), file.values);
+    // Materials are made of values, also in a file that has no place for these.
+    const bool needs_values = file.values || !file.materials.empty();
+    mw::api::deliver(mesh, *mw::api::open_file(path, file, has_values), needs_values);
   });
 }
 

@@ -9,6 +9,7 @@
 #include "engine/api/guarded.h"
 #include "engine/settings/material_text.h"
 #include "io/file/errors.h"
+#include "io/mesh/field_names.h"
 #include "io/mesh/open_mesh.h"
 #include "io/volume/file_space.h"
 #include "io/volume/open_volume.h"
@@ -120,7 +121,13 @@ std::unique_ptr<io::MeshSink> open_file(const std::filesystem::path& path,
   } else if (has_values) {
     io::require_place_for_values(path);
   }
-  return io::open_mesh_sink(checked_path(path), io::parse_element(file.element), extras);
+  auto sink = io::open_mesh_sink(checked_path(path), io::parse_element(file.element), extras);
+  if (extras.materials && !file.values && io::why_no_values(path).empty()) {
+    throw Error(ErrorKind::kUsage, "values: " + path.string() +
+                                       " has values of tets where it has materials; write "
+                                       "them, too, or give an .inp, which has materials alone");
+  }
+  return sink;
 }
 
 namespace {
@@ -176,6 +183,7 @@ void deliver(const mwmesh::Mesh& mesh, io::MeshSink& sink, bool values) {
   header.in_parts = mesh.in_parts;
   if (values) {
     for (const auto& [name, column] : mesh.values) header.values.push_back(name);
+    header.values = io::value_names(header.values);
   }
   sink.begin(header);
   write_rows(mesh, !header.values.empty(), sink);

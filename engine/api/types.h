@@ -23,7 +23,8 @@ inline constexpr const char* kArray = "array";
 /// Returns the mesh, without a report.
 [[nodiscard]] mwmesh::Mesh library_mesh(io::MeshData&& mesh);
 /// Opens a file.  has_values tells whether it gets values of tets, has_wedges whether it is known
-/// to get wedges.  ERRORS: mw::Error(kUsage) for what its format has no place for.
+/// to get wedges.  ERRORS: mw::Error(kUsage) for what its format has no place for, and for
+/// materials without values where the format has a place for these.
 [[nodiscard]] std::unique_ptr<io::MeshSink> open_file(const std::filesystem::path& path,
                                                       const mwmesh::FileOptions& file,
                                                       bool has_values, bool has_wedges = false);
