@@ -13,7 +13,7 @@ True
 
 import json
 import sys
-from collections.abc import Iterable, Mapping
+from collections.abc import Mapping
 
 import numpy as np
 
@@ -21,8 +21,8 @@ from . import _core
 from ._errors import (CancelledError, CheckFailedError, Error, InputError, InternalError,
                       MissingPackageError, ResourceError, UsageError)
 from ._mesh import Materials, Mesh, Surface, Verdict
-from ._values import (check_names, count, file_options, label, naming, numbers, path_bytes,
-                      switch, text, unexpected, whole)
+from ._values import (check_names, count, file_options, label, naming, numbers, one_or_more,
+                      path_bytes, switch, text, unexpected, whole)
 from ._session import Session
 from ._volume import PLACE, as_volume
 
@@ -123,9 +123,7 @@ def _labels(volume, value, name):
     """The labels of a list or of one label; none without a value."""
     if value is None:
         return []
-    is_one = isinstance(value, str) or not isinstance(value, Iterable)
-    wanted = [value] if is_one or getattr(value, "ndim", 1) == 0 else value
-    labels = [label(volume, one, name) for one in wanted]
+    labels = [label(volume, one, name) for one in one_or_more(value)]
     if not labels:
         raise UsageError(f"{name}: the list is empty")
     return labels

@@ -11,8 +11,8 @@ import numpy as np
 from . import _core
 from ._errors import MissingPackageError, UsageError
 from ._values import label as label_bits
-from ._values import (file_options, name_rows, numbers, path_bytes, unexpected, whole,
-                      whole_numbers)
+from ._values import (file_options, name_rows, numbers, one_or_more, path_bytes, unexpected,
+                      whole, whole_numbers)
 
 #: The corners of a tet's faces, seen counterclockwise from outside.
 _FACES = np.array([[1, 2, 3], [0, 3, 2], [0, 1, 3], [0, 2, 1]])
@@ -348,9 +348,10 @@ class Mesh:
         """Writes a file of any format of ``mwmesh convert``, which appears under its name only once
         it is whole.  element: "tet4", "tet10" or "tet10-curved", which a mesh that was read from
         curved tets cannot be again.  values: False leaves out the values of tets, for which some
-        formats have no place.  materials: "NAME=N" or
-        "NAME=N:LO:HI" makes N sets of elements by ranges of a value.  deck: with a job for CalculiX (.inp) or FEBio (.feb).
-        pairs: a file (.csv, or .inp with equations) for the nodes on the faces of a mesh that was
+        formats have no place.  materials: "NAME=N" or "NAME=N:LO:HI" makes N sets of elements by
+        ranges of a value, which a format with a place for values then has to have, too.
+        deck: with a job
+        for CalculiX (.inp) or FEBio (.feb).  pairs: a file (.csv, or .inp with equations) for the nodes on the faces of a mesh that was
         made with ``periodic``, and those that they are images of."""
         _core.write_mesh(self._core, path_bytes(path, "path"),
                          file_options(element, values, materials, deck, pairs))
@@ -365,10 +366,18 @@ class Mesh:
         True
         """
         from . import _options, as_volume
-        volume = as_volume(volume, **{"names": self.names, **place})
+        given = place.pop("names", self)
+        volume = as_volume(volume, **place)
+        volume = as_volume(volume, names=self._names_in(volume) if given is self else given)
         options = _options(volume, threads=threads, memory=memory, labels=labels,
                            background=background, merge=merge, drop_specks=drop_specks, weld=weld)
         return Verdict(_core.verify(self._core, volume, options))
+
+    def _names_in(self, volume):
+        """Returns the names of labels that a volume can have, as its labels are signed or not."""
+        limit = np.iinfo(np.int64).max
+        return {label: name for label, name in self.names.items()
+                if (label <= limit if volume.labels_are_signed else label >= 0)}
 
     def _inner(self):
         """Returns the ranks of all labels except the one that has two thirds of the box's sides."""
@@ -380,9 +389,10 @@ class Mesh:
         return np.flatnonzero(inner if inner.any() else ~inner)
 
     def plot(self, labels=None, **arguments):
-        """Shows these labels in a window, by default all except the one around them.  Uses pyvista
+        """Shows these labels (a list, or one) in a window, by default all except the one around
+        them.  Uses pyvista
         if it is installed, whose plot() takes the arguments, else vtk."""
-        ranks = self._inner() if labels is None else [self._rank(label) for label in labels]
+        ranks = self._inner() if labels is None else [self._rank(label) for label in one_or_more(labels)]
         seen = np.isin(self._ranks()[1], ranks)
         grid = Mesh(self.points, self.tets[seen], self.labels[seen], self.names).to_vtk()
         try:

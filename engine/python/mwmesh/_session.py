@@ -8,7 +8,7 @@ import threading
 import numpy as np
 
 from ._errors import UsageError
-from ._values import numbers, unexpected, whole
+from ._values import numbers, unexpected, unmasked, whole
 
 
 def _extent(mask):
@@ -52,7 +52,7 @@ class Session:
         for name in ("changed", "report", "workdir", "resume", "order"):
             if name in settings:
                 raise UsageError(f"{name}: a session settles that itself")
-        self._array = np.array(array, order="C")
+        self._array = np.array(unmasked(array), order="C")
         self._settings = settings
         self._folder = None
         if from_kept and keep is None:
@@ -136,7 +136,7 @@ class Session:
 
     def _edited(self, *edit):
         if len(edit) == 1:
-            array = np.array(edit[0], order="C")
+            array = np.array(unmasked(edit[0]), order="C")
             if array.shape != self._array.shape or array.dtype != self._array.dtype:
                 raise unexpected("array", f"shape {self._array.shape} of {self._array.dtype}",
                                  f"{array.shape} of {array.dtype}")
@@ -157,14 +157,21 @@ class Session:
 
     def _labels(self, values, part):
         """The labels that update() was given for a part of the array, in its type."""
-        given = np.asarray(values)
+        given = np.asarray(unmasked(values, "values"))
         if given.dtype.kind not in "biu":
             raise unexpected("values", "the number of a label, or an array of them", values)
         labels = given.astype(self._array.dtype)
-        if not np.array_equal(labels, given):
+        if not (np.array_equal(labels, given) and self._is_exact(given)):
             raise unexpected("values", f"labels that {self._array.dtype} can hold", values)
         try:
             return np.broadcast_to(labels, part.shape)
         except ValueError:
             raise unexpected("values", f"a label, or an array of shape {part.shape}",
                              f"one of shape {labels.shape}") from None
+
+    def _is_exact(self, labels):
+        """Whether the array holds these labels to the last digit.  Floats do not hold all of them,
+        and numpy compares whole numbers with floats as floats."""
+        number = self._array.dtype.type
+        return self._array.dtype.kind != "f" or all(
+            int(number(label)) == label for label in np.unique(labels).tolist())

@@ -7,6 +7,7 @@ import contextlib
 import difflib
 import operator
 import os
+from collections.abc import Iterable
 
 import numpy as np
 
@@ -114,6 +115,19 @@ def whole_numbers(values, name):
         if np.array_equal(integers, values):
             return integers
     raise UsageError(f"{name}: expected whole numbers")
+
+
+def unmasked(array, name="array"):
+    """Returns the array.  Refuses a masked one, as nothing says what its masked voxels are."""
+    if isinstance(array, np.ma.MaskedArray):
+        raise UsageError(f"{name}: is masked; fill it with a label: {name}.filled(0)")
+    return array
+
+
+def one_or_more(value):
+    """Returns the labels of a list, or of one label; a string is one name."""
+    is_one = isinstance(value, str) or not isinstance(value, Iterable)
+    return [value] if is_one or getattr(value, "ndim", 1) == 0 else value
 
 
 def label(of, value, name):

@@ -9,7 +9,7 @@ import numpy as np
 from . import _core
 from ._errors import InputError, UsageError
 from ._values import (check_names, name_rows, numbers, path_bytes, switch, text, three,
-                      unexpected, whole, whole_numbers)
+                      unexpected, unmasked, whole, whole_numbers)
 
 #: Arrays are indexed [z, y, x], as .npy, HDF5, Zarr and TIFF have them, unless told otherwise.
 AXES = ("zyx", "xyz")
@@ -107,21 +107,14 @@ def _region_volume(array, axes, space):
 
     def fetch(x0, y0, z0, x1, y1, z1):
         if axes == "zyx":
-            values = np.asarray(_unmasked(array[z0:z1, y0:y1, x0:x1]))
+            values = np.asarray(unmasked(array[z0:z1, y0:y1, x0:x1]))
         else:
-            values = np.asarray(_unmasked(array[x0:x1, y0:y1, z0:z1])).T
+            values = np.asarray(unmasked(array[x0:x1, y0:y1, z0:z1])).T
         labels = whole_numbers(values, "array")
         _check_sign(labels, array.dtype)
         return np.ascontiguousarray(labels)
 
     return _core.volume_of_region(fetch, np.dtype(array.dtype), shape, chunk, space, [])
-
-
-def _unmasked(array):
-    """Returns the array.  Refuses a masked one, as nothing says what its masked voxels are."""
-    if isinstance(array, np.ma.MaskedArray):
-        raise UsageError("array: is masked; fill it with a label: array.filled(0)")
-    return array
 
 
 def _array_volume(array, axes, space):
@@ -184,7 +177,7 @@ def _volume(source, spacing, origin, affine, frame, unit, axes, dataset, scale, 
         raise UsageError(f"array: has {len(source.shape)} axes, expected 3; take one volume of it")
     space = _space(spacing, origin, affine, frame, unit_text, stated)
     make = _array_volume if isinstance(source, np.ndarray) else _region_volume
-    return make(_unmasked(source), axes, space)
+    return make(unmasked(source), axes, space)
 
 
 def as_volume(source, *, names=None, **place):
