@@ -95,9 +95,8 @@ bool is_there(const fs::path& path) {
 
 bool is_ours(const fs::path& path) {
   const std::string ends = ends_of(path);
-  return std::any_of(kMarks.begin(), kMarks.end(), [&](std::string_view mark) {
-    return ends.find(mark) != ends.npos;
-  });
+  return std::any_of(kMarks.begin(), kMarks.end(),
+                     [&](std::string_view mark) { return ends.find(mark) != ends.npos; });
 }
 
 }  // namespace
