@@ -349,10 +349,10 @@ class Mesh:
         it is whole.  element: "tet4", "tet10" or "tet10-curved", which a mesh that was read from
         curved tets cannot be again.  values: False leaves out the values of tets, for which some
         formats have no place.  materials: "NAME=N" or "NAME=N:LO:HI" makes N sets of elements by
-        ranges of a value, which a format with a place for values then has to have, too.
-        deck: with a job
-        for CalculiX (.inp) or FEBio (.feb).  pairs: a file (.csv, or .inp with equations) for the nodes on the faces of a mesh that was
-        made with ``periodic``, and those that they are images of."""
+        ranges of a value, which a format with a place for values then has to have, too.  deck: with
+        a job for CalculiX (.inp) or FEBio (.feb).  pairs: a file (.csv, or .inp with equations) for
+        the nodes on the faces of a mesh that was made with ``periodic``, and those that they are
+        images of."""
         _core.write_mesh(self._core, path_bytes(path, "path"),
                          file_options(element, values, materials, deck, pairs))
 
