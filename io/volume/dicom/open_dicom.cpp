@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 #include <cstring>
 #include <map>
 #include <optional>
@@ -15,6 +14,7 @@
 
 #include "io/file/errors.h"
 #include "io/volume/dicom/dicom_segments.h"
+#include "io/volume/dicom/slice_grid.h"
 #include "io/volume/file_space.h"
 #include "io/volume/masks/mask_merger.h"
 #include "io/volume/raw_array.h"
@@ -24,92 +24,10 @@
 namespace mw::io {
 namespace {
 
-constexpr std::int64_t kMostSlices = 1 << 20;
-
-/// How far from the grid a frame may lie, in steps, as coordinates are texts of 16 characters.
-constexpr double kSlack = 0.05;
-
-/// Slices that are at most this far from each other, in mm, lie at one place.
-constexpr double kSameSlice = 1e-3;
-
-/// Returns first + length * way.
-Vector3 beyond(const Vector3& first, double length, const Vector3& way) {
-  return {first[0] + length * way[0], first[1] + length * way[1], first[2] + length * way[2]};
+/// Returns length * way.
+Vector3 along(const Vector3& way, double length) {
+  return {length * way[0], length * way[1], length * way[2]};
 }
-
-/// Where frames lie along the normal of their plane.
-class SliceGrid {
- public:
-  /// ERRORS: mw::Error(kInput) unless they are multiples of a step apart, along the normal.
-  SliceGrid(const DicomSegments& dicom, const std::string& file)
-      : normal_(cross(dicom.grid.along_row, dicom.grid.along_column)) {
-    for (const DicomFrame& f : dicom.frames) places_.push_back(dot(normal_, f.first));
-    std::vector<double> sorted = places_;
-    std::sort(sorted.begin(), sorted.end());
-    lowest_ = sorted.front();
-    step_ = step_of(sorted, dicom.grid);
-    const auto is_off = [&](double steps) { return std::abs(steps - std::round(steps)) > kSlack; };
-    if (!(step_ > 0) || !((sorted.back() - lowest_) / step_ < kMostSlices)) {
-      fail(file, "are too far from each other");
-    }
-    if (std::any_of(places_.begin(), places_.end(),
-                    [&](double p) { return is_off((p - lowest_) / step_); })) {
-      fail(file, "are not multiples of a step apart");
-    }
-    first_ = beyond(dicom.frames[0].first, lowest_ - places_[0], normal_);
-    for (std::size_t i = 0; i < places_.size(); ++i) {
-      const Vector3 expected = beyond(first_, places_[i] - lowest_, normal_);
-      const Vector3 beside = beyond(dicom.frames[i].first, -1, expected);
-      const double least = std::min(dicom.grid.row_spacing, dicom.grid.column_spacing);
-      if (!(dot(beside, beside) <= kSlack * kSlack * least * least)) {
-        fail(file, "do not lie behind each other");
-      }
-    }
-  }
-
-  [[nodiscard]] std::int64_t count() const {
-    return 1 + slice(static_cast<std::size_t>(std::max_element(places_.begin(), places_.end()) -
-                                              places_.begin()));
-  }
-  [[nodiscard]] std::int64_t slice(std::size_t frame) const {
-    return std::llround((places_[frame] - lowest_) / step_);
-  }
-  [[nodiscard]] const Vector3& normal() const { return normal_; }
-  [[nodiscard]] const Vector3& first() const { return first_; }
-  [[nodiscard]] double step() const { return step_; }
-
- private:
-  [[noreturn]] static void fail(const std::string& file, const char* what) {
-    fail_input(file, "Image Position (Patient)", text("the slices ", what),
-               "export them on one grid of equal steps, for instance with 3D Slicer");
-  }
-
-  /// Returns the spacing or the thickness that the file states, if the slices agree with it, else
-  /// the least distance between two of them, which has the errors of two coordinates.
-  static double step_of(const std::vector<double>& sorted, const DicomGrid& grid) {
-    double least = 0;
-    for (std::size_t i = 1; i < sorted.size(); ++i) {
-      const double gap = sorted[i] - sorted[i - 1];
-      if (gap > kSameSlice && (least == 0 || gap < least)) least = gap;
-    }
-    for (const double said : {grid.slice_spacing, grid.slice_thickness}) {
-      if (!(said > 0)) continue;
-      if (least == 0) return said;
-      const double steps = std::round(least / said);
-      const bool may_skip = said == grid.slice_spacing;
-      if (steps >= 1 && (steps == 1 || may_skip) && std::abs(least - steps * said) < kSameSlice) {
-        return said;
-      }
-    }
-    return least > 0 ? least : grid.column_spacing;
-  }
-
-  Vector3 normal_;
-  std::vector<double> places_;  ///< those of the frames, along the normal
-  double lowest_ = 0;
-  double step_ = 0;
-  Vector3 first_{};  ///< the centre of the first voxel
-};
 
 struct SliceFrame {
   std::int64_t slice = 0;
@@ -262,11 +180,9 @@ FramesOfSegments frames_by_slice(const DicomSegments& dicom, const SliceGrid& sl
 VolumeInfo info_of(const DicomSegments& dicom, const SliceGrid& slices, const std::string& file,
                    const OpenOptions& options) {
   const DicomGrid& grid = dicom.grid;
-  const Vector3 none{};
   FileSpace space;
-  space.steps = {beyond(none, grid.column_spacing, grid.along_row),
-                 beyond(none, grid.row_spacing, grid.along_column),
-                 beyond(none, slices.step(), slices.normal())};
+  space.steps = {along(grid.along_row, grid.column_spacing),
+                 along(grid.along_column, grid.row_spacing), along(slices.normal(), slices.step())};
   space.lengths = Vector3{grid.column_spacing, grid.row_spacing, slices.step()};
   space.first = slices.first();
   space.unit = "mm";
@@ -277,6 +193,10 @@ VolumeInfo info_of(const DicomSegments& dicom, const SliceGrid& slices, const st
                   .type = grid.bits == 16 ? VoxelType::kU16 : VoxelType::kU8,
                   .format = "dicom"};
   info.space = placed(file, space, options);
+  if (const std::int64_t empty = slices.empty(); empty > 0) {
+    info.note = text(file, ": ", empty, " of ", slices.count(),
+                     " slices have no frame, and are taken to be empty");
+  }
   return info;
 }
 

@@ -55,7 +55,8 @@ MaskMerger::MaskMerger(const VolumeInfo& frame, Overlap overlap, std::string nam
             .space = frame.space,
             .type = VoxelType::kU16,
             .format = "masks",
-            .is_placed = frame.is_placed},
+            .is_placed = frame.is_placed,
+            .note = frame.note},
       overlap_(overlap),
       name_(std::move(name)),
       file_(scratch_folder()),
@@ -167,7 +168,10 @@ std::vector<RawLabel> MaskMerger::label_sets(std::vector<LabelName>& names) cons
 std::unique_ptr<LabelVolume> MaskMerger::finish() {
   std::vector<LabelName> names = names_;
   std::vector<RawLabel> labels = label_sets(names);
-  if (overlaps_ != 0) info_.note = text(name_, ": ", overlaps_, " voxels are in several masks");
+  if (overlaps_ != 0) {
+    info_.note += text(info_.note.empty() ? "" : "; ", name_, ": ", overlaps_,
+                       " voxels are in several masks");
+  }
   info_.names = LabelNames(std::move(names));
   const std::uint64_t bytes = payload_bytes(info_);
   auto source = std::make_unique<FileSource>(file_.release(), bytes, name_);

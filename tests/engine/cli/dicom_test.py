@@ -268,9 +268,20 @@ class Dicom(unittest.TestCase):
         segmentation.save("s.dcm")
         shape = json.loads(run("info", "s.dcm", "--json"))["shape_xyz"]
         self.assertEqual(shape, [*labels.shape[:2], last - first + 1])
+        warning = start("info", "s.dcm").stderr
+        self.assertIn(f"2 of {last - first + 1} slices have no frame", warning)
         every = Segmentation(gap)
         every.kept = lambda segment, z: segment == 1
         self.check(every, labels * (labels == 1))
+
+    def test_a_frame_a_little_off_its_slice_adds_no_slice(self):
+        segmentation = Segmentation(self.masks)
+        exact = segmentation.place
+        for off in (0.01, 0.05, 0.09):
+            calls = []
+            segmentation.place = lambda z: (calls.append(z) or [
+                *exact(z)[:2], f"{float(exact(z)[2]) + (off if len(calls) == 4 else 0):.10g}"])
+            self.check(segmentation)
 
     def test_slices_without_frames_take_no_memory(self):
         masks = {1: numpy.ones((8, 8, 2), bool)}
@@ -391,7 +402,7 @@ class Dicom(unittest.TestCase):
             frames[1].PlanePositionSequence = frames[0].PlanePositionSequence
 
         self.refused(set_image, "no segmentation", "3D Slicer")
-        self.refused(lambda d: move(d, (0, 0, 0.7)), "Image Position", "step")
+        self.refused(lambda d: move(d, (0, 0, 0.7)), "Image Position", "step", "frame 3 is off")
         self.refused(lambda d: move(d, (1, 0, 0)), "Image Position", "behind each other")
         self.refused(repeat, "frames 1 and 2 are both of segment 1")
         self.refused(lambda d: setattr(d, "NumberOfFrames", 3), "frames")
