@@ -34,6 +34,12 @@ void each_small_part(const Box3& box, Visit visit) {
   each_small_part(high, visit);
 }
 
+/// Whether a number is from 0 to 1, up to what filters and resampling leave beyond.
+bool is_probability(double number) {
+  constexpr double kBeyond = 1e-3;
+  return number >= -kBeyond && number <= 1 + kBeyond;
+}
+
 double ground_score(VoxelValues values) {
   constexpr double kHalf = 0.5;
   return values == VoxelValues::kDistances ? 0.0 : kHalf;
@@ -66,14 +72,23 @@ void ScoredLabels::read_scores(RawLabel label, const Box3& box, std::span<double
 
 void ScoredLabels::check_numbers(RawLabel label, const Box3& box,
                                  std::span<const double> scores) const {
-  const auto bad = std::find_if(scores.begin(), scores.end(), [](double s) { return s != s; });
+  const bool may_be_any = values_ == VoxelValues::kDistances;
+  const auto bad = std::find_if(scores.begin(), scores.end(), [&](double s) {
+    return std::isnan(s) || !(may_be_any || is_probability(s));
+  });
   if (bad == scores.end()) return;
   const std::int64_t at = bad - scores.begin();
   const Index3 n = box.shape();
   const Index3 v = box.lo + Index3{at % n.x, at / n.x % n.y, at / (n.x * n.y)};
-  fail_input(component_of(label).name, text("voxel (", v.x, ", ", v.y, ", ", v.z, ")"),
-             "the value is not a number (NaN)",
-             "write a number for each voxel, 0 for a probability that is unknown");
+  const std::string where = text("voxel (", v.x, ", ", v.y, ", ", v.z, ")");
+  if (std::isnan(*bad)) {
+    fail_input(component_of(label).name, where, "the value is not a number (NaN)",
+               "write a number for each voxel, 0 for a probability that is unknown");
+  }
+  fail_input(component_of(label).name, where,
+             text("the value ", *bad, " is no probability, which is from 0 to 1"),
+             "divide percents by 100 and bytes by 255, take the softmax or sigmoid of scores, or "
+             "give --values distances for signed distances (negative inside)");
 }
 
 void ScoredLabels::read_part(const Box3& part, const Box3& box, std::span<RawLabel> out) const {

@@ -39,7 +39,7 @@ class ScoredLabels : public LabelVolume, public LabelScores {
 
   [[nodiscard]] const VolumeInfo& info() const override { return info_; }
   /// ERRORS: those of the components; mw::Error(kInput) naming the component and the voxel whose
-  /// value is not a number.
+  /// value is not a number, or a probability that is more than 1e-3 outside of 0 to 1.
   void read(const Box3& box, std::span<RawLabel> out) const override;
   [[nodiscard]] std::uint64_t buffer_bytes(int threads) const override;
   void drop_buffers() const override;

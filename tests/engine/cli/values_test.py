@@ -74,7 +74,8 @@ class Values(unittest.TestCase):
         self.assertLess(errors["f.npy"], 0.7 * errors["labels.npy"], errors)
 
     def test_probabilities_are_read_from_all_containers(self):
-        classes = np.stack([ball(), 2 - ball(), 0.3 * ball() + 1]).astype(np.float32)
+        classes = np.stack([ball(), 2 - ball(), 0.3 * ball() + 1])
+        classes = ((classes - classes.min()) / np.ptp(classes)).astype(np.float32)
         np.save("p.npy", classes)
         image = nibabel.Nifti1Image(classes.transpose(3, 2, 1, 0), np.eye(4))
         nibabel.save(image, "p.nii.gz")
@@ -129,6 +130,10 @@ class Values(unittest.TestCase):
         done = start("mesh", "bad.npy", "-o", "m.vtu", "--values", "distances")
         self.assertEqual(done.returncode, 3)
         self.assertIn("bad.npy: voxel (5, 4, 3)", done.stderr)
+        np.save("bytes.npy", np.full((3, 4, 5), 255, np.uint8))
+        done = start("mesh", "bytes.npy", "-o", "m.vtu", "--values", "probabilities")
+        self.assertEqual(done.returncode, 3)
+        self.assertIn("bytes.npy: voxel (0, 0, 0): the value 255 is no probability", done.stderr)
 
 
 # What was found, rounded up: options, relative error of the volume, mean distance in voxels.  The

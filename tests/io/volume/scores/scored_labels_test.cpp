@@ -22,13 +22,14 @@ struct Fields {
   [[nodiscard]] std::int64_t count() const { return static_cast<std::int64_t>(values.size()); }
 };
 
-/// Eighths from -1 to 1, so that many are equal.
-Fields random_fields(Random& random, std::size_t components) {
+/// Eighths from -1, or for probabilities 0, to 1, so that many are equal.
+Fields random_fields(Random& random, std::size_t components, VoxelValues values) {
+  const int least = values == VoxelValues::kDistances ? -8 : 0;
   Fields out{.shape = pick_shape(random, 7), .values = {}};
   for (std::size_t c = 0; c < components; ++c) {
     std::vector<float>& one = out.values.emplace_back();
     for (std::size_t v = 0; v < out.voxels(); ++v) {
-      one.push_back(static_cast<float>(pick(random, -8, 8)) / 8.0F);
+      one.push_back(static_cast<float>(pick(random, least, 8)) / 8.0F);
     }
   }
   return out;
@@ -132,10 +133,11 @@ std::vector<std::filesystem::path> all_containers(const TempDir& dir, const Fiel
 TEST(ScoredLabels, AreThoseOfTheHighestScoreInEveryContainer) {
   Random random(91);
   for (int trial = 0; trial < 40; ++trial) {
-    const Fields fields = random_fields(random, static_cast<std::size_t>(pick(random, 1, 5)));
-    const TempDir dir;
-    for (const auto& path : all_containers(dir, fields)) {
-      for (const VoxelValues values : {VoxelValues::kProbabilities, VoxelValues::kDistances}) {
+    for (const VoxelValues values : {VoxelValues::kProbabilities, VoxelValues::kDistances}) {
+      const Fields fields =
+          random_fields(random, static_cast<std::size_t>(pick(random, 1, 5)), values);
+      const TempDir dir;
+      for (const auto& path : all_containers(dir, fields)) {
         const auto volume = open_volume(path, {.values = values});
         expect_regions(random, *volume, fields.shape, expected_labels(fields, values));
       }
@@ -145,7 +147,7 @@ TEST(ScoredLabels, AreThoseOfTheHighestScoreInEveryContainer) {
 
 TEST(ScoredLabels, HaveTheScoresThatTheyComeFrom) {
   Random random(92);
-  const Fields fields = random_fields(random, 3);
+  const Fields fields = random_fields(random, 3, VoxelValues::kProbabilities);
   const TempDir dir;
   const auto path = dir.file("a.npy", npy(fields, false));
   const Box3 all{{0, 0, 0}, fields.shape};
@@ -169,8 +171,8 @@ TEST(ScoredLabels, HaveTheScoresThatTheyComeFrom) {
 TEST(ScoredLabels, AreCroppedWithTheirScores) {
   Fields fields{.shape = {4, 3, 2}, .values = std::vector<std::vector<float>>(2)};
   for (int v = 0; v < 24; ++v) {
-    fields.values[0].push_back(static_cast<float>(v));
-    fields.values[1].push_back(static_cast<float>(23 - v));
+    fields.values[0].push_back(static_cast<float>(v) / 32);
+    fields.values[1].push_back(static_cast<float>(23 - v) / 32);
   }
   const TempDir dir;
   const Box3 crop{{1, 1, 0}, {4, 3, 2}};
@@ -181,12 +183,12 @@ TEST(ScoredLabels, AreCroppedWithTheirScores) {
   ASSERT_EQ(volume->scores()->shape(), crop.shape());
   std::vector<double> score(1);
   volume->scores()->read_scores(0, {{0, 1, 1}, {1, 2, 2}}, score);
-  EXPECT_EQ(score[0], 21.0);
+  EXPECT_EQ(score[0], 21.0 / 32);
 }
 
 TEST(ScoredLabels, AreCalledLikeTheirFiles) {
   Random random(93);
-  const Fields two = random_fields(random, 2);
+  const Fields two = random_fields(random, 2, VoxelValues::kProbabilities);
   const TempDir dir;
   const std::string list = all_containers(dir, two).front().string();
   const auto probabilities = open_volume(list, {.values = VoxelValues::kProbabilities});
@@ -207,6 +209,29 @@ TEST(ScoredLabels, NameTheVoxelThatIsNoNumber) {
                [&] { static_cast<void>(read_all(*volume)); });
 }
 
+TEST(ScoredLabels, NameTheVoxelThatIsNoProbability) {
+  for (const std::size_t components : {1U, 2U}) {
+    for (const float wrong : {-0.002F, 1.002F, 100.0F, 255.0F, -3.5F}) {
+      Fields fields{.shape = {3, 2, 2},
+                    .values = {components, std::vector<float>{0, 1, -0.0005F, 1.0005F, 0.5F, 0.2F,
+                                                              0, 0, 0, 0, 0, 0}}};
+      const TempDir dir;
+      const OpenOptions options{.values = VoxelValues::kProbabilities};
+      const auto sound = open_volume(dir.file("a.npy", npy(fields, false)), options);
+      EXPECT_EQ(read_all(*sound), expected_labels(fields, options.values));
+      fields.values.back()[7] = wrong;
+      const auto path = dir.file("b.npy", npy(fields, false));
+      const auto volume = open_volume(path, options);
+      expect_error(
+          ErrorKind::kInput,
+          {path.string(), "voxel (1, 0, 1)", "is no probability", "by 255", "--values distances"},
+          [&] { static_cast<void>(read_all(*volume)); });
+      EXPECT_EQ(read_all(*open_volume(path, {.values = VoxelValues::kDistances})),
+                expected_labels(fields, VoxelValues::kDistances));
+    }
+  }
+}
+
 TEST(ScoredLabels, AreReadInPartsWhereBoxesAreLarge) {
   constexpr Index3 kShape{64, 64, 40};
   Fields fields{.shape = kShape, .values = std::vector<std::vector<float>>(1)};
@@ -221,7 +246,7 @@ TEST(ScoredLabels, AreReadInPartsWhereBoxesAreLarge) {
 
 TEST(ScoredLabels, AreRefusedWithAWayOut) {
   Random random(94);
-  const Fields two = random_fields(random, 2);
+  const Fields two = random_fields(random, 2, VoxelValues::kProbabilities);
   const TempDir dir;
   expect_not_opened(dir.file("a.npy", npy(two, false)), {"4 axes", "pick one channel"});
   expect_not_opened(dir.file("a.nrrd", nrrd(two, true)), {"2 elements", "pick one channel"});
