@@ -48,7 +48,7 @@ void check_same_grid(std::string_view file, const VolumeInfo& info, const Volume
                     " x ", b.y, " x ", b.z),
                text("give ", what, " of one grid"));
   }
-  if (is_same_place(info.space, before.space)) return;
+  if (is_same_place(in_frame(info.space, before.space.frame), before.space)) return;
   fail_input(file, "place", text("lies elsewhere than the ", what, " before it"),
              text("resample the ", what, " to one grid, or give --spacing and --origin"));
 }

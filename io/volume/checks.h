@@ -36,6 +36,7 @@ enum class BytesBehind { kIgnored, kRefused };
 void check_payload(const ByteSource& source, const VolumeInfo& info, std::uint64_t offset,
                    BytesBehind behind = BytesBehind::kIgnored, std::uint64_t copies = 1);
 
+/// RAS and LPS are turned into one another.
 /// ERRORS: kInput naming `file` unless it has the shape and the place of the volumes before it,
 /// which errors call `what`, such as "masks".
 void check_same_grid(std::string_view file, const VolumeInfo& info, const VolumeInfo& before,

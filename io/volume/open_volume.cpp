@@ -10,6 +10,7 @@
 #include <string_view>
 
 #include "io/file/errors.h"
+#include "io/file/lower_case.h"
 #include "io/file/source/file_source.h"
 #include "io/file/source/inflated_source.h"
 #include "io/remote/address.h"
@@ -146,9 +147,9 @@ const VolumeFormat& format_of(std::span<const std::byte> head, std::filesystem::
     if (format.is_file != nullptr && format.is_file(head)) return format;
   }
   const std::string file = path.string();
-  if (path.extension() == ".gz") path = path.stem();
+  if (lower_case(path.extension().string()) == ".gz") path = path.stem();
   for (const VolumeFormat& format : kFormats) {
-    if (has_ending(format, path.extension().string())) return format;
+    if (has_ending(format, lower_case(path.extension().string()))) return format;
   }
   fail_input(file, "format", "unknown by content and by extension",
              text("supported are ", volume_endings(),

@@ -251,6 +251,7 @@ std::unique_ptr<LabelVolume> open_dicom(std::unique_ptr<ByteSource> source,
   FramesOfSegments frames = frames_by_slice(dicom, slices, file);
   const VolumeInfo info = info_of(dicom, slices, file, options);
   if (dicom.grid.voxels == DicomVoxels::kLabels) {
+    refuse_overlap_rule(file, options);
     return label_map(dicom, info, std::move(frames.at(kAllSegments)));
   }
   return merged_masks(std::move(dicom), frames, info, MaskMerger(info, options.overlap, file));

@@ -50,6 +50,13 @@ void each_slab(Index3 shape, SliceRange range, Visit visit) {
 
 }  // namespace
 
+void refuse_overlap_rule(const std::string& file, const OpenOptions& options) {
+  if (options.overlap == Overlap::kRefused) return;
+  throw Error(ErrorKind::kUsage, text("--overlap: ", file,
+                                      " has one label a voxel, so that none overlap; it is for "
+                                      "masks"));
+}
+
 MaskMerger::MaskMerger(const VolumeInfo& frame, Overlap overlap, std::string name)
     : info_{.shape = frame.shape,
             .space = frame.space,

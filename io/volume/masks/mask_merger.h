@@ -35,6 +35,10 @@ struct Mask {
   std::optional<Colour> colour;
 };
 
+/// ERRORS: mw::Error(kUsage) naming the file where the options say what masks become that overlap:
+/// it has one label a voxel, and a rule that says nothing about it is a mistake.
+void refuse_overlap_rule(const std::string& file, const OpenOptions& options);
+
 /// Puts masks over each other, one at a time, so that only one of them need be open.  The first
 /// mask becomes label 1, the second label 2 and so on; 0 is where no mask is.  With Overlap::kAll
 /// each set of masks that have voxels in common gets a label of its own behind them, in the order

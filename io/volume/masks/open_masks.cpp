@@ -7,6 +7,9 @@
 #include <array>
 #include <optional>
 
+#include "io/file/errors.h"
+#include "io/file/lower_case.h"
+#include "io/remote/address.h"
 #include "io/volume/masks/mask_merger.h"
 #include "io/volume/open_volume.h"
 #include "io/volume/slices/slice_folder.h"
@@ -14,13 +17,14 @@
 namespace mw::io {
 namespace {
 
-/// Returns a file's name without the ending that masks have; empty: it has none of these endings.
+/// Returns a file's name without the ending that masks have, in any case; empty: it has none of
+/// these endings.
 std::string stem(const std::filesystem::path& path) {
   constexpr std::array<std::string_view, 7> kEndings{".seg.nrrd", ".nii.gz", ".nii", ".nrrd",
                                                      ".nhdr",     ".mha",    ".mhd"};
-  const std::string name = path.filename().string();
+  const std::string name = path.filename().string(), lower = lower_case(name);
   for (const std::string_view ending : kEndings) {
-    if (name.ends_with(ending)) return name.substr(0, name.size() - ending.size());
+    if (lower.ends_with(ending)) return name.substr(0, name.size() - ending.size());
   }
   return {};
 }
@@ -56,17 +60,29 @@ std::unique_ptr<LabelVolume> open_mask_folder(const std::filesystem::path& folde
 }
 
 std::vector<std::filesystem::path> listed_masks(const std::filesystem::path& list) {
-  const std::string text = list.string();
+  const std::string all = list.string();
   std::error_code ignored;
-  if (text.find(',') == std::string::npos || std::filesystem::exists(list, ignored)) return {};
+  if (all.find(',') == std::string::npos || is_remote_address(all) ||
+      std::filesystem::exists(list, ignored)) {
+    return {};
+  }
   std::vector<std::filesystem::path> out;
-  for (std::size_t at = 0; at <= text.size();) {
-    const std::size_t end = std::min(text.find(',', at), text.size());
-    out.emplace_back(text.substr(at, end - at));
-    if (!std::filesystem::is_regular_file(out.back(), ignored)) return {};
+  for (std::size_t at = 0; at <= all.size();) {
+    const std::size_t end = std::min(all.find(',', at), all.size());
+    out.emplace_back(all.substr(at, end - at));
     at = end + 1;
   }
-  return out;
+  const auto is_file = [](const std::filesystem::path& file) {
+    std::error_code none;
+    return std::filesystem::is_regular_file(file, none);
+  };
+  const auto missing = std::find_if_not(out.begin(), out.end(), is_file);
+  if (missing == out.end()) return out;
+  if (std::none_of(out.begin(), out.end(), is_file)) return {};
+  fail_input(all, {},
+             missing->empty() ? std::string("the list has an empty name")
+                              : text("the list names ", missing->string(), ", which is no file"),
+             "check the paths of the list");
 }
 
 std::unique_ptr<LabelVolume> open_masks(const std::vector<std::filesystem::path>& files,

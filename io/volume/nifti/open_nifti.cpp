@@ -372,6 +372,7 @@ std::unique_ptr<LabelVolume> open_nifti(std::unique_ptr<ByteSource> source,
     return open_stack(std::move(source), info, header);
   }
   if (masks > 1) return open_masks(std::move(source), info, header, options.overlap);
+  refuse_overlap_rule(file, options);
   return std::make_unique<RawArrayVolume>(
       std::move(source), std::move(info),
       ArrayLayout{.offset = header.data_offset, .order = header.order, .scaling = header.scaling});

@@ -108,6 +108,7 @@ std::unique_ptr<LabelVolume> open_nrrd(std::unique_ptr<ByteSource> source,
   check_payload(*data, info, offset, BytesBehind::kIgnored, layers);
   if (is_stack) return open_numbers(std::move(data), info, offset, header);
   if (header.layers > 1) return open_layers(std::move(data), info, offset, header, options.overlap);
+  if (header.segments.empty()) refuse_overlap_rule(file, options);
   return std::make_unique<RawArrayVolume>(std::move(data), std::move(info),
                                           ArrayLayout{.offset = offset, .order = header.order});
 }

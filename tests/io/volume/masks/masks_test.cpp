@@ -142,6 +142,18 @@ TEST(Masks, BecomeLabelsWhereverTheyAre) {
   }
 }
 
+TEST(Masks, EndingsCountInAnyCase) {
+  std::mt19937 random(83);
+  const Masks masks = random_masks(random, 2);
+  const TempDir dir;
+  dir.file("A.NII.GZ", gzip(nifti(bytes_of(masks[0], '\1'))));
+  dir.file("b.Nii", nifti(bytes_of(masks[1], '\1')));
+  const auto volume = open_volume(dir.path(), {.overlap = Overlap::kFirst});
+  EXPECT_EQ(read_all(*volume), expected(masks, Overlap::kFirst).labels);
+  EXPECT_EQ(volume->info().names.name(1), "A");
+  EXPECT_EQ(volume->info().names.name(2), "b");
+}
+
 /// A mask that is read only where it says that it has voxels.
 class MaskOfSlices : public LabelVolume {
  public:
@@ -195,6 +207,34 @@ TEST(Masks, ThatDoNotOverlapNeedNoRule) {
   EXPECT_TRUE(volume->info().note.empty());
 }
 
+TEST(Masks, InRasAndLpsMayLieInOnePlace) {
+  Masks masks(2, std::vector<bool>(kVoxels));
+  masks[0][3] = masks[1][4] = true;
+  NiftiSample ras;
+  ras.dim = {3, kShape.x, kShape.y, kShape.z, 1, 1, 1, 1};
+  ras.sform_code = 1;
+  ras.matrix = {{{2, 0, 0}, {0, 3, 0}, {0, 0, 4}}};
+  const TempDir dir;
+  const auto nrrd = [&](const std::string& frame, const std::string& origin) {
+    return "NRRD0004\ntype: uchar\nencoding: raw\ndimension: 3\nsizes: 5 4 3\nspace: " + frame +
+           "\nspace directions: (-2,0,0) (0,-3,0) (0,0,4)\nspace origin: " + origin + "\n\n" +
+           bytes_of(masks[1], '\1');
+  };
+  const auto a = dir.file("a.nii", ras.header() + bytes_of(masks[0], '\1'));
+  const auto b = dir.file("b.nrrd", nrrd("LPS", "(-10,-20,30)"));
+  const auto ab = open_volume(a.string() + "," + b.string());
+  EXPECT_EQ(read_all(*ab), expected(masks, Overlap::kFirst).labels);
+  EXPECT_EQ(ab->info().space.frame, WorldFrame::kRas);
+  std::swap(masks[0], masks[1]);
+  const auto ba = open_volume(b.string() + "," + a.string());
+  EXPECT_EQ(read_all(*ba), expected(masks, Overlap::kFirst).labels);
+  EXPECT_EQ(ba->info().space.frame, WorldFrame::kLps);
+  for (const auto& moved : {dir.file("c.nrrd", nrrd("LPS", "(10,20,30)")),
+                            dir.file("d.nrrd", nrrd("RAS", "(-10,-20,30)"))}) {
+    expect_not_opened(a.string() + "," + moved.string(), {moved.string(), "lies elsewhere"});
+  }
+}
+
 TEST(Masks, AreRefusedWithAWayOut) {
   const TempDir dir;
   Masks masks(2, std::vector<bool>(kVoxels));
@@ -220,6 +260,16 @@ TEST(Masks, OnlyTheyHaveARule) {
   const TempDir dir;
   const auto path = dir.file("a.mha", "ObjectType = Image\n");
   expect_not_opened(path, {"--overlap", "NIfTI"}, {.overlap = Overlap::kFirst}, ErrorKind::kUsage);
+  const std::string voxels(kVoxels, '\1');
+  const std::string header = "NRRD0004\ntype: uchar\nencoding: raw\ndimension: 3\nsizes: 5 4 3\n";
+  const OpenOptions options{.overlap = Overlap::kFirst};
+  for (const auto& labels :
+       {dir.file("a.nii", nifti(voxels)), dir.file("a.nrrd", header + "\n" + voxels)}) {
+    expect_not_opened(labels, {labels.string(), "--overlap", "one label a voxel"}, options,
+                      ErrorKind::kUsage);
+  }
+  const auto segments = dir.file("a.seg.nrrd", header + "Segment0_LabelValue:=1\n\n" + voxels);
+  EXPECT_EQ(read_all(*open_volume(segments, options)), std::vector<RawLabel>(kVoxels, 1));
 }
 
 TEST(Masks, ListsAreOfFilesThatExist) {
@@ -227,8 +277,14 @@ TEST(Masks, ListsAreOfFilesThatExist) {
   const auto a = dir.file("a.nii", ""), b = dir.file("b.nii", ""), both = dir.file("a,b.nii", "");
   EXPECT_EQ(listed_masks(a.string() + "," + b.string()).size(), 2U);
   EXPECT_TRUE(listed_masks(both).empty());
-  EXPECT_TRUE(listed_masks(a.string() + ",").empty());
-  EXPECT_TRUE(listed_masks(a.string() + "," + (dir.path() / "c.nii").string()).empty());
+  const std::string missing = (dir.path() / "c.nii").string();
+  EXPECT_TRUE(listed_masks(missing + "," + missing).empty());
+  EXPECT_TRUE(listed_masks("https://host/a,b").empty());
+  const auto refuse = [](const std::string& list, const std::string& reason) {
+    expect_error(ErrorKind::kInput, {list, reason}, [&] { static_cast<void>(listed_masks(list)); });
+  };
+  refuse(a.string() + "," + missing + "," + b.string(), "names " + missing);
+  refuse(a.string() + ",", "an empty name");
   EXPECT_TRUE(listed_masks(a).empty());
 }
 
