@@ -17,9 +17,10 @@ namespace {
 
 constexpr std::array<std::string_view, 4> kSchemes{"https://", "http://", "gs://", "s3://"};
 
+/// Returns the scheme of a remote address, in lower case; empty where the text is none.
 std::string_view scheme_of(std::string_view text) {
   for (const std::string_view scheme : kSchemes) {
-    if (text.starts_with(scheme)) return scheme;
+    if (lower_case(text.substr(0, scheme.size())) == scheme) return scheme;
   }
   return {};
 }
@@ -123,6 +124,20 @@ bool is_remote_address(std::string_view address) {
   return !scheme_of(address).empty();
 }
 
+void check_scheme(std::string_view text) {
+  const std::size_t end = text.find("://");
+  if (end == text.npos || end == 0 || is_remote_address(text)) return;
+  const std::string_view scheme = text.substr(0, end);
+  const auto may_be_in_scheme = [](char c) {
+    return is_letter_or_digit(c) || c == '+' || c == '-' || c == '.';
+  };
+  if (!std::all_of(scheme.begin(), scheme.end(), may_be_in_scheme)) return;
+  fail_address(
+      io::text(scheme, "://"),
+      "this scheme is not read; give an address with https://, http://, gs:// or s3://, or "
+      "the path of a file without a scheme");
+}
+
 std::string web_address(std::string_view address) {
   const std::string_view scheme = scheme_of(address);
   while (address.size() > scheme.size() && address.back() == '/') address.remove_suffix(1);
@@ -143,7 +158,7 @@ std::string web_address(std::string_view address) {
   }
   if (scheme == "gs://") return mended(text("https://storage.googleapis.com/", host, path));
   if (scheme == "s3://") return mended(amazon_address(host, path));
-  return mended(address);
+  return mended(text(scheme, address.substr(scheme.size())));
 }
 
 std::string address_below(const std::string& address, std::string_view path) {
@@ -174,7 +189,7 @@ bool is_same_server(const std::string& a, const std::string& b) {
 }
 
 bool is_open_to_all(const std::string& address) {
-  if (!address.starts_with("http://")) return false;
+  if (scheme_of(address) != "http://") return false;
   const std::size_t scheme = scheme_of(address).size();
   const std::string_view host =
       std::string_view(address).substr(scheme, end_of_host(address) - scheme);

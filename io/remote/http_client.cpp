@@ -49,6 +49,7 @@ constexpr std::uint64_t kMaxErrorBody = 64U << 10U;
 /// The most bytes that are read up to the end of a part where the server sends whole files only.
 constexpr std::uint64_t kMaxUnasked = 64ULL << 20U;
 constexpr const char* kTryLater = "try again later; a run that was saved goes on with --resume";
+constexpr const char* kPackedPart = "the part is packed (Content-Encoding)";
 constexpr const char* kBrokenServer = "ask those who run the server, or copy the volume to a disk";
 
 bool is_same_letters(std::string_view a, std::string_view b) {
@@ -94,12 +95,15 @@ struct Headers {
   std::string content_range;
   std::string content_encoding;
   std::string content_length;
+  std::string transfer_encoding;
+  bool has_frames = false;  ///< the protocol is HTTP/2 or later
   std::string etag;
   std::string last_modified;
 
   void add(std::string_view line) {
     if (line.starts_with("HTTP/")) {
       *this = {};
+      has_frames = !line.starts_with("HTTP/1");
       const std::size_t blank = std::min(line.find(' '), line.size() - 1);
       std::from_chars(line.data() + blank + 1, line.data() + line.size(), status);
       return;
@@ -111,11 +115,16 @@ struct Headers {
     if (is_same_letters(name, "content-range")) content_range = value;
     if (is_same_letters(name, "content-encoding")) content_encoding = value;
     if (is_same_letters(name, "content-length")) content_length = value;
+    if (is_same_letters(name, "transfer-encoding")) transfer_encoding = value;
     if (is_same_letters(name, "etag")) etag = value;
     if (is_same_letters(name, "last-modified")) last_modified = value;
   }
   [[nodiscard]] std::string version() const {
     return etag.empty() || etag.starts_with("W/") ? last_modified : etag;
+  }
+  /// Whether a connection that breaks is told from the end of the body.
+  [[nodiscard]] bool has_end() const {
+    return has_frames || !content_length.empty() || is_same_letters(transfer_encoding, "chunked");
   }
   [[nodiscard]] bool is_packed() const {
     return !content_encoding.empty() && !is_same_letters(content_encoding, "identity");
@@ -234,7 +243,9 @@ struct HttpClient::Exchange {
   std::uint64_t taken = 0;     ///< of a part
   bool is_too_large = false;
   bool is_enough = false;                     ///< the rest of the body is not wanted
+  bool is_ended = false;                      ///< the body came to its end
   const char* lie = nullptr;                  ///< what is wrong with the answer
+  bool is_lie_of_all = false;                 ///< all answers of this server are like that
   std::exception_ptr thrown{};                ///< what the sink threw
   std::array<char, CURL_ERROR_SIZE> words{};  ///< what the library says about an error
   std::chrono::seconds wanted_wait{0};        ///< what the server asks for
@@ -263,7 +274,7 @@ struct HttpClient::Exchange {
 void HttpClient::Exchange::begin() {
   headers = {};
   received = taken = 0;
-  is_too_large = is_enough = false;
+  is_too_large = is_enough = is_ended = is_lie_of_all = false;
   lie = nullptr;
   words[0] = '\0';
   wanted_wait = {};
@@ -299,7 +310,7 @@ bool HttpClient::Exchange::take_part(std::span<const std::byte> bytes) {
   if (taken == 0) {
     const auto range = parse_content_range(headers.content_range);
     const std::uint64_t last = offset + out.size() - 1;
-    if (headers.is_packed()) lie = "the part is packed (Content-Encoding)";
+    if (headers.is_packed()) lie = kPackedPart;
     if (!range)
       lie = "the answer does not say which part it is, or of how many bytes (Content-Range)";
     if (range && (range->first != offset || range->last != std::min(last, range->file_bytes - 1))) {
@@ -313,12 +324,25 @@ bool HttpClient::Exchange::take_part(std::span<const std::byte> bytes) {
   return true;
 }
 
-/// Takes the part out of a whole file, which some servers send instead.
+/// Takes the part out of a whole file, which some servers send instead.  Where they do not say how
+/// large it is (in chunks, or packed), its end tells.
 bool HttpClient::Exchange::take_unasked(std::span<const std::byte> bytes) {
-  if (headers.is_packed() || !file_bytes() || offset + out.size() > kMaxUnasked) {
-    lie = "the server sends whole files only, not parts of them (status 200 instead of 206)";
-    return false;
+  const bool has_size = file_bytes().has_value();
+  if (offset + out.size() > kMaxUnasked) {
+    lie =
+        "the server sends whole files only, not parts of them (status 200 instead of 206), and a "
+        "part behind the first 64 MiB is needed";
+  } else if (!has_size && received > kMaxUnasked) {
+    lie =
+        "the server sends whole files only, not parts of them (status 200 instead of 206), does "
+        "not say how large they are, and this one has more than 64 MiB";
+  } else if (!has_size && !headers.has_end()) {
+    lie =
+        "the server sends whole files only, not parts of them (status 200 instead of 206), and "
+        "does not say where they end (Content-Length or chunks)";
   }
+  is_lie_of_all = lie != nullptr;
+  if (lie != nullptr) return false;
   const std::uint64_t skipped = std::min<std::uint64_t>(
       bytes.size(), received < offset ? offset - received : std::uint64_t{0});
   received += bytes.size();
@@ -326,7 +350,7 @@ bool HttpClient::Exchange::take_unasked(std::span<const std::byte> bytes) {
   bytes = bytes.first(std::min<std::size_t>(bytes.size(), out.size() - taken));
   std::copy(bytes.begin(), bytes.end(), out.begin() + static_cast<std::ptrdiff_t>(taken));
   taken += bytes.size();
-  is_enough = taken == out.size();
+  is_enough = has_size && taken == out.size();
   return !is_enough;
 }
 
@@ -337,14 +361,21 @@ std::optional<std::uint64_t> HttpClient::Exchange::file_bytes() const {
   }
   std::uint64_t length = 0;
   std::string_view text = headers.content_length;
-  if (!take_number(text, length) || !text.empty()) return std::nullopt;
-  return length;
+  if (!headers.is_packed() && take_number(text, length) && text.empty()) return length;
+  return is_ended ? std::optional(received) : std::nullopt;
 }
 
 HttpClient::Verdict HttpClient::Exchange::judge(CURLcode code) const {
   if (thrown) std::rethrow_exception(thrown);
-  if (lie != nullptr) return Verdict::retry(ErrorKind::kInput, lie, kBrokenServer);
+  if (lie != nullptr) {
+    Verdict verdict = Verdict::retry(ErrorKind::kInput, lie, kBrokenServer);
+    verdict.is_hopeless = is_lie_of_all;
+    return verdict;
+  }
   if (is_too_large || is_enough) return {};
+  if (is_part() && headers.status == kPartial && headers.is_packed()) {
+    return Verdict::retry(ErrorKind::kInput, kPackedPart, kBrokenServer);
+  }
   // The body behind a status that is an error does not matter.
   if (code != CURLE_OK && !(code == CURLE_WRITE_ERROR && headers.status >= 300)) {
     return judge_failure(code);
@@ -383,7 +414,7 @@ HttpClient::Verdict HttpClient::Exchange::judge_failure(CURLcode code) const {
 HttpClient::Verdict HttpClient::Exchange::judge_status() const {
   const long status = headers.status;
   const std::string reason = text("the server answers with status ", status);
-  if (status == 404 || status == 410 || (status == kForbidden && may_be_refused)) return {};
+  if (status == 404 || (status == kForbidden && may_be_refused)) return {};
   if (status == 401 || status == kForbidden) {
     return Verdict::failure(reason + (status == 401 ? " (unauthorized)" : " (forbidden)"),
                             way_past_refusal(address));
@@ -500,15 +531,19 @@ CURLcode HttpClient::Exchange::transfer(CURL* curl, const std::string& authoriza
   HeaderList lines;
   if (!authorization.empty()) append_header(lines, authorization);
   if (is_part()) append_header(lines, "Accept-Encoding: identity");
-  const std::string range = is_part() ? text(offset, "-", offset + out.size() - 1) : std::string();
   curl_easy_setopt(curl, CURLOPT_HTTPHEADER, lines.get());
-  curl_easy_setopt(curl, is_part() ? CURLOPT_RANGE : CURLOPT_ACCEPT_ENCODING, range.c_str());
+  // The library unpacks what it may ask for; of parts, what comes packed although a line of its own
+  // asks for the opposite.
+  curl_easy_setopt(curl, CURLOPT_ACCEPT_ENCODING, "");
+  const std::string range = is_part() ? text(offset, "-", offset + out.size() - 1) : std::string();
+  if (is_part()) curl_easy_setopt(curl, CURLOPT_RANGE, range.c_str());
   curl_easy_setopt(curl, CURLOPT_ERRORBUFFER, words.data());
   curl_easy_setopt(curl, CURLOPT_HEADERFUNCTION, &on_header);
   curl_easy_setopt(curl, CURLOPT_HEADERDATA, &headers);
   curl_easy_setopt(curl, CURLOPT_WRITEFUNCTION, &on_body);
   curl_easy_setopt(curl, CURLOPT_WRITEDATA, this);
   const CURLcode code = curl_easy_perform(curl);
+  is_ended = code == CURLE_OK;
   curl_off_t wait = 0;
   curl_easy_getinfo(curl, CURLINFO_RETRY_AFTER, &wait);
   wanted_wait = std::chrono::seconds(std::clamp<curl_off_t>(wait, 0, 3600));

@@ -77,7 +77,8 @@ class HttpClient {
   [[nodiscard]] static std::string way_past_refusal(const std::string& address);
 
   /// Fetches bytes from offset on: as many as out has, or those up to the end of the file.  From a
-  /// server that does not know parts it takes the file up to there, if that is at most 64 MiB.
+  /// server that does not know parts it takes the file up to there, if that is at most 64 MiB;
+  /// where the server does not say how large the file is, it takes all of it, if that is as small.
   /// ENSURES: empty when there is no such file.
   [[nodiscard]] std::optional<RemotePart> get_part(const std::string& address, std::uint64_t offset,
                                                    std::span<std::byte> out) const;

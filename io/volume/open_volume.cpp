@@ -238,6 +238,8 @@ bool is_folder(const std::filesystem::path& path) {
 std::unique_ptr<LabelVolume> open_whole(const std::filesystem::path& path,
                                         const OpenOptions& options) {
   if (is_remote_address(path.string())) return open_remote(path.string(), options);
+  std::error_code ignored;
+  if (!std::filesystem::exists(path, ignored)) check_scheme(path.string());
   if (options.raw) {
     check_understood(kRawFormat, path, options);
     return open_raw(open_raw_bytes(path, *options.raw), options);

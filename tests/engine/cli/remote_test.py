@@ -58,6 +58,7 @@ class Remote(unittest.TestCase):
                 with self.subTest(name):
                     self.check(server, name)
                     run("verify", f"{server.address}/{name}/", "remote.vtkhdf")
+            run("info", server.address.replace("http", "HTTP") + "/zarr2", "--scale", "0")
 
     def test_a_fifth_of_the_requests_fails(self):
         failed = 0
@@ -86,6 +87,55 @@ class Remote(unittest.TestCase):
                                            Content_Encoding="gzip")
                     server.handlers[path[len("stores"):]] = packed
             self.check(server, "precomputed")
+
+    def answer_whole(self, server, how):
+        """Answers all requests for files of a sharded store with whole files."""
+        for folder, _, files in os.walk("stores/sharded"):
+            for file in files:
+                path = os.path.join(folder, file)
+
+                def whole(handler, path=path):
+                    with open(path, "rb") as source:
+                        how(handler, source.read())
+                server.handlers["/" + os.path.relpath(path, "stores")] = whole
+
+    def test_parts_of_whole_files_of_unknown_size(self):
+        def in_chunks(handler, content, packed=None):
+            handler.send_response(200)
+            handler.send_header("Transfer-Encoding", "chunked")
+            if packed:
+                handler.send_header("Content-Encoding", packed)
+            handler.end_headers()
+            for at in range(0, len(content), 1000):
+                piece = content[at:at + 1000]
+                handler.wfile.write(b"%x\r\n" % len(piece) + piece + b"\r\n")
+            handler.wfile.write(b"0\r\n\r\n")
+
+        def packed(handler, content):
+            handler.answer(200, gzip.compress(content), Content_Encoding="gzip")
+
+        def packed_in_chunks(handler, content):
+            in_chunks(handler, gzip.compress(content), "gzip")
+
+        def until_the_end(handler, content):
+            handler.send_response(200)
+            handler.send_header("Connection", "close")
+            handler.end_headers()
+            handler.wfile.write(content)
+            handler.close_connection = True
+
+        for how in (in_chunks, packed, packed_in_chunks):
+            with self.subTest(how.__name__), Server("stores") as server:
+                self.answer_whole(server, how)
+                self.check(server, "sharded")
+        with Server("stores") as server:  # the end may be that of a broken connection
+            self.answer_whole(server, until_the_end)
+            self.fails(3, f"{server.address}/sharded", "whole files only", "3 attempts")
+
+    def test_a_chunk_that_is_gone_is_not_taken_for_missing(self):
+        with Server("stores") as server:
+            server.missing = 410
+            self.fails(3, f"{server.address}/zarr2", "status 410")
 
     def test_missing_metadata_and_groups(self):
         with Server("stores") as server:
@@ -176,7 +226,7 @@ class Remote(unittest.TestCase):
 
     def test_addresses_that_are_none(self):
         for address, piece in (("https://user:pass@h/v", ".netrc"), ("https://h/v?key=1", "query"),
-                               ("gs://", "bucket"), ("s3:///", "bucket")):
+                               ("gs://", "bucket"), ("s3:///", "bucket"), ("ftp://h/v", "ftp://")):
             self.fails(2, address, piece)
             self.assertNotIn("pass@", start("info", address).stderr)
 

@@ -16,11 +16,27 @@ TEST(AddressTest, BucketsBecomeTheirWebAddresses) {
 }
 
 TEST(AddressTest, OnlyKnownSchemesAreAddresses) {
-  for (const char* text : {"https://h", "http://h", "gs://b", "s3://b"}) {
+  for (const char* text : {"https://h", "http://h", "gs://b", "s3://b", "HTTP://h", "Gs://b"}) {
     EXPECT_TRUE(is_remote_address(text)) << text;
   }
   for (const char* text : {"", "v.npy", "https:/h", "ftp://h", "/a/https://h", "HTTP"}) {
     EXPECT_FALSE(is_remote_address(text)) << text;
+  }
+}
+
+TEST(AddressTest, SchemesCountInAnyCase) {
+  EXPECT_EQ(web_address("HTTPS://Host/A"), "https://Host/A");
+  EXPECT_EQ(web_address("GS://B/p"), "https://storage.googleapis.com/B/p");
+  EXPECT_TRUE(is_open_to_all("HTTP://h/p"));
+}
+
+TEST(AddressTest, OtherSchemesAreRefusedByTheirNames) {
+  for (const char* text : {"v.npy", "a/b://c", "://a", "HTTP://h", "gs://b", "/x/ftp://y"}) {
+    EXPECT_NO_THROW(check_scheme(text)) << text;
+  }
+  for (const std::string scheme : {"ftp://", "file://", "zarr+https://"}) {
+    expect_error(ErrorKind::kUsage, {scheme + "...", "https://"},
+                 [&] { check_scheme(scheme + "host/path"); });
   }
 }
 
