@@ -87,8 +87,7 @@ std::uint64_t parse_bytes(std::string_view text) {
 io::CacheFolder parse_cache_folder(std::string_view text) {
   io::CacheFolder out{.path = text};
   const std::size_t comma = text.rfind(',');
-  constexpr std::string_view kDigits = "0123456789";
-  if (comma != text.npos && text.substr(comma + 1).find_first_of(kDigits) == 0) {
+  if (comma != text.npos) {
     out = {.path = text.substr(0, comma), .bytes = parse_bytes(text.substr(comma + 1))};
   }
   if (out.path.empty()) fail_expected("a folder, and a size such as 10GiB behind a comma", text);

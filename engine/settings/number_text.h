@@ -30,8 +30,8 @@ template <class T>
 /// alone or with iB, and of 1000 with B.  A fraction of a byte is left off.
 [[nodiscard]] std::uint64_t parse_bytes(std::string_view text);
 
-/// Parses "DIR", or "DIR,SIZE" with the most bytes that it may have.  A part behind the last comma
-/// that begins with a digit is a size.
+/// Parses "DIR", or "DIR,SIZE" with the most bytes that it may have.  What is behind the last comma
+/// must be a size, so a folder with a comma in its name needs one.
 [[nodiscard]] io::CacheFolder parse_cache_folder(std::string_view text);
 
 /// Returns the shortest decimal that reads back as the same double.

@@ -135,6 +135,7 @@ VolumeSpace placed(std::string_view file, const FileSpace& space, const OpenOpti
       out.origin = *space.first;
       if (space.first_is_centre) out.origin = to_world(out, {-0.5, -0.5, -0.5});
     }
+    if (!has_directions) out.frame = WorldFrame::kOwn;
     choose_frame(file, out, options.frame);
   }
   if (options.origin) out.origin = *options.origin;

@@ -35,7 +35,8 @@ struct FileSpace {
 
 /// The options' spacing replaces the lengths of the steps, their origin the first corner, and their
 /// frame the axes: kRas and kLps turn x and y of a file of the other frame; kVoxel keeps the
-/// spacing only.  What the options replace is not looked at.
+/// spacing only.  Where the file's steps are no directions, its axes are those of the array, in a
+/// frame of its own.  What the options replace is not looked at.
 /// ERRORS: mw::Error(kInput) naming file and field for steps that are not finite, 0, or not at
 /// right angles (beyond 1e-4, as many tools keep coordinates in float; within it the axes are
 /// straightened); kUsage when the axes cannot be turned to the frame that is asked for.

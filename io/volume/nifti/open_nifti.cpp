@@ -231,15 +231,31 @@ std::string unit_name(int xyzt_units) {
   }
 }
 
-FileSpace parse_space(const View& view) {
+/// Whether the steps span a volume.  Those of a header that nobody filled in are zeros.
+bool spans_volume(const FileSpace& space) {
+  constexpr double kLeast = 1e-6;  // of the volume of a box with these edges
+  const auto& [x, y, z] = space.steps;
+  const double box = std::sqrt(dot(x, x)) * std::sqrt(dot(y, y)) * std::sqrt(dot(z, z));
+  return std::abs(dot(x, cross(y, z))) > kLeast * box;
+}
+
+void parse_space(const View& view, NiftiHeader& header) {
   const Fields& f = view.fields();
-  const bool by_sform = view.code(f.sform_code) > 0, by_qform = view.code(f.qform_code) > 0;
-  FileSpace space = by_sform ? sform(view) : by_qform ? qform(view) : by_pixdim(view);
-  if (by_sform || by_qform) space.frame = WorldFrame::kRas;
+  FileSpace& space = header.space;
+  const bool has_qform = view.code(f.qform_code) > 0;
+  bool by_sform = view.code(f.sform_code) > 0;
+  if (by_sform) space = sform(view);
+  header.skips_sform = by_sform && has_qform && !spans_volume(space);
+  by_sform = by_sform && !header.skips_sform;
+  if (!by_sform) space = has_qform ? qform(view) : by_pixdim(view);
+  if (by_sform || has_qform) space.frame = WorldFrame::kRas;
+  if (!by_sform && has_qform) {
+    header.quaternion =
+        std::hypot(view.real(f.quatern, 0), view.real(f.quatern, 1), view.real(f.quatern, 2));
+  }
   space.lengths = Vector3{std::abs(view.real(f.pixdim, 1)), std::abs(view.real(f.pixdim, 2)),
                           std::abs(view.real(f.pixdim, 3))};
   space.unit = unit_name(view.units());
-  return space;
 }
 
 }  // namespace
@@ -267,7 +283,8 @@ NiftiHeader parse_nifti_header(std::span<const std::byte> bytes, std::string_vie
                      .order = view->order(),
                      .shape = {},
                      .scaling = parse_scaling(*view, file),
-                     .space = parse_space(*view)};
+                     .space = {}};
+  parse_space(*view, header);
   header.type = parse_datatype(view->int16(view->fields().datatype), file);
   header.shape = parse_dim(*view, header.masks, file);
   header.data_offset = parse_vox_offset(*view, file);
@@ -358,12 +375,29 @@ std::unique_ptr<LabelVolume> open_masks(const std::shared_ptr<const ByteSource>&
 
 }  // namespace
 
+namespace {
+
+/// Three numbers of a quaternion that are longer than 1 beyond rounding are no rotation.
+void check_rotation(const NiftiHeader& header, std::string_view file) {
+  constexpr double kRounding = 1e-4;
+  if (!(header.quaternion > 1 + kRounding)) return;
+  fail_input(file, "quatern_b, quatern_c, quatern_d",
+             text("their length is ", header.quaternion, ", and that of a rotation is at most 1"),
+             "correct the qform, or give --frame voxel, which does without it");
+}
+
+}  // namespace
+
 std::unique_ptr<LabelVolume> open_nifti(std::unique_ptr<ByteSource> source,
                                         const OpenOptions& options) {
   const std::string& file = source->name();
   const NiftiHeader header = parse_nifti_header(read_prefix(*source, kNiftiHeaderBytes), file);
   VolumeInfo info{.shape = header.shape, .type = header.type, .format = "nifti"};
+  if (options.frame != FrameChoice::kVoxel) check_rotation(header, file);
   info.space = placed(file, header.space, options);
+  if (header.skips_sform) {
+    info.note = text(file, ": the sform spans no volume, and the qform is taken in its place");
+  }
   info.scaled = !header.scaling.is_identity();
   info.names = read_nifti_names(*source, header);
   const auto masks = static_cast<std::uint64_t>(header.masks);

@@ -29,8 +29,12 @@ struct NiftiHeader {
   std::uint64_t data_offset = 0;
   VoxelScaling scaling{};
   /// The place by the sform, else the qform (NIfTI-1 methods 3 and 2), in RAS; else by pixdim alone
-  /// (method 1), with an unknown orientation and the centre of the first voxel at 0.
+  /// (method 1), with an unknown orientation and the centre of the first voxel at 0.  The qform, if
+  /// there is one, counts in place of an sform whose steps span no volume.
   FileSpace space;
+  bool skips_sform = false;  ///< the qform counts for this reason
+  /// The length of (b, c, d) where the qform counts; more than 1 is no rotation.
+  double quaternion = 0;
 };
 
 /// Whether the bytes begin a NIfTI-1 or -2 header of either byte order, paired files included.

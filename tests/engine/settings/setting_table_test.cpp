@@ -222,5 +222,15 @@ TEST(ParseBytes, RefusesWhatIsNone) {
   EXPECT_EQ(parse_bytes("18446744073709551615"), ~std::uint64_t{0});
 }
 
+TEST(ParseCacheFolder, WhatIsBehindTheLastCommaIsASize) {
+  EXPECT_EQ(parse_cache_folder("a").path, "a");
+  EXPECT_EQ(parse_cache_folder("a,4K").path, "a");
+  EXPECT_EQ(parse_cache_folder("a,4K").bytes, 4096U);
+  EXPECT_EQ(parse_cache_folder("a,b,4K").path, "a,b");
+  for (const char* text : {"a,abc", "a,", "a,b", "a,10GX", ",4K", ""}) {
+    EXPECT_THROW(static_cast<void>(parse_cache_folder(text)), Error) << text;
+  }
+}
+
 }  // namespace
 }  // namespace mw::engine

@@ -5,6 +5,7 @@
 
 #include "io/volume/open_volume.h"
 #include "tests/io/volume/sample_files.h"
+#include "tests/io/volume/volume_checks.h"
 
 namespace mw::io {
 namespace {
@@ -211,6 +212,53 @@ TEST(NiftiSpace, SformThenQformThenPixdim) {
     sample.xyzt_units = 2 + 8;
     static_cast<void>(centre_of(dir, sample));
     EXPECT_EQ(space().unit, "mm");
+  }
+}
+
+TEST(NiftiSpace, AnSformWithoutVolumeGivesWayToTheQform) {
+  const TempDir dir;
+  NiftiSample sample{.qform_code = 1, .sform_code = 1, .magic = {}};
+  sample.pixdim = {1, 0.5, 2, 3};
+  sample.quaternion = {0, 0, std::sqrt(0.5)};
+  const std::array<std::array<double, 3>, 3> nothing{};
+  const std::vector<std::array<std::array<double, 3>, 3>> singular{
+      nothing, {{{0.5, 0, 0}, {0, 2, 0}, {0, 0, 0}}}, {{{1, 1, 0}, {1, 1, 0}, {0, 0, 3}}}};
+  for (const auto& matrix : singular) {
+    sample.matrix = matrix;
+    const auto path = dir.file("a.nii", sample.header() + std::string(60, 'a'));
+    for (const OpenOptions& options :
+         {OpenOptions{}, OpenOptions{.spacing = std::array{0.5, 2.0, 3.0}}}) {
+      const auto volume = open_volume(path, options);
+      const VolumeSpace& space = volume->info().space;
+      EXPECT_EQ(space.frame, WorldFrame::kRas);
+      EXPECT_NEAR(space.axes[0][1], 1, 1e-6);
+      EXPECT_NEAR(to_world(space, {0.5, 0.5, 0.5})[2], -3, 1e-6);
+      EXPECT_NE(volume->info().note.find("qform"), std::string::npos);
+    }
+  }
+  sample.qform_code = 0;
+  sample.matrix = nothing;
+  const auto path = dir.file("a.nii", sample.header() + std::string(60, 'a'));
+  expect_not_opened(path, {"sform", "--spacing"});
+  const auto volume = open_volume(path, {.spacing = std::array{0.5, 2.0, 3.0}});
+  EXPECT_EQ(volume->info().space.frame, WorldFrame::kOwn) << "nothing says where right is";
+}
+
+TEST(NiftiSpace, AQuaternionLongerThanOneIsNoRotation) {
+  const TempDir dir;
+  NiftiSample sample{.qform_code = 1, .magic = {}};
+  const auto open = [&](std::array<double, 3> quaternion, const OpenOptions& options = {}) {
+    sample.quaternion = quaternion;
+    return open_volume(dir.file("a.nii", sample.header() + std::string(60, 'a')), options);
+  };
+  for (const double rounded : {0.70711, 0.7071068}) {
+    EXPECT_EQ(open({0, rounded, rounded})->info().space.frame, WorldFrame::kRas);
+  }
+  for (const double part : {0.6, 0.8, 1.2}) {
+    const std::array longer{part, part, part};
+    expect_error(ErrorKind::kInput, {"a.nii", "quatern_b", "at most 1", "--frame voxel"},
+                 [&] { static_cast<void>(open(longer)); });
+    EXPECT_NO_THROW(static_cast<void>(open(longer, {.frame = FrameChoice::kVoxel})));
   }
 }
 
