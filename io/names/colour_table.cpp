@@ -8,6 +8,7 @@
 #include <map>
 
 #include "io/file/errors.h"
+#include "io/file/lower_case.h"
 #include "io/file/text_numbers.h"
 
 namespace mw::io {
@@ -123,14 +124,40 @@ std::optional<Row> parse_line(std::string_view line) {
   return line.ends_with('"') ? parse_snap_line(line) : parse_table_line(line);
 }
 
-/// Makes all labels opaque where all A are 0, since FreeSurfer's A is the transparency.
-void make_opaque(std::vector<Row>& rows) {
-  const bool some = std::any_of(rows.begin(), rows.end(), [](const Row& row) {
-    return row.has_opacity && (*row.name.colour)[3] != 0;
-  });
-  if (some) return;
+/// Whether the table says that it is one of 3D Slicer, by a comment in front of its rows or by its
+/// name.
+bool is_of_slicer(std::string_view text, std::string_view file) {
+  std::string name = lower_case(file);
+  if (name.ends_with(".gz")) name.resize(name.size() - 3);
+  if (name.ends_with(".ctbl")) return true;
+  for (std::size_t at = 0; at < text.size();) {
+    const std::size_t end = std::min(text.find('\n', at), text.size());
+    const std::string line = lower_case(trimmed(text.substr(at, end - at)));
+    at = end + 1;
+    if (!is_comment_line(line)) return false;
+    if (line.starts_with("# color table file")) return true;
+  }
+  return false;
+}
+
+/// Whether A is the transparency, as FreeSurfer has it: then most labels have 0, since nobody hides
+/// most labels.  The background does not count, which tables of opacities hide.
+bool has_transparency(const std::vector<Row>& rows) {
+  std::size_t hidden = 0, all = 0;
+  for (const Row& row : rows) {
+    if (!row.has_opacity || row.name.label == 0) continue;
+    ++all;
+    if ((*row.name.colour)[3] == 0) ++hidden;
+  }
+  return 2 * hidden > all;
+}
+
+/// Makes opacities of all A.
+void turn_transparency(std::vector<Row>& rows) {
   for (Row& row : rows) {
-    if (row.has_opacity) (*row.name.colour)[3] = 255;
+    if (!row.has_opacity) continue;
+    std::uint8_t& a = (*row.name.colour)[3];
+    a = static_cast<std::uint8_t>(255 - a);
   }
 }
 
@@ -161,7 +188,7 @@ LabelNames parse_colour_table(std::string_view text, std::string_view file) {
     row->line = number;
     rows.push_back(std::move(*row));
   }
-  make_opaque(rows);
+  if (!is_of_slicer(text, file) && has_transparency(rows)) turn_transparency(rows);
   std::vector<ReadName> names;
   for (Row& row : rows) names.push_back({std::move(row.name), row.line});
   return names_of_rows(names, file);

@@ -46,8 +46,10 @@ struct ReadName {
 /// Only with all four numbers may NAME have blanks in it.
 [[nodiscard]] bool is_colour_table_line(std::string_view line);
 
-/// Skips lines that are empty or begin with '#' or "//".  FreeSurfer counts A the other way round,
-/// and has 0 everywhere, so that labels are opaque in a table without any other A.
+/// Skips lines that are empty or begin with '#' or "//".  A is the opacity in a table of 3D Slicer,
+/// which has the ending .ctbl or the comment "# Color table file" in front of its rows.  In any
+/// other table where more than half of the labels but 0 have an A of 0 it is the transparency, as
+/// FreeSurfer has it, and else the opacity.
 /// ERRORS: mw::Error(kInput) naming file and line.
 [[nodiscard]] LabelNames parse_colour_table(std::string_view text, std::string_view file);
 

@@ -215,6 +215,32 @@ class Table {
   Columns columns_;
 };
 
+[[noreturn]] void fail_separator(const CsvRecord& record, std::string_view file,
+                                 const std::string& reason) {
+  fail_line(file, record.line, reason,
+            "put names with a separator in them in double quotes, or let a first row name all "
+            "columns");
+}
+
+/// A record with more fields than the header has a separator in its name, which would be cut there.
+/// Empty fields at its end do not count, as programs append such.
+void check_width(const CsvRecord& record, std::size_t columns, std::string_view file) {
+  std::size_t fields = record.fields.size();
+  while (fields > columns && record.fields[fields - 1].empty()) --fields;
+  if (fields <= columns) return;
+  fail_separator(record, file, text("has ", fields, " fields, and the header ", columns));
+}
+
+/// Without a header numbers behind the name are columns of something else, and words are a part of
+/// the name.
+void check_columns(const CsvRecord& record, std::string_view file) {
+  for (std::size_t i = 2; i < record.fields.size(); ++i) {
+    const std::string& field = record.fields[i];
+    if (field.empty() || number_of(field)) continue;
+    fail_separator(record, file, text("has '", field.substr(0, 40), "' behind the name"));
+  }
+}
+
 std::string_view first_row(std::string_view text) {
   for (std::size_t at = 0; at < text.size();) {
     const std::size_t end = std::min(text.find('\n', at), text.size());
@@ -252,8 +278,13 @@ LabelNames parse_csv_names(std::string_view text, std::string_view file, bool re
   const bool has_header = !label_of(record.fields.front());
   if (has_header) columns = columns_of(record, file);
   const Table table(file, columns);
-  if (!has_header) rows.push_back({table.row(record), record.line});
-  while (records.next(record)) rows.push_back({table.row(record), record.line});
+  const std::size_t width = record.fields.size();
+  bool is_row = !has_header;
+  while (is_row || records.next(record)) {
+    is_row = false;
+    has_header ? check_width(record, width, file) : check_columns(record, file);
+    rows.push_back({table.row(record), record.line});
+  }
   if (!repeats) return names_of_rows(rows, file);
   std::vector<LabelName> names;
   for (ReadName& row : rows) names.push_back(std::move(row.name));

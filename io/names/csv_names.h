@@ -49,8 +49,10 @@ class CsvRecords {
 ///   its colour  r, g, b (red, ...; a or alpha) from 0 to 255, or from 0 to 1 where there is a
 ///               point in the number, or color, colour, hex: #rrggbb or #rrggbbaa.
 /// Other columns are ignored.  Without such a row the first column is the label, the second its
-/// name.
-/// ERRORS: mw::Error(kInput) naming file and line; without `repeats`, as mesh files have them, also
+/// name, and only numbers may follow, which are ignored.  Names with separators in them are in
+/// double quotes. ERRORS: mw::Error(kInput) naming file and line, also where a row has more fields
+/// than the header,
+///         or words behind the name without one; without `repeats`, as mesh files have them, also
 ///         those of names_of_rows().
 [[nodiscard]] LabelNames parse_csv_names(std::string_view text, std::string_view file,
                                          bool repeats = false);

@@ -39,6 +39,27 @@ TEST(ReadNames, FreeSurferIsOpaqueWhereAllOpacityIsZero) {
                                 {17, "Left_Hippocampus", Colour{220, 216, 20, 255}}}));
 }
 
+TEST(ReadNames, FreeSurferCountsTransparency) {
+  const LabelNames names =
+      parse("0 Unknown 0 0 0 0\n1 Left-Lobe 221 130 101 0\n2 ctx 1 2 3 0\n3 Vent 4 5 6 128\n");
+  expect_same_names(names, LabelNames({{0, "Unknown", Colour{0, 0, 0, 255}},
+                                       {1, "Left-Lobe", Colour{221, 130, 101, 255}},
+                                       {2, "ctx", Colour{1, 2, 3, 255}},
+                                       {3, "Vent", Colour{4, 5, 6, 127}}}));
+}
+
+TEST(ReadNames, SlicerCountsOpacityAlsoWhereMostIsHidden) {
+  const std::string rows = "0 bg 0 0 0 0\n1 a 1 2 3 0\n2 b 1 2 3 0\n3 c 4 5 6 255\n";
+  const LabelNames expected({{0, "bg", {}},
+                             {1, "a", Colour{1, 2, 3, 0}},
+                             {2, "b", Colour{1, 2, 3, 0}},
+                             {3, "c", Colour{4, 5, 6, 255}}});
+  expect_same_names(parse("# Color table file x.ctbl\n# 4 values\n" + rows), expected);
+  expect_same_names(parse_names(rows, "a/b.CTBL"), expected);
+  expect_same_names(parse_names(rows, "b.ctbl.gz"), expected);
+  EXPECT_EQ(parse(rows).find(1)->colour, (Colour{1, 2, 3, 255}));
+}
+
 TEST(ReadNames, SlicerKeepsOpacity) {
   const LabelNames names = parse(
       "# Color table file /x/y.ctbl\n# 3 values\n0 Background 0 0 0 0\n1 tissue_1 128 174 128 255\n"
@@ -146,6 +167,11 @@ TEST(ReadNames, BadLinesAreNamed) {
   expect_refused("18446744073709551615,big\n-1,last\n", {"line 2", "label -1 is in line 1"});
   expect_refused("1 a 0 0 0 255\n# c\n2 a 0 0 0 255\n", {"line 3", "'a' is in line 1"});
   expect_refused("size,weight\n1,2\n", {"line 1", "id and name"});
+  // A comma in a name that is not in quotes would cut it.
+  expect_refused("1,a\n2,b,c\n", {"line 2", "'c'", "double quotes"});
+  expect_refused("1,a,b\n", {"line 1", "'b'", "double quotes"});
+  expect_refused("id,name\n1,a\n2,liver,left\n", {"line 3", "3 fields", "header 2", "quotes"});
+  EXPECT_EQ(parse("id,name\n1,a,,\n").name(1), "a");
   expect_refused("id,weight\n1,2\n", {"line 1"});
   expect_refused(std::string("i\0d\0,\0", 6), {"UTF-16"});
 }
