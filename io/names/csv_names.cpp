@@ -282,7 +282,11 @@ LabelNames parse_csv_names(std::string_view text, std::string_view file, bool re
   bool is_row = !has_header;
   while (is_row || records.next(record)) {
     is_row = false;
-    has_header ? check_width(record, width, file) : check_columns(record, file);
+    if (has_header) {
+      check_width(record, width, file);
+    } else {
+      check_columns(record, file);
+    }
     rows.push_back({table.row(record), record.line});
   }
   if (!repeats) return names_of_rows(rows, file);

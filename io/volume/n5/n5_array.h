@@ -87,7 +87,8 @@ struct N5Attributes {
 };
 
 /// Returns the place by `transform` {axes, units, scale, translate} (COSEM: the centre of the first
-/// voxel; names of axes give the order), else by `pixelResolution` or `resolution`, `units` and
+/// voxel; names of axes give the order), of the array or else of its level in `multiscales` of the
+/// group, else by `pixelResolution` or `resolution`, `units` and
 /// `offset` (the first corner), fastest axis first.  A level whose resolution is missing, or that
 /// of the finest one, has the latter times its `downsamplingFactors`; pyramids share a corner.
 /// ERRORS: mw::Error(kInput) naming file and field.  What the options replace is not looked at.

@@ -187,12 +187,31 @@ VolumeSpace space_of_transform(const JsonFields& transform, const N5Array& array
   return placed(transform.file(), space, options);
 }
 
+/// Returns the transform of the level in the `multiscales` of its group, where COSEM has it.
+std::optional<JsonFields> transform_of_group(const N5Attributes& attributes) {
+  if (attributes.group == nullptr) return std::nullopt;
+  const JsonFields group = attributes.group->fields();
+  if (!group.has("multiscales") || group.count("multiscales") == 0) return std::nullopt;
+  const JsonFields multiscale = group.element("multiscales", 0);
+  if (!multiscale.has("datasets")) return std::nullopt;
+  for (std::size_t i = 0; i < multiscale.count("datasets"); ++i) {
+    const JsonFields level = multiscale.element("datasets", i);
+    if (level.text("path") != text("s", attributes.level)) continue;
+    if (level.has("transform")) return level.object("transform");
+  }
+  return std::nullopt;
+}
+
 }  // namespace
 
 VolumeSpace n5_space(const N5Attributes& attributes, const N5Array& array,
                      const OpenOptions& options) {
   const JsonFields own = attributes.own.fields();
   if (own.has("transform")) return space_of_transform(own.object("transform"), array, options);
+  if (!options.spacing || !options.origin) {
+    const auto transform = transform_of_group(attributes);
+    if (transform) return space_of_transform(*transform, array, options);
+  }
   Resolution resolution;
   if (!options.spacing) resolution = wanted_resolution(attributes, array);
   FileSpace space{.steps = steps_of(resolution.spacing),

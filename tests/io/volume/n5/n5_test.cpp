@@ -202,6 +202,28 @@ TEST(N5Space, LevelsOfPyramids) {
                [&] { static_cast<void>(silent.spacing(1)); });
 }
 
+TEST(N5Space, CosemPutsTransformsIntoTheGroup) {
+  const std::string group =
+      R"(, "axes": ["z", "y", "x"], "multiscales": [{"name": "a", "datasets": [)"
+      R"({"path": "s0", "transform": {"axes": ["z", "y", "x"], "units": ["nm", "nm", "nm"],)"
+      R"("scale": [40, 5, 4], "translate": [20, 102.5, 2]}},)"
+      R"({"path": "s1", "transform": {"axes": ["z", "y", "x"], "units": ["nm", "nm", "nm"],)"
+      R"("scale": [80, 10, 8], "translate": [40, 105, 4]}}]}])";
+  const Pyramid pyramid(group, "", R"(, "resolution": [1, 1, 1])");
+  EXPECT_EQ(pyramid.spacing(0), (Vector3{4, 5, 40}));
+  EXPECT_EQ(pyramid.spacing(1), (Vector3{8, 10, 80}));
+  for (const char* level : {"s0", "s1"}) {
+    const auto volume = open_volume(pyramid.dir.path() / level);
+    EXPECT_EQ(volume->info().space.origin, (Vector3{0, 100, 0}));
+    EXPECT_EQ(volume->info().space.unit, "nm");
+  }
+  const std::string own = R"(, "transform": {"axes": ["x", "y", "z"], "scale": [1, 2, 3]})";
+  EXPECT_EQ(Pyramid(group, own, "").spacing(0), (Vector3{1, 2, 3}));
+  const std::string broken = R"(, "multiscales": [{"datasets": [{"path": "s0", "transform": 3}]}])";
+  expect_error(ErrorKind::kInput, {"multiscales[0].datasets[0].transform"},
+               [&] { static_cast<void>(Pyramid(broken, "", "").spacing(0)); });
+}
+
 TEST(N5Container, TheOnlyArrayIsFound) {
   Random random(32);
   const TempDir dir;
