@@ -58,6 +58,12 @@ std::pair<std::size_t, std::string_view> number_of_segment(std::string_view segm
 
 }  // namespace
 
+bool has_segment_names(const NrrdKeys& keys) {
+  return std::any_of(keys.begin(), keys.end(), [](const auto& key) {
+    return key.first.ends_with("_Name") && !segment_of(key.first).empty();
+  });
+}
+
 std::vector<Segment> read_segments(const NrrdKeys& keys) {
   std::vector<std::string_view> names;
   for (const auto& [key, value] : keys) {

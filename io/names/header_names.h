@@ -26,6 +26,8 @@ struct Segment {
 /// Reads SegmentN_Name, SegmentN_LabelValue, SegmentN_Layer and SegmentN_Color ("r g b", 0 to 1) in
 /// the order of N.  A segment without a value or with a damaged one is left out.
 [[nodiscard]] std::vector<Segment> read_segments(const NrrdKeys& keys);
+/// Whether any SegmentN has a name, be it without a value.
+[[nodiscard]] bool has_segment_names(const NrrdKeys& keys);
 /// Returns their names by value, whatever their layers.
 [[nodiscard]] LabelNames names_of(const std::vector<Segment>& segments);
 

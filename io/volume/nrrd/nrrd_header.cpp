@@ -4,6 +4,7 @@
 #include "io/volume/nrrd/open_nrrd.h"
 
 #include <algorithm>
+#include <array>
 #include <charconv>
 #include <cmath>
 #include <map>
@@ -283,6 +284,40 @@ void parse_steps(const FieldMap& fields, FileSpace& space, std::string_view file
   }
 }
 
+/// Returns for each axis whether its first sample lies in the middle of a cell that begins at the
+/// minimum of the axis, as Teem has it unless `centers` says "node".
+std::array<bool, 3> are_cells(const FieldMap& fields) {
+  std::array<bool, 3> out{true, true, true};
+  const auto found = fields.find("centers");
+  if (found == fields.end()) return out;
+  std::istringstream words(lower(found->second));
+  std::string word;
+  for (std::size_t i = 0; i < out.size() && words >> word; ++i) out[i] = word != "node";
+  return out;
+}
+
+/// Reads `axis mins`, which say where the volume begins where `space origin` does not.
+void parse_axis_mins(const FieldMap& fields, FileSpace& space, std::string_view file) {
+  const auto found = fields.find("axismins");
+  if (found == fields.end() || space.first || fields.contains("spacedirections")) return;
+  auto numbers = parse_numbers<double>(found->second, "axis mins", file);
+  const std::vector<bool> spatial = is_spatial(fields);
+  for (std::size_t i = spatial.size() == numbers.size() ? spatial.size() : 0; i-- > 0;) {
+    if (!spatial[i]) numbers.erase(numbers.begin() + static_cast<std::ptrdiff_t>(i));
+  }
+  const auto is_unknown = [](double x) { return std::isnan(x); };
+  if (std::all_of(numbers.begin(), numbers.end(), is_unknown)) return;
+  if (numbers.size() != 3) fail_input(file, "NRRD field 'axis mins'", "not three numbers");
+  const std::array<bool, 3> cells = are_cells(fields);
+  space.first_field = "NRRD field 'axis mins'";
+  space.first = Vector3{numbers[0], numbers[1], numbers[2]};
+  space.first_is_centre = std::none_of(cells.begin(), cells.end(), [](bool is) { return is; });
+  if (space.first_is_centre) return;
+  for (std::size_t i = 0; i < 3; ++i) {
+    if (!cells[i]) (*space.first)[i] -= 0.5 * space.steps[i][i];
+  }
+}
+
 /// Finds the world frame.  Left-anterior-superior is no WorldFrame, and its vectors are turned to
 /// RAS.
 void parse_frame(const FieldMap& fields, FileSpace& space) {
@@ -298,22 +333,45 @@ void parse_frame(const FieldMap& fields, FileSpace& space) {
   }
 }
 
-/// Returns "mm" for `"mm" "mm" "mm"`, and nothing where axes differ.
-std::string parse_unit(const FieldMap& fields) {
-  auto found = fields.find("spaceunits");
-  if (found == fields.end()) found = fields.find("units");
-  if (found == fields.end()) return {};
-  std::string unit;
-  const std::string& value = found->second;
+/// Returns the texts between quotes.
+std::vector<std::string> quoted_texts(const std::string& value) {
+  std::vector<std::string> out;
   for (std::size_t at = value.find('"'); at != std::string::npos; at = value.find('"', at)) {
     const std::size_t end = value.find('"', at + 1);
-    if (end == std::string::npos) return {};
-    const std::string one = value.substr(at + 1, end - at - 1);
-    if (!unit.empty() && one != unit) return {};
-    unit = one;
+    if (end == std::string::npos) break;
+    out.push_back(value.substr(at + 1, end - at - 1));
     at = end + 1;
   }
-  return unit;
+  return out;
+}
+
+/// Returns the units of the axes of space; `units` has those of all axes.
+std::vector<std::string> units_of(const FieldMap& fields) {
+  if (const auto found = fields.find("spaceunits"); found != fields.end()) {
+    return quoted_texts(found->second);
+  }
+  const auto found = fields.find("units");
+  if (found == fields.end()) return {};
+  std::vector<std::string> out = quoted_texts(found->second);
+  const std::vector<bool> spatial = is_spatial(fields);
+  if (spatial.size() != out.size()) return out;
+  for (std::size_t i = spatial.size(); i-- > 0;) {
+    if (!spatial[i]) out.erase(out.begin() + static_cast<std::ptrdiff_t>(i));
+  }
+  return out;
+}
+
+/// Finds "mm" for `"mm" "mm" "mm"`.  Where an axis has no unit, there is none.
+void parse_unit(const FieldMap& fields, NrrdHeader& header) {
+  const std::vector<std::string> units = units_of(fields);
+  if (units.empty()) return;
+  const auto is_other = [&](const std::string& unit) { return unit != units.front(); };
+  if (std::none_of(units.begin(), units.end(), is_other)) {
+    header.space.unit = units.front();
+    return;
+  }
+  const auto is_named = [](const std::string& unit) { return !unit.empty(); };
+  header.units_differ = std::all_of(units.begin(), units.end(), is_named);
 }
 
 FileSpace parse_space(const FieldMap& fields, std::string_view file) {
@@ -323,8 +381,8 @@ FileSpace parse_space(const FieldMap& fields, std::string_view file) {
   if (const auto found = fields.find("spaceorigin"); found != fields.end()) {
     space.first = three_numbers(found->second, "space origin", file);
   }
+  parse_axis_mins(fields, space, file);
   parse_frame(fields, space);
-  space.unit = parse_unit(fields);
   return space;
 }
 
@@ -344,6 +402,7 @@ NrrdHeader parse_nrrd_header(std::string_view head, std::string_view file) {
   NrrdKeys keys;
   const FieldMap fields = split_fields(head, header.bytes, keys, file);
   header.segments = read_segments(keys);
+  header.has_segment_names = has_segment_names(keys);
   header.type = parse_type(required(fields, "type", file), file);
   header.shape = parse_sizes(fields, header, file);
   check_layers(header, file);
@@ -352,6 +411,7 @@ NrrdHeader parse_nrrd_header(std::string_view head, std::string_view file) {
   parse_skips(fields, header, file);
   parse_data_file(fields, header, file);
   header.space = parse_space(fields, file);
+  parse_unit(fields, header);
   return header;
 }
 

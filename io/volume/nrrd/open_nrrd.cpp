@@ -4,6 +4,7 @@
 #include "io/volume/nrrd/open_nrrd.h"
 
 #include <algorithm>
+#include <set>
 
 #include "io/file/errors.h"
 #include "io/file/source/file_source.h"
@@ -57,9 +58,58 @@ std::unique_ptr<LabelVolume> open_numbers(std::unique_ptr<ByteSource> data, cons
 
 void check_segments(const NrrdHeader& header, const std::string& file) {
   if (!header.segments.empty()) return;
+  if (header.has_segment_names) {
+    fail_input(file, "NRRD keys 'SegmentN_LabelValue' and 'SegmentN_Layer'",
+               text("no segment has them, so that nothing says which of the ", header.layers,
+                    " layers is whose; old versions of 3D Slicer left them out"),
+               "save the segmentation again with a newer 3D Slicer");
+  }
   fail_input(file, "NRRD fields 'dimension', 'space directions' and 'kinds'",
              text("one of the axes is none of space and has ", header.layers, " elements"),
              "pick one channel");
+}
+
+/// What voxels of layers have that is no value of a segment there.
+struct Strays {
+  std::uint64_t voxels = 0;
+  RawLabel first = 0;
+};
+
+/// Counts the voxels of a layer that belong to no segment, slab by slab.
+void add_strays(const LabelVolume& layer, const std::set<RawLabel>& known, Strays& strays) {
+  constexpr std::int64_t kSlabVoxels = 1 << 20;
+  const Index3 n = layer.info().shape;
+  const std::int64_t rows = std::clamp<std::int64_t>(kSlabVoxels / n.x, 1, n.y);
+  std::vector<RawLabel> labels;
+  for (std::int64_t z = 0; z < n.z; ++z) {
+    for (std::int64_t y = 0; y < n.y; y += rows) {
+      const Box3 slab{{0, y, z}, {n.x, std::min(y + rows, n.y), z + 1}};
+      labels.resize(static_cast<std::size_t>(slab.voxels()));
+      layer.read(slab, labels);
+      for (const RawLabel label : labels) {
+        if (label == 0 || known.contains(label)) continue;
+        if (strays.voxels++ == 0) strays.first = label;
+      }
+    }
+  }
+}
+
+/// Returns what is to be said of voxels that belong to no segment; mostly nothing.
+std::string note_of_strays(const std::shared_ptr<const ByteSource>& data, const VolumeInfo& info,
+                           std::uint64_t offset, const NrrdHeader& header) {
+  Strays strays;
+  for (std::int64_t layer = 0; layer < header.layers; ++layer) {
+    std::set<RawLabel> known;
+    for (const Segment& segment : header.segments) {
+      if (segment.layer == layer) known.insert(segment.name.label);
+    }
+    add_strays(RawArrayVolume(data, info, layout_of(header, info, offset, layer)), known, strays);
+  }
+  if (strays.voxels == 0) return {};
+  const std::string value =
+      has_signed_labels(info) ? text(static_cast<std::int64_t>(strays.first)) : text(strays.first);
+  return text(data->name(), ": ", strays.voxels, " voxels of its layers belong to no segment (",
+              value, " is the value of the first), and are left out");
 }
 
 /// Merges segments that lie in several layers to labels.
@@ -68,7 +118,9 @@ std::unique_ptr<LabelVolume> open_layers(std::unique_ptr<ByteSource> data, const
                                          std::uint64_t offset, const NrrdHeader& header,
                                          Overlap overlap) {
   const std::shared_ptr<const ByteSource> shared = std::move(data);
-  MaskMerger merger(info, overlap, shared->name());
+  VolumeInfo noted = info;
+  noted.note = note_of_strays(shared, info, offset, header);
+  MaskMerger merger(noted, overlap, shared->name());
   for (const Segment& segment : header.segments) {
     const RawArrayVolume layer(shared, info, layout_of(header, info, offset, segment.layer));
     merger.add({.volume = &layer,
@@ -87,6 +139,10 @@ std::unique_ptr<LabelVolume> open_nrrd(std::unique_ptr<ByteSource> source,
   const std::string file = source->name();
   const NrrdHeader header = read_header(*source);
   VolumeInfo info{.shape = header.shape, .type = header.type, .format = "nrrd"};
+  if (header.units_differ && !options.spacing) {
+    fail_input(file, "NRRD field 'space units'", "the axes have different units",
+               "give the size of a voxel in one unit with --spacing");
+  }
   info.space = placed(file, header.space, options);
   info.names = names_of(header.segments);
 

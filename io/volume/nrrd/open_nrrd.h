@@ -28,14 +28,17 @@ struct NrrdHeader {
   std::int64_t byte_skip = 0;  ///< -1: the voxels are the last bytes of the file
   std::string data_file;       ///< empty: the voxels follow the header
   std::size_t bytes = 0;       ///< length of the header with its blank line
-  /// The place, by `space directions`, `space origin` and `space`, else by `spacings`.  `space
-  /// origin` is the centre of the first sample whatever the centering (format definition).
+  /// The place, by `space directions`, `space origin` and `space`, else by `spacings` and `axis
+  /// mins`.  `space origin` is the centre of the first sample whatever the centering (format
+  /// definition); `axis mins` are its corner, or its centre along axes whose `centers` is "node".
   FileSpace space;
+  bool units_differ = false;  ///< axes of space have several units
   /// How many numbers each voxel has: more than one where segments overlap, or where there are
   /// none.  With layers_first the numbers of a voxel follow each other, else those of a layer do.
   std::int64_t layers = 1;
   bool layers_first = true;
-  std::vector<Segment> segments;  ///< those of a .seg.nrrd
+  std::vector<Segment> segments;   ///< those of a .seg.nrrd
+  bool has_segment_names = false;  ///< there are segments, be it without values
 };
 
 [[nodiscard]] bool has_nrrd_magic(std::span<const std::byte> head);

@@ -286,5 +286,39 @@ TEST(NrrdSpace, FramesAndUnits) {
   EXPECT_EQ(space_of("").frame, WorldFrame::kOwn);
 }
 
+std::string nrrd_with(const std::string& fields) {
+  return "NRRD0005\ntype: uchar\ndimension: 3\nsizes: 2 1 1\nencoding: raw\n" + fields + "\nAB";
+}
+
+TEST(NrrdSpace, AxesOfSeveralUnitsAreRefused) {
+  const TempDir dir;
+  const std::string spacings = "spacings: 1 2 4\n";
+  for (const char* field :
+       {"space units: \"mm\" \"mm\" \"um\"\n", "units: \"mm\" \"cm\" \"mm\"\n"}) {
+    const auto path = dir.file("a.nrrd", nrrd_with(spacings + field));
+    expect_not_opened(path, {"a.nrrd", "space units", "different", "--spacing"});
+    EXPECT_EQ(open_volume(path, {.spacing = std::array{1.0, 2.0, 3.0}})->info().space.unit, "");
+  }
+  const auto unknown = dir.file("b.nrrd", nrrd_with(spacings + "units: \"mm\" \"mm\" \"\"\n"));
+  EXPECT_EQ(open_volume(unknown)->info().space.unit, "");
+}
+
+TEST(NrrdSpace, AxisMinsAreWhereTheVolumeBegins) {
+  const TempDir dir;
+  const auto origin = [&](const std::string& fields) {
+    const auto path = dir.file("a.nrrd", nrrd_with("spacings: 1 2 4\n" + fields));
+    return open_volume(path)->info().space.origin;
+  };
+  const std::string mins = "axis mins: 10 20 30\n";
+  EXPECT_EQ(origin(mins), (Vector3{10, 20, 30}));
+  EXPECT_EQ(origin(mins + "centers: cell cell cell\n"), (Vector3{10, 20, 30}));
+  EXPECT_EQ(origin(mins + "centerings: node node node\n"), (Vector3{9.5, 19, 28}));
+  EXPECT_EQ(origin(mins + "centers: cell node ???\n"), (Vector3{10, 19, 30}));
+  EXPECT_EQ(origin("axis mins: nan nan nan\n"), origin(""));
+  EXPECT_EQ(origin(mins + "space origin: (1,2,3)\n"), (Vector3{0.5, 1, 1}));
+  expect_not_opened(dir.file("a.nrrd", nrrd_with("spacings: 1 1 1\naxis mins: 1 nan 1\n")),
+                    {"axis mins", "--origin"});
+}
+
 }  // namespace
 }  // namespace mw::io

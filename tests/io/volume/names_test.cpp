@@ -41,7 +41,27 @@ TEST(SegNrrd, LayersThatAreNotThereAreRefused) {
   const auto none = dir.file(
       "b.seg.nrrd",
       seg_nrrd("Segment0_Name:=a\nkinds: list domain domain domain\n", "4\nsizes: 2 2 2 1"));
-  expect_not_opened(none, {none.string(), "dimension", "axes"});
+  expect_not_opened(none, {none.string(), "SegmentN_LabelValue", "which of the 2 layers"});
+}
+
+TEST(SegNrrd, VoxelsThatBelongToNoSegmentAreCounted) {
+  const TempDir dir;
+  const std::string kinds = "kinds: list domain domain domain\n";
+  const auto open = [&](const std::string& keys) {
+    return open_volume(dir.file("a.seg.nrrd", seg_nrrd(kinds + keys, "4\nsizes: 2 2 2 1")));
+  };
+  // The voxels of layer 0 are 0, 2, 0 and 2, those of layer 1 are 1, 3, 1 and 3.
+  const std::string most =
+      "Segment0_LabelValue:=2\nSegment0_Layer:=0\nSegment1_LabelValue:=1\n"
+      "Segment1_Layer:=1\n";
+  const auto some = open(most);
+  EXPECT_EQ(read_all(*some), (std::vector<RawLabel>{2, 1, 2, 1}));
+  EXPECT_NE(some->info().note.find("2 voxels of its layers belong to no segment (3 is"),
+            std::string::npos)
+      << some->info().note;
+  const auto all = open_volume(dir.path() / "a.seg.nrrd", {.overlap = Overlap::kFirst});
+  EXPECT_NE(all->info().note, "");
+  EXPECT_EQ(open(most + "Segment2_LabelValue:=3\nSegment2_Layer:=1\n")->info().note, "");
 }
 
 /// Header extensions as they lie in a file: length, code, text padded to 16 bytes.
