@@ -134,7 +134,7 @@ class KeptInput {
   /// Must be called once the run is complete.
   void finish(const io::InputSteps& steps, const MeshSize& size) {
     if (folder_ == nullptr) return;
-    after_->append(io::text(size.vertices, " ", size.tets, "\n") + text_of(steps));
+    append_note(*after_, io::text(size.vertices, " ", size.tets, "\n") + text_of(steps));
     after_->commit();
     folder_->end_change();
   }
@@ -225,7 +225,7 @@ RunHooks run_hooks(const MeshJob& job, const report::FinishedRun& run, std::uint
   RunHooks out = job.run;
   out.store.memory = memory;
   out.store.identity = identity_of(run);
-  out.keep.identity = std::string("version = ") + version() + "\n";
+  out.keep.identity += std::string("version = ") + version() + "\n";
   out.progress = [&job](const RunProgress& at) {
     job.stop();
     if (job.run.progress) job.run.progress(at);
@@ -397,6 +397,11 @@ report::FinishedRun mesh(const io::LabelVolume& opened, const MeshJob& asked, io
     }
     throw;
   }
+  if (connected) run.connected = connected->facts();
+  if (run.connected) {
+    run.engine.vertices = run.connected->vertices;
+    run.engine.tets = run.connected->tets;
+  }
   const MeshSize size{run.engine.vertices, run.engine.tets};
   if (job.delivered) job.delivered();
   if (job.delta != Delta::kNo && kept.knows_delta()) {
@@ -404,11 +409,6 @@ report::FinishedRun mesh(const io::LabelVolume& opened, const MeshJob& asked, io
   }
   kept.finish(job.steps, size);
   if (run.engine.keep) run.engine.keep->voxels_read = kept.voxels_read();
-  if (connected) run.connected = connected->facts();
-  if (run.connected) {
-    run.engine.vertices = run.connected->vertices;
-    run.engine.tets = run.connected->tets;
-  }
   if (sampler) run.samples = sampler->facts();
   io::MeshPromises promises = promises_of(job.settings);
   promises.halvings = halvings;

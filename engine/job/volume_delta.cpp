@@ -86,6 +86,20 @@ std::vector<ContactChange> contact_changes(const io::LabelVolume& before,
   return out;
 }
 
+/// Sorts labels and contacts by labels as signed numbers.
+void sort_signed(VolumeDelta& delta) {
+  const auto number = [](RawLabel label) { return static_cast<std::int64_t>(label); };
+  std::sort(delta.labels.begin(), delta.labels.end(),
+            [&](const auto& a, const auto& b) { return number(a.label) < number(b.label); });
+  for (ContactChange& c : delta.contacts) {
+    if (number(c.second) < number(c.first)) std::swap(c.first, c.second);
+  }
+  std::sort(delta.contacts.begin(), delta.contacts.end(), [&](const auto& a, const auto& b) {
+    return std::pair(number(a.first), number(a.second)) <
+           std::pair(number(b.first), number(b.second));
+  });
+}
+
 io::Json facts_json(const std::optional<LabelFacts>& facts) {
   if (!facts) return nullptr;
   return {{"voxels", facts->voxels},
@@ -114,6 +128,7 @@ VolumeDelta delta_of(const io::LabelVolume& before, const io::LabelVolume& after
     out.labels.push_back({label, fact(was, label), fact(is, label)});
   }
   out.contacts = contact_changes(before, after);
+  if (out.labels_signed) sort_signed(out);
   return out;
 }
 

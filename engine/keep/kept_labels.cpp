@@ -84,11 +84,13 @@ std::optional<KeptLabels> KeptLabels::open(const std::filesystem::path& path, In
     fail_damaged("its number of tiles is wrong");
   }
   const std::vector<std::uint64_t> index = read_numbers(
-      file.get(), kHeadNumbers * sizeof(std::uint64_t), static_cast<std::size_t>(2 * tiles + 1));
+      file.get(), kHeadNumbers * sizeof(std::uint64_t), static_cast<std::size_t>(3 * tiles + 1));
   head.insert(head.end(), index.begin(), index.end() - 1);
   if (io::checksum(bytes_of(head)) != index.back()) fail_damaged("its checksum is wrong");
   std::vector<Place> places;
-  for (std::size_t i = 0; i + 1 < index.size(); i += 2) places.push_back({index[i], index[i + 1]});
+  for (std::size_t i = 0; i + 1 < index.size(); i += 3) {
+    places.push_back({index[i], index[i + 1], index[i + 2]});
+  }
   return KeptLabels(std::move(file), info, std::move(places));
 }
 
@@ -98,6 +100,7 @@ std::vector<RawLabel> KeptLabels::read(Index3 tile) const {
   if (io::read_all(file_.get(), place.offset, packed).bytes != packed.size()) {
     fail_damaged("it ends too early");
   }
+  if (io::checksum(packed) != place.checksum) fail_damaged("a tile's checksum is wrong");
   const auto voxels = static_cast<std::size_t>(tiles_.box(tile).voxels());
   try {
     const std::vector<std::byte> bytes =
@@ -112,12 +115,24 @@ std::vector<RawLabel> KeptLabels::read(Index3 tile) const {
 std::string KeptLabels::note() const {
   std::uint64_t end = 0;
   for (const Place& place : places_) end = std::max(end, place.offset + place.size);
-  std::string out;
+  std::vector<std::byte> bytes;
   for (std::array<std::byte, 4096> part;;) {
-    const std::size_t bytes = io::read_all(file_.get(), end + out.size(), part).bytes;
-    out.append(reinterpret_cast<const char*>(part.data()), bytes);
-    if (bytes < part.size()) return out;
+    const std::size_t read = io::read_all(file_.get(), end + bytes.size(), part).bytes;
+    bytes.insert(bytes.end(), part.begin(), part.begin() + static_cast<std::ptrdiff_t>(read));
+    if (read < part.size()) break;
   }
+  if (bytes.empty()) return {};
+  if (bytes.size() < sizeof(std::uint64_t)) fail_damaged("its note ends too early");
+  const std::span<const std::byte> all(bytes), text = all.subspan(sizeof(std::uint64_t));
+  if (io::load<std::uint64_t>(all.data(), io::ByteOrder::kLittle) != io::checksum(text)) {
+    fail_damaged("the checksum of its note is wrong");
+  }
+  return {reinterpret_cast<const char*>(text.data()), text.size()};
+}
+
+void append_note(io::AtomicFile& file, const std::string& note) {
+  file.append(bytes_of({io::checksum(std::as_bytes(std::span(note)))}));
+  file.append(note);
 }
 
 void write_kept_labels(const io::LabelVolume& volume, io::AtomicFile& file) {
@@ -135,7 +150,7 @@ void write_kept_labels(const io::LabelVolume& volume, io::AtomicFile& file) {
                                   number(info.chunk.z),
                                   std::uint64_t{info.z_fastest},
                                   count};
-  const std::size_t head_bytes = (kHeadNumbers + 2 * count + 1) * sizeof(std::uint64_t);
+  const std::size_t head_bytes = (kHeadNumbers + 3 * count + 1) * sizeof(std::uint64_t);
   file.append(std::vector<std::byte>(head_bytes));
   io::ZstdPacker packer(kLabelPackLevel);
   std::vector<RawLabel> labels;
@@ -152,6 +167,7 @@ void write_kept_labels(const io::LabelVolume& volume, io::AtomicFile& file) {
     }
     head.push_back(file.appended());
     head.push_back(packed.size());
+    head.push_back(io::checksum(packed));
     file.append(packed);
   });
   head.push_back(io::checksum(bytes_of(head)));

@@ -20,9 +20,9 @@ namespace mw::engine {
 /// Raw labels by tiles (ReadingTiles), each packed on its own.
 ///
 ///     "MWLABELS", version 1; x y z of the shape and of ReadingTiles' chunk, and whether z is
-///     fastest; tiles; each tile's offset and size; CRC-32 of all that: numbers of 8 bytes
+///     fastest; tiles; each tile's offset, size and CRC-32; CRC-32 of all that: numbers of 8 bytes
 ///     tiles, frames of Zstandard of 8 bytes a voxel
-///     the note, up to the end of the file
+///     the note's checksum, and the note up to the end of the file
 class KeptLabels {
  public:
   /// Returns nothing where there is no such file, or one for another shape.
@@ -33,7 +33,7 @@ class KeptLabels {
   [[nodiscard]] const ReadingTiles& tiles() const { return tiles_; }
   /// Returns the labels of a tile, x fastest.  Thread-safe.  ERRORS: DamagedWork.
   [[nodiscard]] std::vector<RawLabel> read(Index3 tile) const;
-  /// Returns what the writer of the file added behind the tiles.
+  /// Returns what append_note() added behind the tiles, empty if nothing.  ERRORS: DamagedWork.
   [[nodiscard]] std::string note() const;
 
  private:
@@ -41,6 +41,7 @@ class KeptLabels {
   struct Place {
     std::uint64_t offset = 0;
     std::uint64_t size = 0;
+    std::uint64_t checksum = 0;
   };
 
   KeptLabels(io::FileDescriptor file, const io::VolumeInfo& info, std::vector<Place> places)
@@ -51,9 +52,12 @@ class KeptLabels {
   std::vector<Place> places_;
 };
 
-/// Writes the file that KeptLabels opens; a note may be appended to it.  It reads the volume once,
+/// Writes the file that KeptLabels opens.  It reads the volume once,
 /// and holds two tiles in memory.
 void write_kept_labels(const io::LabelVolume& volume, io::AtomicFile& file);
+
+/// Appends a note to that file.  REQUIRES: write_kept_labels() has written it; called once.
+void append_note(io::AtomicFile& file, const std::string& note);
 
 /// A volume that is read in some boxes only; everywhere else the labels are those that were kept.
 /// Thread safety: that of LabelVolume.

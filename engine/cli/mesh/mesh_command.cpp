@@ -245,13 +245,13 @@ void write_side_files(const MeshRequest& request, report::FinishedRun& run, Mesh
     run.digest = files.digest->digest();
     run.resources.peak_rss_bytes = meter.read().peak_rss_bytes;
   }
+  if (files.delta) {  // first of those with content, since it cannot be made again
+    write_delta(request, run, *files.delta);
+    complete.push_back(request.delta.string());
+  }
   if (files.report) {
     report::write_run_report(*files.report, run, request.output, options.json());
     complete.push_back(request.report.string());
-  }
-  if (files.delta) {
-    write_delta(request, run, *files.delta);
-    complete.push_back(request.delta.string());
   }
   if (!files.html) return;
   write_run_page(*files.html, run, files.grouped->mesh(),

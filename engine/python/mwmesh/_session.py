@@ -2,6 +2,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """One volume, edited again and again."""
 
+import os
 import tempfile
 import threading
 
@@ -23,6 +24,12 @@ def _extent(mask):
     return spans
 
 
+def _native(array):
+    """A copy in the machine's byte order."""
+    array = unmasked(array)
+    return np.array(array, dtype=np.asarray(array).dtype.newbyteorder("="), order="C")
+
+
 class Session:
     """A volume and its mesh, which follow edits at the cost of what an edit reaches.
 
@@ -30,7 +37,8 @@ class Session:
         labels, as :func:`mesh` takes them; the session works on a copy.
     keep
         a new folder for what is kept, which stays afterwards and is also that of ``mwmesh mesh
-        --from``; None: a temporary one, which goes with the session.
+        --from``: after another run in it, an update reads the whole array.  None: a temporary one,
+        which goes with the session.
     from_kept
         whether to begin with what an earlier session or run has left in keep; the array is read
         whole, and may have been edited meanwhile.
@@ -52,7 +60,7 @@ class Session:
         for name in ("changed", "report", "workdir", "resume", "order"):
             if name in settings:
                 raise UsageError(f"{name}: a session settles that itself")
-        self._array = np.array(unmasked(array), order="C")
+        self._array = _native(array)
         self._settings = settings
         self._folder = None
         if from_kept and keep is None:
@@ -66,6 +74,7 @@ class Session:
         self._turn = threading.RLock()  # held by the thread that updates
         self._is_updating = False
         self._refused = []  # boxes of updates that raised, which may be in the folder all the same
+        self._kept = None  # which labels this session has left in the folder
         self._last = self._run(from_kept=from_kept)
 
     def __reduce_ex__(self, protocol):
@@ -131,12 +140,24 @@ class Session:
 
     def _run(self, **arguments):
         from . import mesh
-        return mesh(self._array, keep=self._keep,
+        if self._kept is not None and self._kept != self._labels_kept():
+            arguments.pop("changed", None)  # another run was here: all labels are read
+        made = mesh(self._array, keep=self._keep,
                     **{**self._settings, "order": "colour", **arguments})
+        self._kept = self._labels_kept()
+        return made
+
+    def _labels_kept(self):
+        """What tells the file of labels in the folder from those of other runs."""
+        try:
+            found = os.stat(os.path.join(self._keep, "labels"))
+        except OSError:
+            return None
+        return found.st_ino, found.st_mtime_ns, found.st_size
 
     def _edited(self, *edit):
         if len(edit) == 1:
-            array = np.array(unmasked(edit[0]), order="C")
+            array = _native(edit[0])
             if array.shape != self._array.shape or array.dtype != self._array.dtype:
                 raise unexpected("array", f"shape {self._array.shape} of {self._array.dtype}",
                                  f"{array.shape} of {array.dtype}")

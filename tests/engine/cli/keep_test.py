@@ -167,6 +167,36 @@ class Keep(unittest.TestCase):
         self.mesh("--from", "k", "--changed", "20,20,20,21,21,21", "--certify", "on")
         self.expect_fresh()
 
+    def test_delta_has_the_size_of_the_mesh_that_is_written(self):
+        self.mesh("--keep", "k")
+        self.volume[2:4, 2:4, 2:4] = self.volume.max()
+        self.save()
+        self.mesh("--from", "k", "--split", "*", "--delta", "d.json")
+        with open("d.json", encoding="utf-8") as delta, open("r.json", encoding="utf-8") as report:
+            self.assertEqual(json.load(delta)["mesh"]["after"]["vertices"],
+                             json.load(report)["output"]["vertices"])
+
+    def test_a_crop_elsewhere_is_another_run(self):
+        place = ("--origin", "0,0,0", "--crop")
+        self.mesh("--keep", "k", *place, "0,0,0,15,26,22")
+        self.refused(2, "crop begins at", "mesh", "v.npy", "-o", "m.vtu", *SETTINGS, "--from", "k",
+                     "--changed", "15,0,0,16,1,1", *place, "15,0,0,30,26,22")
+
+    def test_labels_below_zero_come_first_in_a_delta(self):
+        self.volume = self.volume.astype(np.int16) - 100
+        self.save()
+        self.mesh("--keep", "k")
+        self.volume[2:9, 2:9, 2:9] = 5
+        self.save()
+        self.mesh("--from", "k", "--delta", "d.json")
+        with open("d.json", encoding="utf-8") as file:
+            delta = json.load(file)
+        labels = [row["label"] for row in delta["labels"]]
+        self.assertEqual(labels, sorted(labels))
+        self.assertTrue(labels[0] < 0 < labels[-1])
+        pairs = [row["labels"] for row in delta["contacts"]]
+        self.assertEqual(pairs, sorted(sorted(pair) for pair in pairs))
+
     def test_delta_of_other_merges(self):
         """What was meshed before was merged in its own way, whatever is merged now."""
         first, second, third = (int(label) for label in np.unique(self.volume)[:3])

@@ -5,6 +5,8 @@
 
 #include <gtest/gtest.h>
 
+#include <fstream>
+
 #include "engine/store/journal/work_file.h"
 #include "tests/engine/keep/edits.h"
 #include "tests/engine/memory_run.h"
@@ -47,7 +49,7 @@ TEST(PatchedVolume, IsTheNewVolumeWhereTheBoxesHaveAllChanges) {
     io::AtomicFile file(path);
     write_kept_labels(old_volume, file);
     const std::string note(below(random, 10'000), 'n');
-    file.append(note);
+    append_note(file, note);
     file.commit();
     const auto kept = KeptLabels::open(path, before.shape);
     ASSERT_TRUE(kept.has_value());
@@ -68,6 +70,20 @@ TEST(PatchedVolume, IsTheNewVolumeWhereTheBoxesHaveAllChanges) {
   }
 }
 
+/// Returns whether the file is refused, or taken for one of another shape.
+bool is_refused(const std::filesystem::path& path, Index3 shape) {
+  try {
+    const auto kept = KeptLabels::open(path, shape);
+    if (!kept) return true;
+    for_each_index(kept->tiles().count(),
+                   [&](Index3 tile) { static_cast<void>(kept->read(tile)); });
+    static_cast<void>(kept->note());
+    return false;
+  } catch (const DamagedWork&) {
+    return true;
+  }
+}
+
 TEST(KeptLabels, TellDamage) {
   std::mt19937 random(3514);
   const test::SmallVolume volume = random_volume_of(random, VolumeKind::kNoise, {20, 20, 20}, 50);
@@ -75,7 +91,17 @@ TEST(KeptLabels, TellDamage) {
   const auto path = folder.path() / "labels";
   io::AtomicFile file(path);
   write_kept_labels(MemoryVolume(volume, {}), file);
+  append_note(file, "a note");
   file.commit();
+  const std::string whole = mw::test::content_of(path);
+  for (std::size_t at = 0; at < whole.size(); at += 1 + whole.size() / 500) {
+    std::string damaged = whole;
+    damaged[at] = static_cast<char>(damaged[at] ^ 1 << below(random, 8));
+    std::ofstream(path, std::ios::binary) << damaged;
+    EXPECT_TRUE(is_refused(path, volume.shape)) << at;
+  }
+  std::ofstream(path, std::ios::binary) << whole;
+  EXPECT_FALSE(is_refused(path, volume.shape));
   std::filesystem::resize_file(path, std::filesystem::file_size(path) / 2);
   const auto kept = KeptLabels::open(path, volume.shape);
   ASSERT_TRUE(kept.has_value());

@@ -1067,6 +1067,21 @@ class Sessions(InFolder):
         session.update(((9, 9, 9), (12, 12, 12)), 5)
         self.expect_fresh(session)
 
+    def test_another_run_in_the_folder_does_not_leak_into_the_mesh(self):
+        mine = mwmesh.Session(grains(), keep=self.path("kept"), window=8)
+        other = mwmesh.Session(grains(), keep=self.path("kept"), from_kept=True, window=8)
+        other.update(((1, 1, 1), (3, 3, 3)), 77)
+        mine.update(((6, 6, 6), (8, 8, 8)), 5)
+        self.expect_fresh(mine)
+
+    def test_the_byte_order_of_arrays_does_not_matter(self):
+        labels = grains().astype(np.int32)
+        session = mwmesh.Session(labels.astype(">i4"), window=8)
+        labels[3:5, 3:5, 3:5] = 77
+        session.update(labels)
+        self.assertTrue(np.array_equal(session.array, labels))
+        self.expect_fresh(session)
+
     def test_an_update_may_not_update(self):
         sessions = []
         def nested(*_):
