@@ -33,6 +33,15 @@ Box3 voxels_of(const BlockMesh& mesh) {
   return out;
 }
 
+BlockPin pin_of(std::vector<std::byte> encoded, std::uint64_t memory_bytes,
+                MemoryBudget::Reservation room) {
+  auto block = std::make_shared<EncodedBlock>();
+  block->bytes = std::move(encoded);
+  block->memory_bytes = memory_bytes;
+  block->room = std::move(room);
+  return block;
+}
+
 std::unique_ptr<SegmentFile> open_disk(WorkFiles* files, BlockKeeper* keeper) {
   if (files != nullptr) return std::make_unique<SegmentFile>(files->open(kBlocksFile));
   if (keeper != nullptr) return std::make_unique<SegmentFile>(keeper->open_spill());
@@ -251,31 +260,38 @@ std::uint64_t RunStore::cost_of(std::uint64_t encoded_bytes) {
 
 BlockPin RunStore::encode(const BlockKey& key, const BlockMesh& mesh,
                           MemoryBudget::Reservation& room) {
-  return hold(encode_block(key, mesh), memory_bytes(mesh), room);
+  std::vector<std::byte> encoded = encode_block(key, mesh);
+  const std::uint64_t bytes = cost_of(encoded.size());
+  auto own = room.bytes() >= bytes ? budget_.carve(room, Purpose::kBlocks, bytes)
+                                   : reserve(Purpose::kBlocks, bytes);
+  return pin_of(std::move(encoded), memory_bytes(mesh), std::move(own));
 }
 
-BlockPin RunStore::hold(std::vector<std::byte> encoded, std::uint64_t memory_bytes,
-                        MemoryBudget::Reservation& room) {
-  auto block = std::make_shared<EncodedBlock>();
-  block->bytes = std::move(encoded);
-  block->memory_bytes = memory_bytes;
-  const std::uint64_t bytes = cost_of(block->bytes.size());
-  block->room = room.bytes() >= bytes ? budget_.carve(room, Purpose::kBlocks, bytes)
-                                      : reserve(Purpose::kBlocks, bytes);
-  return block;
+/// True if a window in flight, or a block on its way, holds memory that it will give back.  Then
+/// the march asks again.
+bool RunStore::will_give_back() const {
+  {
+    const std::lock_guard lock(mutex_);
+    if (!in_flight_.empty() || (router_ != nullptr && visiting_ > 0)) return true;
+  }
+  return router_ != nullptr && router_->is_carrying();
 }
 
 bool RunStore::admit(const WindowKey& key, std::uint64_t bytes) {
-  // This is asked first: if such a block leaves or arrives afterwards, the march asks again.
-  const bool is_carrying = router_ != nullptr && router_->is_carrying();
+  // This is asked first, since what is given back while room is sought may come too late for it.
+  const bool may_ask_again = will_give_back();
   auto room = try_reserve(Purpose::kWindows, bytes);
-  const std::lock_guard lock(mutex_);
-  if (paused_) return false;
-  if (!room && in_flight_.empty() && !is_carrying) budget_.fail(bytes);
-  if (!room) return false;
-  ++visiting_;
-  in_flight_.emplace(layout_.window(key), std::move(*room));
-  return true;
+  {
+    const std::lock_guard lock(mutex_);
+    if (paused_) return false;
+    if (room) {
+      ++visiting_;
+      in_flight_.emplace(layout_.window(key), std::move(*room));
+      return true;
+    }
+  }
+  if (!may_ask_again && !will_give_back()) budget_.fail(bytes);
+  return false;
 }
 
 void RunStore::commit(const WindowKey& key, std::vector<BlockMesh> blocks) {
@@ -373,7 +389,13 @@ void RunStore::send_away(const WindowKey& key, std::span<const BlockKey> blocks,
 /// them, so that the block's turn is that of the window that waits for it.
 void RunStore::receive(const BlockVersion& version, std::vector<std::byte> bytes,
                        std::uint64_t memory_bytes, MemoryBudget::Reservation room) {
-  BlockPin pin = hold(std::move(bytes), memory_bytes, room);
+  const std::uint64_t needed = cost_of(bytes.size());
+  if (room.bytes() < needed) {
+    room = try_reserve(Purpose::kBlocks, needed).value_or(MemoryBudget::Reservation());
+  }
+  const bool fits = room.bytes() >= needed;
+  if (!fits && disk_ == nullptr) budget_.fail(needed);
+  BlockPin pin = pin_of(std::move(bytes), memory_bytes, std::move(room));
   if (keeper_ != nullptr) {
     const Box3 voxels = voxels_of(decode_block(version.block, pin->bytes));
     keeper_->receive(version.block, {pin->bytes, memory_bytes, voxels});
@@ -386,6 +408,7 @@ void RunStore::receive(const BlockVersion& version, std::vector<std::byte> bytes
     if (order.rank(w) <= from) done_.insert(layout_.window({version.block.march, w}));
   });
   table_.put(layout_.slot(version.block), std::move(pin));
+  if (!fits) table_.evict(layout_.slot(version.block));
   if (journal_ != nullptr) group_.slots.push_back(layout_.slot(version.block));
   torn_ = was_torn;
 }

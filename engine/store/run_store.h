@@ -84,8 +84,9 @@ class RunStore {
   /// Returns what a block of this encoded size takes of the budget.
   [[nodiscard]] static std::uint64_t cost_of(std::uint64_t encoded_bytes);
   /// Takes in a version that another process left; `bytes` are those of its pin there.
-  /// room is what was reserved for it: cost_of(bytes) for blocks, or nothing.
-  /// ERRORS: mw::Error(kResource) when there is no room for it.
+  /// room is what was reserved for it: cost_of(bytes) for blocks, or nothing.  Where windows in
+  /// flight leave no room, it goes to disk at once.
+  /// ERRORS: mw::Error(kResource) when there is no disk then, or no room for the index.
   void receive(const BlockVersion& version, std::vector<std::byte> bytes,
                std::uint64_t memory_bytes, MemoryBudget::Reservation room = {});
 
@@ -122,6 +123,7 @@ class RunStore {
   };
 
   [[nodiscard]] bool admit(const WindowKey& key, std::uint64_t bytes);
+  [[nodiscard]] bool will_give_back() const;
   [[nodiscard]] std::vector<std::optional<BlockMesh>> take(const WindowKey& key) const;
   void commit(const WindowKey& key, std::vector<BlockMesh> blocks);
   [[nodiscard]] BlockMesh load(const BlockKey& key) const;
@@ -143,8 +145,6 @@ class RunStore {
   /// places is empty where nothing is kept, pins where nothing is in memory.
   void replace(const WindowKey& key, std::span<const BlockKey> blocks, std::vector<BlockPin>& pins,
                std::span<const KeptPlace> places);
-  [[nodiscard]] BlockPin hold(std::vector<std::byte> bytes, std::uint64_t memory_bytes,
-                              MemoryBudget::Reservation& room);
   [[nodiscard]] bool stays(const WindowKey& key, const BlockKey& block) const {
     return router_ == nullptr || router_->stays({block, key});
   }

@@ -132,14 +132,18 @@ void BlockTable::write(StoredBlock& block) {
 
 bool BlockTable::evict_one() {
   if (cached_.empty()) return false;
-  const auto last = std::prev(cached_.end());
-  StoredBlock& block = held(last->second);
-  if (disk_ == nullptr && !block.kept) return false;
+  const std::uint64_t slot = std::prev(cached_.end())->second;
+  if (disk_ == nullptr && !at(slot).kept) return false;
+  evict(slot);
+  return true;
+}
+
+void BlockTable::evict(std::uint64_t slot) {
+  StoredBlock& block = held(slot);
   if (block.size == 0) ++evicted_;
   write(block);
   block.cached = nullptr;
-  cached_.erase(last);
-  return true;
+  cached_.erase(turn(slot));
 }
 
 JournalBlock BlockTable::record(std::uint64_t slot) {

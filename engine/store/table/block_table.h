@@ -77,6 +77,9 @@ class BlockTable {
   /// Drops from memory the block that is needed last, writing it first if it is not on disk.
   /// Returns false when there is none, or no place for it.
   bool evict_one();
+  /// Drops a block from memory, writing it first if it is not on disk.  REQUIRES: it is in memory,
+  /// and kept or there is a disk.
+  void evict(std::uint64_t slot);
   /// Writes the block if it is not on disk, and returns what a record says of it.  REQUIRES: a
   /// disk; the block is there and not kept.
   [[nodiscard]] JournalBlock record(std::uint64_t slot);

@@ -80,6 +80,33 @@ TEST_F(ConcurrentStoreTest, GivesTheSameBlocks) {
   }
 }
 
+/// A window that ends at the very moment at which another one asks for its memory must not make it
+/// look as if that memory could never be had.
+TEST(ConcurrentStore, WindowsThatFitOneByOneAreNeverRefusedForGood) {
+  constexpr std::uint64_t kLimit = 10 << 20, kMoreThanHalf = 6 << 20;
+  const WindowGrid grid({80, 32, 32}, 32);
+  const RunLayout layout({grid});
+  const Index3 first{0, 0, 0}, second{2, 0, 0};
+  for (int trial = 0; trial < 3000; ++trial) {
+    MemoryBudget budget(kLimit);
+    RunStore store(layout, budget, nullptr);
+    BlockStore& march = store.march(0);
+    ASSERT_TRUE(march.admit(first, kMoreThanHalf));
+    std::atomic<bool> is_there = false;
+    std::thread visit([&] {
+      is_there = true;
+      for (volatile int wait = trial % 97 * 20; wait > 0;) wait = wait - 1;
+      march.commit(first, std::vector<BlockMesh>(grid.blocks_of(first).size()));
+    });
+    while (!is_there) std::this_thread::yield();
+    const auto ask = [&] {
+      while (!march.admit(second, kMoreThanHalf)) std::this_thread::yield();
+    };
+    EXPECT_NO_THROW(ask());
+    visit.join();
+  }
+}
+
 /// What any thread saved is whole: a run that goes on from it ends in the same blocks.
 TEST_F(ConcurrentStoreTest, SavesWholeGroups) {
   const RunLayout layout = fake_layout({22, 18, 14}, 2);

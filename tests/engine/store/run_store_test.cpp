@@ -233,6 +233,33 @@ TEST(RunStore, WritesNoGroupAfterOneThatFailed) {
   EXPECT_EQ(files.operations, operations);
 }
 
+/// Windows in flight may hold all memory when a block comes in from another process.
+TEST(RunStore, TakesInWhatMemoryDoesNotHold) {
+  std::mt19937 random(350);
+  const RunLayout layout = fake_layout();
+  MemoryBudget budget(index_bytes(layout) + kTightBytes);
+  VolatileFiles files;
+  KeepsAll router;
+  RunStore store(layout, budget, &files, kNever, &router);
+  const std::array<Index3, 2> blocks{Index3{0, 0, 0}, Index3{1, 0, 0}};
+  std::array<BlockMesh, 2> meshes;
+  MemoryBudget::Reservation rest;
+  for (std::size_t i = 0; i < blocks.size(); ++i) {
+    const BlockKey key{0, blocks[i]};
+    meshes[i] = random_block(random, 60);
+    store.receive({key, {0, {0, 0, 0}}}, encode_block(key, meshes[i]), memory_bytes(meshes[i]));
+    // The first one leaves memory for this; the page of the table that has both stays.
+    if (i == 0)
+      rest = store.reserve(Purpose::kWindows, budget.limit() - budget.used(Purpose::kIndex));
+  }
+  EXPECT_LE(budget.peak(), budget.limit());
+  EXPECT_EQ(budget.used(Purpose::kBlocks), 0U);
+  for (std::size_t i = 0; i < blocks.size(); ++i) {
+    const BlockKey key{0, blocks[i]};
+    EXPECT_EQ(encode_block(key, store.march(0).load(blocks[i])), encode_block(key, meshes[i]));
+  }
+}
+
 /// The old blocks have left by then, and the new ones are not there: what is here must not be
 /// recorded, or a resumed run would go on from blocks that no window has left.
 TEST(RunStore, RecordsNothingAfterMemoryRanOutInTheMiddleOfACommit) {
