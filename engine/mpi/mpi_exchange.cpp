@@ -62,7 +62,17 @@ struct Outgoing {
   int to = 0;
   MessageHead head{};
   SharedBytes bytes;
+  std::uint64_t number = 0;  ///< counts the callers' messages; 0 for the transport's own
 };
+
+/// Keeps bytes until the process ends.  They are never released, not even then, since what they
+/// give back to may be gone.
+void keep_for_ever(SharedBytes bytes) {
+  static std::mutex mutex;
+  static auto* const kept = new std::vector<SharedBytes>;  // no destructor runs when it ends
+  const std::lock_guard lock(mutex);
+  kept->push_back(std::move(bytes));
+}
 
 /// True if this is a process of Open MPI that waits for its children.
 bool is_launcher(pid_t process) {
@@ -105,6 +115,7 @@ class MpiExchange::Transport {
 
   void send(Outgoing message) {
     const std::lock_guard lock(mutex_);
+    message.number = next_number_++;
     out_box_.push_back(std::move(message));
   }
   [[nodiscard]] bool is_idle() const {
@@ -115,14 +126,14 @@ class MpiExchange::Transport {
     const std::lock_guard turn(listening_);
     listener_ = std::move(listener);
   }
-  /// Waits up to 2 s for sends to end.  What is in the out box then is kept and never sent.
+  /// Waits up to 2 s for sends to end.  Then what is in the out box is never sent, and bytes of
+  /// sends under way, which MPI may still read, are kept for ever.
   void let_go() {
     const Clock::time_point until = Clock::now() + std::chrono::seconds(2);
     while (!is_idle() && Clock::now() < until) std::this_thread::sleep_for(kPause);
     const std::lock_guard lock(mutex_);
     if (out_box_.empty() && sends_under_way_ == 0) return;
-    static std::vector<std::deque<Outgoing>> kept;  // until the process ends
-    kept.push_back(std::move(out_box_));
+    kept_below_ = next_number_;
     out_box_.clear();
   }
   /// Returns how many ranks have said that they leave.
@@ -208,11 +219,19 @@ class MpiExchange::Transport {
   }
 
   bool end_sends() {
-    const std::size_t before = sends_.size();
-    sends_.remove_if([](Sending& s) { return engine::is_over(s.request); });
-    if (sends_.size() == before) return false;
+    std::list<Sending> over;
+    for (auto s = sends_.begin(); s != sends_.end();) {
+      const auto sending = s++;
+      if (engine::is_over(sending->request)) over.splice(over.end(), sends_, sending);
+    }
+    if (over.empty()) return false;
     {
+      // Bytes are released under the lock, so that let_go() comes before this or after it.
       const std::lock_guard lock(mutex_);
+      for (Sending& s : over) {
+        if (s.message.number < kept_below_) keep_for_ever(std::move(s.message.bytes));
+      }
+      over.clear();
       sends_under_way_ = sends_.size();
     }
     const std::lock_guard turn(listening_);
@@ -324,6 +343,8 @@ class MpiExchange::Transport {
   mutable std::mutex mutex_;  ///< guards the next lines
   std::deque<Outgoing> out_box_;
   std::size_t sends_under_way_ = 0;
+  std::uint64_t next_number_ = 1;
+  std::uint64_t kept_below_ = 0;  ///< bytes of messages with lower numbers are not released
   int leaving_ = 0;
   bool ending_ = false;
 

@@ -59,8 +59,8 @@ class Exchange {
   virtual void send(int to, const MessageHead& head, SharedBytes bytes) = 0;
   /// True if all that was sent has left.
   [[nodiscard]] virtual bool is_idle() const = 0;
-  /// Releases bytes even if they have not left yet.  Where that is impossible, it waits or keeps
-  /// them until the process ends.
+  /// Releases bytes even if they have not left yet.  Where that is impossible, it waits, or keeps
+  /// them for ever.  ENSURES: bytes that were sent before are not released any more.
   virtual void let_go() = 0;
   /// Gives messages to this listener from now on, first those that came before.
   /// ENSURES: the former listener is not called any more.

@@ -57,7 +57,8 @@ class BlockTraffic : public BlockRouter {
     Attached(BlockTraffic& traffic, RunStore& store);
     Attached(const Attached&) = delete;
     Attached& operator=(const Attached&) = delete;
-    /// ENSURES: no block is held by the exchange any more.
+    /// ENSURES: the exchange has released all blocks, or never does (Exchange::let_go()), so that
+    /// the store and its budget may go.
     ~Attached();
 
    private:
@@ -66,7 +67,6 @@ class BlockTraffic : public BlockRouter {
 
   /// Must be called before anything is committed.
   void deal(Partition partition, FinalBlocksGo go);
-  [[nodiscard]] FinalBlocksGo final_blocks_go() const { return final_users_.go; }
   /// Returns the owner of each line of final blocks.  REQUIRES: kToOwners.
   [[nodiscard]] const std::vector<std::uint32_t>& line_owners() const {
     return final_users_.owners;
