@@ -205,9 +205,23 @@ void KeptFacts::shrink_to(std::uint64_t folder_bytes) {
   }
 }
 
+/// Puts a record in the place of a durable one.  Each full group is written at once, so that as
+/// many records as a group has are in memory, and not one of each window. REQUIRES: saving_ is
+/// held.
+void KeptFacts::replace(const WindowRecord& record, const WindowRecord& old) {
+  bool full = false;
+  {
+    const std::lock_guard lock(mutex_);
+    put(record, old);
+    full = group_.size() >= limits_.windows;
+  }
+  if (full) write_group();
+}
+
 /// Gives up at least `bytes` bytes, or all that may go.  Returns false if none may.
 bool KeptFacts::drop(std::uint64_t bytes) {
   std::vector<KeptBytes> kept;
+  kept.reserve(live_);
   each([&](const WindowRecord& record) {
     if (record.extent.size == 0) return;
     kept.push_back({record.window, record.run, sectors_of(record.extent)});
@@ -221,28 +235,33 @@ bool KeptFacts::drop(std::uint64_t bytes) {
     record.extent = {};
     record.is_dropped = true;
     for (KeptBlock& block : record.blocks) block.is_kept = false;
-    const std::lock_guard lock(mutex_);
-    put(record, old);
+    replace(record, *old);
   }
   write_group();
   return given_up > 0;
 }
 
-/// Moves bytes from the end of the file into gaps before them.
+std::optional<Extent> KeptFacts::copy_down(const Extent& extent) {
+  const std::lock_guard lock(mutex_);
+  return bytes_.copy_down(extent);
+}
+
+/// Moves bytes from the end of the file into gaps before them.  What moved leaves no gap before the
+/// bytes that are looked at next, since these lie before it.
 void KeptFacts::move_down() {
   std::vector<std::pair<std::uint64_t, std::uint64_t>> places;  // offset, window
+  places.reserve(live_);
   each([&](const WindowRecord& record) {
     if (record.extent.size > 0) places.emplace_back(record.extent.offset, record.window);
   });
   std::sort(places.rbegin(), places.rend());
   for (const auto& [offset, window] : places) {
     const auto old = of(window);
-    const std::lock_guard lock(mutex_);
-    const std::optional<Extent> moved = bytes_.copy_down(old->extent);
+    const std::optional<Extent> moved = copy_down(old->extent);
     if (!moved) continue;
     WindowRecord record = *old;
     record.extent = *moved;
-    put(record, old);
+    replace(record, *old);
   }
   write_group();
 }

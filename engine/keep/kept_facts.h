@@ -50,9 +50,11 @@ class KeptFacts {
   /// REQUIRES: no process is at work in them.  ERRORS: DamagedWork.
   std::vector<std::uint64_t> take_over_parts();
   /// Gives up bytes, in the order of drop_order(), until the folder takes no more than
-  /// folder_bytes or nothing else may go.
+  /// folder_bytes or nothing else may go.  Memory: up to 24 bytes a window, the list of gaps, and a
+  /// group of records.
   void shrink_to(std::uint64_t folder_bytes);
   /// Makes the files end where their last record and extent do.  Nothing is added afterwards.
+  /// Memory: that of shrink_to().
   void finish();
 
  private:
@@ -65,6 +67,8 @@ class KeptFacts {
   [[nodiscard]] WindowRecord checked(std::span<const std::byte> bytes) const;
   void put(const WindowRecord& record, const std::optional<WindowRecord>& old);
   void take_over(const std::filesystem::path& part, std::vector<std::uint64_t>& by_march);
+  void replace(const WindowRecord& record, const WindowRecord& old);
+  [[nodiscard]] std::optional<Extent> copy_down(const Extent& extent);
   void write_group();
   [[nodiscard]] bool drop(std::uint64_t bytes);
   void move_down();

@@ -10,16 +10,24 @@
 namespace mw::engine {
 namespace {
 
-/// Returns the windows of all marches in the order of the run.
-std::vector<WindowKey> in_order(const RunLayout& layout) {
-  std::vector<WindowKey> out;
+/// Calls use for the windows of all marches in the order of the run.
+template <typename Use>
+void forwards(const RunLayout& layout, Use use) {
   for (std::uint32_t march = 0; march < layout.marches(); ++march) {
     const WindowOrder order = layout.order(march);
     for (std::uint64_t rank = 0; rank < order.size(); ++rank) {
-      out.push_back({march, order.window(rank)});
+      use(WindowKey{march, order.window(rank)});
     }
   }
-  return out;
+}
+
+/// Calls use for these windows from the last to the first.
+template <typename Use>
+void backwards(const RunLayout& layout, Use use) {
+  for (std::uint32_t march = layout.marches(); march-- > 0;) {
+    const WindowOrder order = layout.order(march);
+    for (std::uint64_t rank = order.size(); rank-- > 0;) use(WindowKey{march, order.window(rank)});
+  }
 }
 
 }  // namespace
@@ -27,17 +35,16 @@ std::vector<WindowKey> in_order(const RunLayout& layout) {
 std::vector<bool> required_visits(const RunLayout& layout, const Recalls& recalls,
                                   const IsDropped& is_dropped) {
   const BlockRoute route(layout);
-  const std::vector<WindowKey> windows = in_order(layout);
   std::vector<bool> may_differ(layout.windows());
-  for (const WindowKey& key : windows) {
+  forwards(layout, [&](const WindowKey& key) {
     const std::vector<BlockVersion> inputs = route.inputs(key);
     const bool are_known = std::none_of(inputs.begin(), inputs.end(), [&](const BlockVersion& v) {
       return may_differ[layout.window(v.from)];
     });
     may_differ[layout.window(key)] = !are_known || !recalls(key);
-  }
+  });
   std::vector<bool> required(layout.windows());
-  std::for_each(windows.rbegin(), windows.rend(), [&](const WindowKey& key) {
+  backwards(layout, [&](const WindowKey& key) {
     const std::uint64_t window = layout.window(key);
     if (!may_differ[window] && !required[window]) return;
     for (const BlockVersion& input : route.inputs(key)) {

@@ -19,7 +19,7 @@ using IsDropped = std::function<bool(std::uint64_t window)>;
 /// Returns, by window, which windows have to be visited because their bytes were given up and a
 /// window that is visited takes their blocks.  A window is visited if it may see something else
 /// than its record says, or if it is one of those returned.
-/// Cost: a call of `recalls` a window.
+/// Cost: a call of `recalls` a window.  Memory: two bits a window.
 [[nodiscard]] std::vector<bool> required_visits(const RunLayout& layout, const Recalls& recalls,
                                                 const IsDropped& is_dropped);
 

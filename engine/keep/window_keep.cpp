@@ -335,6 +335,9 @@ void WindowKeep::shrink() {
 }
 
 void WindowKeep::finish() {
+  // Lists of windows, which the shrinking makes, get the memory of what no visit asks for any more.
+  versions_ = {};
+  packers_.clear();
   shrink();
   kept_.finish();
   const std::lock_guard lock(mutex_);

@@ -75,7 +75,7 @@ class WindowKeep : public BlockKeeper {
   /// Adds what other processes of the run kept in folders beside this one's files (kept_part()),
   /// and removes these folders.  REQUIRES: no process is at work in them.  ERRORS: DamagedWork.
   void take_over_parts();
-  /// Shrinks the folder to its limit when the run is complete.
+  /// Shrinks the folder to its limit when the run is complete.  No window is asked for afterwards.
   void finish();
   /// True if a later run finds anything.
   [[nodiscard]] bool has_facts() const { return kept_.any(); }
