@@ -15,6 +15,10 @@ namespace mw::engine {
 
 namespace {
 
+/// The most voxels that are read at a time where all of an image is: a plane of a large one would
+/// take more memory than a run may have.
+constexpr std::int64_t kPieceVoxels = 1 << 16;
+
 /// Returns whether both files say where they lie in the world, and not in the same place.
 bool is_elsewhere(const io::VolumeSpace& image, const io::VolumeSpace& labels) {
   const bool both_tell =
@@ -78,11 +82,18 @@ double SizeImage::least() const {
   return least;
 }
 
+/// Reads whole rows, as many as fit into a piece, or pieces of one row where it does not fit.
 template <typename Visit>
 void SizeImage::each_size(Visit visit) const {
-  for (std::int64_t z = 0; z < shape_.z; ++z) {
-    for (const double size : read({{0, 0, z}, {shape_.x, shape_.y, z + 1}}, shape_)) visit(size);
-  }
+  const std::int64_t row = std::min(shape_.x, kPieceVoxels);
+  const std::int64_t rows = std::min(shape_.y, kPieceVoxels / row);
+  for_each_index(
+      Index3{(shape_.x + row - 1) / row, (shape_.y + rows - 1) / rows, shape_.z},
+      [&](Index3 piece) {
+        const Index3 lo{piece.x * row, piece.y * rows, piece.z};
+        const Index3 hi{std::min(lo.x + row, shape_.x), std::min(lo.y + rows, shape_.y), lo.z + 1};
+        for (const double size : read({lo, hi}, shape_)) visit(size);
+      });
 }
 
 }  // namespace mw::engine

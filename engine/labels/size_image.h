@@ -26,9 +26,9 @@ class SizeImage {
   /// Returns the sizes in a box, x fastest, in physical units; infinity where the image has no
   /// positive number.  lattice is the shape of the lattice, a multiple of that of the labels.
   [[nodiscard]] std::vector<double> read(const Box3& box, Index3 lattice) const;
-  /// Returns a hash of all sizes.  Cost: the image is read once.
+  /// Returns a hash of all sizes.  Cost: the image is read once, some 1 MiB at a time.
   [[nodiscard]] std::uint64_t fingerprint() const;
-  /// Returns the smallest size; infinity when there is none.  Cost: the image is read once.
+  /// Returns the smallest size; infinity when there is none.  Cost: that of fingerprint().
   [[nodiscard]] double least() const;
 
  private:
