@@ -81,6 +81,10 @@ class Dispatcher {
     return order_.window(first);
   }
 
+  /// Notes an error of the march itself, for instance that memory ran out.  Any error of a window
+  /// comes before it.
+  void fail(std::exception_ptr error) { note(order_.size(), std::move(error)); }
+
   /// True if inputs from other processes may still come that make windows ready.
   [[nodiscard]] bool waits() const {
     return arrival_front_ != nullptr && !error_ && front_->first_unfinished() < order_.size();
@@ -115,7 +119,7 @@ class Dispatcher {
   }
 
   void look_at_arrivals() {
-    if (const auto error = options_.part->arrivals->error()) note(order_.size(), error);
+    if (const auto error = options_.part->arrivals->error()) fail(error);
     arrival_front_->poll();
   }
 
@@ -176,12 +180,19 @@ void run_graph(Dispatcher& dispatcher, const VisitWindow& visit, Arrivals* arriv
   flow::graph graph;
   Visitor visitor(graph, flow::unlimited,
                   [&](Index3 window) { return visit_window(visit, window); });
-  Waiting waiting(graph, dispatcher, arrivals);
+  Waiting* waits = nullptr;
   Keeper keeper(graph, flow::serial, [&](const Outcome& outcome, Keeper::output_ports_type& out) {
-    dispatcher.finish(outcome);
-    while (const auto window = dispatcher.next()) std::get<0>(out).try_put(*window);
-    waiting.release_if_over();
+    try {
+      dispatcher.finish(outcome);
+      while (const auto window = dispatcher.next()) std::get<0>(out).try_put(*window);
+    } catch (...) {
+      // If it left this body, nobody would end the wait for inputs.
+      dispatcher.fail(std::current_exception());
+    }
+    waits->release_if_over();
   });
+  Waiting waiting(graph, dispatcher, arrivals);  // it goes before the keeper that arrivals wake
+  waits = &waiting;
   flow::make_edge(visitor, keeper);
   flow::make_edge(flow::output_port<0>(keeper), visitor);
   // All first windows are chosen before one is sent, since from then on the keeper may be at work.
@@ -192,6 +203,7 @@ void run_graph(Dispatcher& dispatcher, const VisitWindow& visit, Arrivals* arriv
     for (Index3 window : first) visitor.try_put(window);
     // The keeper has to look at what came in meanwhile, and to see if there is nothing to do.
     if (arrivals != nullptr) arrivals->wake();
+    graph.wait_for_all();
   } catch (...) {
     // There was no memory for a message: those that were sent must end before the nodes go.
     waiting.end();
@@ -199,7 +211,6 @@ void run_graph(Dispatcher& dispatcher, const VisitWindow& visit, Arrivals* arriv
     graph.wait_for_all();
     throw;
   }
-  graph.wait_for_all();
   waiting.end();
   graph.wait_for_all();
 }

@@ -183,6 +183,29 @@ TEST(March, EndsWithRoomForOneWhateverWasFinishedBefore) {
   });
 }
 
+/// Whatever fails between two visits ends the march, also while it waits for inputs.
+TEST(March, EndsWhenItCannotLookForItsNextWindow) {
+  const WindowOrder order(grid_of({3, 1, 1}), Order::kColour);
+  for (int threads : kThreads) {
+    Arrivals arrivals;
+    std::atomic<bool> is_out_of_memory = false;
+    const PartialMarch part{.is_mine = [](Index3) { return true; },
+                            .inputs = [&](Index3 w) -> std::uint32_t {
+                              if (is_out_of_memory) throw std::bad_alloc();
+                              return w.x == 0 ? 0 : 1;
+                            },
+                            .arrivals = &arrivals};
+    std::atomic<int> visits = 0;
+    const VisitWindow visit = [&](Index3) {
+      ++visits;
+      is_out_of_memory = true;
+      for (std::uint64_t rank = 0; rank < order.size(); ++rank) arrivals.add({0, rank});
+    };
+    EXPECT_THROW(march(order, visit, {.threads = threads, .part = &part}), std::bad_alloc);
+    EXPECT_EQ(visits, 1);
+  }
+}
+
 /// No window starts far from the first unfinished one.
 TEST(March, KeepsToItsLookAhead) {
   for_orders_and_threads([](const WindowOrder& order, int threads) {
