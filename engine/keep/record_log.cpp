@@ -55,6 +55,8 @@ void RecordLog::replay(const UseRecord& use) {
   }
   // Bytes that are added later are zeros, so that none of these is taken for a record.
   file_->resize(end_);
+  // A killed run may not have synced its last records, and what they give up is free from now on.
+  if (end_ > kMagicBytes) file_->sync();
 }
 
 std::uint64_t RecordLog::append(std::span<const std::byte> record) {

@@ -23,6 +23,7 @@ class RecordLog {
   explicit RecordLog(std::unique_ptr<WorkFile> file);
 
   /// Calls use for all records in their order, and cuts off what is not whole behind them.
+  /// ENSURES: these records survive a power cut, also those that a killed run had not synced.
   /// REQUIRES: it is called once, before append().
   void replay(const UseRecord& use);
   /// Returns where the record is.  It is durable after sync().

@@ -8,6 +8,7 @@
 #include <random>
 
 #include "engine/store/journal/mapped_file.h"
+#include "tests/engine/store/volatile_files.h"
 #include "tests/oracle/small_volumes.h"
 #include "tests/temp_folder.h"
 
@@ -85,6 +86,24 @@ TEST(RecordLog, GrowsAgainAfterItWasTrimmed) {
     }
     log.trim();
     EXPECT_EQ(std::filesystem::file_size(path), log.bytes());
+  }
+}
+
+/// What a record gives up is used again once it was replayed, so it must not go away afterwards.
+TEST(RecordLog, WhatWasReplayedOnceSurvivesAPowerCut) {
+  std::mt19937 random(3512);
+  for (int i = 0; i < 20; ++i) {
+    test::VolatileFiles files;
+    const Records records = random_records(random);
+    {
+      RecordLog killed(files.open("log"));
+      for (const auto& record : records) static_cast<void>(killed.append(record));
+    }
+    RecordLog log(files.open("log"));
+    EXPECT_EQ(replayed(log), records);
+    files.cut_power(random);
+    RecordLog again(files.open("log"));
+    EXPECT_EQ(replayed(again), records);
   }
 }
 
