@@ -143,7 +143,7 @@ void KeepFolder::settle(const std::string& settings) const {
     file.commit();
     return;
   }
-  const std::string before = settings_in(path_ / kSettingsFile);
+  const std::string before = settings_in(path_ / kSettingsFile, settings);
   if (before == settings) return;
   const std::string different = differences(before, settings);
   if (different.empty()) {

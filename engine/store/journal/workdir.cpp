@@ -35,8 +35,8 @@ constexpr const char* kSettingsFile = "settings.txt";
 constexpr std::array<const char*, 4> kFiles{kJournalFile, kBlocksFile, kSettingsFile, kLockFile};
 constexpr const char* kPartialSettings = ".settings.txt.partial-";  // left by a killed AtomicFile
 
+constexpr std::uintmax_t kMaxSettings = 16 << 20;  // those that are expected may have any size
 // Sizes of many labels make long lines; those that differ are shown in part.
-constexpr std::uintmax_t kMaxSettings = 16 << 20;
 constexpr std::size_t kMaxShown = 120;
 constexpr std::size_t kMaxTold = 8;
 
@@ -105,10 +105,11 @@ std::string volume_text(const io::VolumeInfo& volume) {
 
 }  // namespace
 
-std::string settings_in(const fs::path& path) {
+std::string settings_in(const fs::path& path, std::string_view expected) {
   std::error_code failed;
   const std::uintmax_t size = fs::file_size(path, failed);
-  std::string content(failed ? 0 : std::min(size, kMaxSettings), '\0');
+  const std::uintmax_t most = std::max<std::uintmax_t>(kMaxSettings, expected.size() + 1);
+  std::string content(failed ? 0 : std::min(size, most), '\0');
   std::ifstream in(path, std::ios::binary);
   in.read(content.data(), static_cast<std::streamsize>(content.size()));
   content.resize(static_cast<std::size_t>(in.gcount()));
@@ -166,7 +167,7 @@ std::optional<std::string> saved_value(const fs::path& path, const std::string& 
 }
 
 bool is_identity_of(const fs::path& path, const std::string& settings) {
-  return settings_in(path / kSettingsFile) == settings;
+  return settings_in(path / kSettingsFile, settings) == settings;
 }
 
 void Workdir::make_folder() {
@@ -196,7 +197,6 @@ void Workdir::lock() {
     make_folder();
     std::optional<io::FileDescriptor> locked = lock_folder(path_);
     if (!locked) {
-      keep_ = true;
       refuse(path_, "another mwmesh is at work here; wait for it or give another --workdir");
     }
     lock_ = std::move(*locked);
@@ -211,7 +211,7 @@ bool Workdir::has_saved_work() {
 }
 
 void Workdir::check_settings(const std::string& settings) const {
-  const std::string before = settings_in(path_ / kSettingsFile);
+  const std::string before = settings_in(path_ / kSettingsFile, settings);
   if (before == settings) return;
   const std::string different = differences(before, settings);
   if (different.empty() || !is_plain(before)) {

@@ -61,8 +61,9 @@ class Workdir : public WorkFiles {
 };
 
 /// Returns the text of a small file of a run.  A damaged file may have any size, so at most 16 MiB
-/// are read.
-[[nodiscard]] std::string settings_in(const std::filesystem::path& file);
+/// are read, or one byte more than the text that is expected, if that is more.
+[[nodiscard]] std::string settings_in(const std::filesystem::path& file,
+                                      std::string_view expected = {});
 
 /// Returns the value of a setting saved in a folder, or nothing where the folder does not name it.
 [[nodiscard]] std::optional<std::string> saved_value(const std::filesystem::path& path,

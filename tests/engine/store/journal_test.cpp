@@ -314,6 +314,20 @@ TEST_F(WorkdirTest, TakesOverALockWhoseMarkIsNotWhole) {
   }
 }
 
+/// Sizes of very many labels make long settings.
+TEST_F(WorkdirTest, GoesOnWithSettingsOfAnySize) {
+  const std::string settings = "size = " + std::string(17 << 20, '1') + "\nend = 1\n";
+  {
+    Workdir workdir(path(), false, settings);
+    Journal(workdir.open(kJournalFile)).append({});
+    workdir.keep();
+  }
+  EXPECT_TRUE(is_identity_of(path(), settings));
+  EXPECT_FALSE(is_identity_of(path(), settings.substr(0, settings.size() - 1)));
+  expect_refused(true, settings + "more = 1\n", "more was (not there) and is 1");
+  EXPECT_TRUE(Workdir(path(), true, settings).resumes());
+}
+
 TEST_F(WorkdirTest, LeavesALinkToTheFolder) {
   fs::create_directory(folder() / "elsewhere");
   fs::create_directory_symlink("elsewhere", path());
