@@ -18,8 +18,16 @@ SavedRun::SavedRun(const RunLayout& layout, std::vector<std::filesystem::path> f
   for (std::size_t folder = 0; folder < folders_.size(); ++folder) scan(folder, epochs);
 }
 
+/// A file that is not there is damage, and is not made, as MappedFile would do.
+std::unique_ptr<WorkFile> SavedRun::open(std::size_t folder, const char* file) const {
+  if (!std::filesystem::exists(folders_[folder] / file)) {
+    throw DamagedWork(folders_[folder].string(), std::string("it has no file ") + file);
+  }
+  return std::make_unique<MappedFile>(folders_[folder] / file);
+}
+
 void SavedRun::scan(std::size_t folder, std::uint64_t epochs) {
-  Journal journal(std::make_unique<MappedFile>(folders_[folder] / kJournalFile));
+  Journal journal(open(folder, kJournalFile));
   std::map<std::uint64_t, JournalBlock> blocks;
   journal.scan(epochs, [&](const JournalRecord& record) {
     for (const JournalBlock& block : record.blocks) take(folder, block, blocks);
@@ -30,7 +38,7 @@ void SavedRun::scan(std::size_t folder, std::uint64_t epochs) {
       done_.insert(window);
     }
   });
-  files_.push_back(std::make_unique<MappedFile>(folders_[folder] / kBlocksFile));
+  files_.push_back(open(folder, kBlocksFile));
   for (const auto& [slot, block] : blocks) {
     if (block.extent.offset + block.extent.size > files_.back()->size()) {
       throw DamagedWork(folders_[folder].string(), "its journal points to where nothing can be");

@@ -23,7 +23,7 @@ struct SavedBlock {
 };
 
 /// Reads the journals of all processes up to the last epoch that counts.  Many processes may do so
-/// at once; nothing is changed.
+/// at once; no file is made, and none that holds records is changed.
 class SavedRun {
  public:
   /// folders has one for each process of that run; `epochs` records of each journal count.
@@ -38,6 +38,7 @@ class SavedRun {
   [[nodiscard]] std::vector<std::byte> read(const SavedBlock& block) const;
 
  private:
+  [[nodiscard]] std::unique_ptr<WorkFile> open(std::size_t folder, const char* file) const;
   void scan(std::size_t folder, std::uint64_t epochs);
   void take(std::size_t folder, const JournalBlock& block,
             std::map<std::uint64_t, JournalBlock>& blocks) const;

@@ -53,7 +53,10 @@ bool is_ours(const std::string& name) {
 /// Returns the name of a file that no run has made, or nothing.
 std::string file_of_others(const fs::path& folder) {
   const bool may_be_ours = is_of_runs(folder);
-  for (const auto& entry : fs::directory_iterator(folder)) {
+  std::error_code error;
+  const fs::directory_iterator entries(folder, error);
+  if (error) io::fail_output(folder.string(), "read the work folder", error.value());
+  for (const auto& entry : entries) {
     std::string name = entry.path().filename().string();
     if (!may_be_ours || !is_ours(name)) return name;
   }
@@ -62,6 +65,16 @@ std::string file_of_others(const fs::path& folder) {
 
 [[noreturn]] void refuse(const fs::path& folder, const std::string& why) {
   throw Error(ErrorKind::kUsage, folder.string() + ": " + why);
+}
+
+/// Makes the folder, and those above it, unless it is there.
+void make_folder(const fs::path& folder) {
+  std::error_code error;
+  fs::create_directories(folder, error);
+  if (error == std::errc::not_a_directory || error == std::errc::file_exists) {
+    refuse(folder, "is not a folder, or lies in what is none; give another --workdir");
+  }
+  if (error) io::fail_output(folder.string(), "create the work folder", error.value());
 }
 
 }  // namespace
@@ -88,7 +101,7 @@ std::optional<TeamWork::State> TeamWork::read_state(const std::string& text) con
 
 TeamWork::TeamWork(Team& team, const fs::path& folder, bool resume, const std::string& identity)
     : team_(team), folder_(folder), identity_(identity) {
-  fs::create_directories(folder_);
+  make_folder(folder_);
   // All ranks throw what the first one finds.
   const std::string foreign = team.gather(team.is_first() ? file_of_others(folder_) : "").at(0);
   if (!foreign.empty()) {
@@ -113,7 +126,7 @@ TeamWork::TeamWork(Team& team, const fs::path& folder, bool resume, const std::s
   if (team.is_first()) fs::remove_all(folder_of(generation_));
   (void)team.gather(std::string());
   own_folder_ = folder_of(generation_, static_cast<std::uint64_t>(team.rank()));
-  fs::create_directories(own_folder_.parent_path());
+  make_folder(own_folder_.parent_path());
   own_.emplace(own_folder_, false, identity);
 }
 
@@ -164,6 +177,8 @@ void TeamWork::discard() {
   if (!team_.is_first()) return;
   std::error_code ignored;
   fs::remove(folder_ / kEpochsFile, ignored);
+  // If a power cut brought it back without the folders that it counts, they would look damaged.
+  io::sync_folder(folder_);
   if (before_) fs::remove_all(folder_of(before_->generation), ignored);
 }
 
