@@ -46,8 +46,8 @@ std::vector<std::array<RawLabel, 2>> parse_pairs(std::string_view text) {
 
 void check_label(RawLabel label, const char* option, const io::LabelTable& table) {
   if (table.contains(label)) return;
-  throw Error(ErrorKind::kUsage,
-              io::text(option, ": the volume has no label ", static_cast<std::int64_t>(label)));
+  throw Error(ErrorKind::kUsage, io::text(option, ": the volume has no label ",
+                                          io::label_text(label, table.is_signed())));
 }
 
 }  // namespace

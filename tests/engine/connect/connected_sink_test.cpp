@@ -8,6 +8,7 @@
 #include "kernels/core/error.h"
 #include "tests/engine/connect/random_mesh.h"
 #include "tests/engine/memory_run.h"
+#include "tests/expect_error.h"
 #include "tests/oracle/hanging_parts.h"
 #include "tests/temp_folder.h"
 
@@ -368,6 +369,14 @@ TEST(ConnectOptions, OfText) {
   }
   EXPECT_THROW(check_interfaces({.split = some}, io::LabelTable({1, 2}, false)), Error);
   check_interfaces({.split = some}, io::LabelTable({1, 2, 3}, false));
+}
+
+TEST(ConnectOptions, NameLabelsAsTheVolumeDoes) {
+  const SplitRule large = parse_split("18446744073709551615|1");
+  for (const bool is_signed : {false, true}) {
+    expect_error(ErrorKind::kUsage, {is_signed ? "no label -1" : "no label 18446744073709551615"},
+                 [&] { check_interfaces({.split = large}, io::LabelTable({1}, is_signed)); });
+  }
 }
 
 }  // namespace
