@@ -30,6 +30,13 @@ std::string next_name() {
                                         std::strerror(reason));  // NOLINT(concurrency-mt-unsafe)
 }
 
+/// Reserves bytes of a file, also when signals come in.  Returns 0, or the reason why not.
+int reserve(int file, std::size_t bytes) {
+  int reason = EINTR;
+  while (reason == EINTR) reason = ::posix_fallocate(file, 0, static_cast<off_t>(bytes));
+  return reason;
+}
+
 }  // namespace
 
 SharedMemory SharedMemory::create(std::size_t bytes) {
@@ -40,9 +47,7 @@ SharedMemory SharedMemory::create(std::size_t bytes) {
     ipc::permissions own;
     own.set_permissions(0600);
     ipc::shared_memory_object memory(ipc::create_only, out.name_.c_str(), ipc::read_write, own);
-    const int reason =
-        ::posix_fallocate(memory.get_mapping_handle().handle, 0, static_cast<off_t>(bytes));
-    if (reason != 0) {
+    if (const int reason = reserve(memory.get_mapping_handle().handle, bytes); reason != 0) {
       out.remove_name();
       fail(bytes, reason);
     }

@@ -23,7 +23,6 @@ class LabelKeys {
   [[nodiscard]] std::uint64_t key(Label label) const { return table_.raw(label) ^ flip_; }
   /// Returns kExterior for a key of no label of the table.
   [[nodiscard]] Label label(std::uint64_t key) const { return table_.find(key ^ flip_); }
-  [[nodiscard]] const io::LabelTable& table() const { return table_; }
 
  private:
   const io::LabelTable& table_;
