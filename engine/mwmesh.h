@@ -302,7 +302,7 @@ struct Mesh {
   std::vector<LabelName> names{};  ///< of labels that are in the mesh
   /// For each name a number for each tet (Options::sample, or from a file); NaN if unknown.  Files
   /// have names of a letter and up to 30 letters, digits and '_', none of them "label" and no two
-  /// alike but for capitals; others are written as such names ("Stress XX" as "Stress_XX").
+  /// alike except for capitals; others are written as such names ("Stress XX" as "Stress_XX").
   std::map<std::string, std::vector<double>> values{};
   /// JSON, the keys of `mwmesh mesh --report`; empty when there is none.  Its "settings" are those
   /// of Settings, with threads, memory and workdir.

@@ -52,7 +52,7 @@ struct NumberLimit {
 /// ERRORS: mw::Error(kUsage) naming the file where `largest` is above the limit.
 void check_number(std::string_view file, std::uint64_t largest, const NumberLimit& limit);
 
-/// ERRORS: mw::Error(kUsage) naming the file where coordinates of so many significant digits would
+/// ERRORS: mw::Error(kUsage) naming the file where coordinates of `digits` significant digits would
 /// move nodes by more than a 64th of the shortest edge: tets lose their shape then.
 void check_digits(std::string_view file, const GroupedMesh& mesh, int digits);
 

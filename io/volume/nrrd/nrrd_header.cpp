@@ -290,7 +290,7 @@ std::array<bool, 3> are_cells(const FieldMap& fields) {
   std::array<bool, 3> out{true, true, true};
   const auto found = fields.find("centers");
   if (found == fields.end()) return out;
-  std::istringstream words(lower(found->second));
+  std::istringstream words(lower_case(found->second));
   std::string word;
   for (std::size_t i = 0; i < out.size() && words >> word; ++i) out[i] = word != "node";
   return out;

@@ -87,9 +87,13 @@ TEST(MeshRecord, LongOnesComeBackThroughFiles) {
 TEST(MeshRecord, DamageIsTold) {
   for (
       const char* text :
-      {"{", "[]", R"({"box": 3})", R"({"box": {"origin": [0, 0]}})",
+      {"{",
+       "[]",
+       R"({"box": 3})",
+       R"({"box": {"origin": [0, 0]}})",
        R"({"box": {"origin": [0, 0, 0], "x": [0, 0, 0], "y": [0, 1, 0], "z": [0, 0, 1]}})",
-       R"({"promises": {"quality_floor": -1}})", R"({"promises": {"quality_floor": "x"}})",
+       R"({"promises": {"quality_floor": -1}})",
+       R"({"promises": {"quality_floor": "x"}})",
        R"({"promises": {"max_distance": -1, "quality_floor": 0.1}})",
        R"({"promises": {"quality_floor": 0.1, "topology": 5}})",
        R"({"promises": {"quality_floor": 0.1, "topology": "labels", "surface": "voxel", "halvings": 3}})",
@@ -98,8 +102,12 @@ TEST(MeshRecord, DamageIsTold) {
        R"({"promises": {"quality_floor": 0.1, "topology": "labels", "surface": "none"}})",
        R"({"promises": {"quality_floor": 0.1, "topology": "labels", "surface": "voxel",
                          "optimizer": "local"}})",
-       R"({"without_labels": [0.5]})", R"({"frame": "own"})", R"({"unit": "ft"})", R"({"frame": 1})",
-       R"({"only_labels": 0})", R"({"only_labels": [1], "without_labels": [2]})"}) {
+       R"({"without_labels": [0.5]})",
+       R"({"frame": "own"})",
+       R"({"unit": "ft"})",
+       R"({"frame": 1})",
+       R"({"only_labels": 0})",
+       R"({"only_labels": [1], "without_labels": [2]})"}) {
     expect_error(ErrorKind::kInput, {"m.vtu"},
                  [&] { static_cast<void>(parse_record(text, "m.vtu")); });
   }
