@@ -95,14 +95,19 @@ Json VolumeFacts::label_row(std::size_t i) const {
   row["voxels"] = region.voxels;
   row["lo"] = {lo.x, lo.y, lo.z};
   row["hi"] = {hi.x, hi.y, hi.z};
+  row["volume"] = volume_of(i);
   add_colour(row, region.label, info_.names);
   return row;
 }
 
-std::string VolumeFacts::volume_text(std::size_t i) const {
+double VolumeFacts::volume_of(std::size_t i) const {
   auto volume = static_cast<double>(regions_[i].voxels);
   for (const double edge : info_.space.spacing) volume *= edge;
-  return report::format_volume(volume, info_.space.unit);
+  return volume;
+}
+
+std::string VolumeFacts::volume_text(std::size_t i) const {
+  return report::format_volume(volume_of(i), info_.space.unit);
 }
 
 void print_volume(const VolumeFacts& volume) {

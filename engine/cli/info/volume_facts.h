@@ -20,13 +20,16 @@ class VolumeFacts {
   /// Returns all facts except a row for each label.
   [[nodiscard]] const io::Json& json() const { return facts_; }
   [[nodiscard]] std::size_t labels() const { return regions_.size(); }
-  /// Returns label, name, voxels, box (hi is one behind the last voxel) and colour of the i-th
-  /// label, ascending.  REQUIRES: i < labels().
+  /// Returns label, name, voxels, box (hi is one behind the last voxel), volume and colour of the
+  /// i-th label, ascending.  REQUIRES: i < labels().
   [[nodiscard]] io::Json label_row(std::size_t i) const;
   /// Returns the volume of the i-th label as text: "17.18 mL".
   [[nodiscard]] std::string volume_text(std::size_t i) const;
 
  private:
+  /// Returns the volume of the i-th label in cubes of the unit.
+  [[nodiscard]] double volume_of(std::size_t i) const;
+
   io::VolumeInfo info_;
   std::vector<engine::LabelRegion> regions_;
   io::Json facts_;

@@ -69,6 +69,12 @@ void check_segments(const NrrdHeader& header, const std::string& file) {
              "pick one channel");
 }
 
+void check_units(const NrrdHeader& header, const std::string& file, const OpenOptions& options) {
+  if (!header.units_differ || options.spacing) return;
+  fail_input(file, "NRRD field 'space units'", "the axes have different units",
+             "give the size of a voxel in one unit with --spacing");
+}
+
 /// What voxels of layers have that is no value of a segment there.
 struct Strays {
   std::uint64_t voxels = 0;
@@ -138,12 +144,11 @@ std::unique_ptr<LabelVolume> open_nrrd(std::unique_ptr<ByteSource> source,
                                        const OpenOptions& options) {
   const std::string file = source->name();
   const NrrdHeader header = read_header(*source);
-  VolumeInfo info{.shape = header.shape, .type = header.type, .format = "nrrd"};
-  if (header.units_differ && !options.spacing) {
-    fail_input(file, "NRRD field 'space units'", "the axes have different units",
-               "give the size of a voxel in one unit with --spacing");
-  }
-  info.space = placed(file, header.space, options);
+  check_units(header, file, options);
+  VolumeInfo info{.shape = header.shape,
+                  .space = placed(file, header.space, options),
+                  .type = header.type,
+                  .format = "nrrd"};
   info.names = names_of(header.segments);
 
   std::unique_ptr<ByteSource> data = data_source(std::move(source), header, options.trust_paths);

@@ -61,7 +61,11 @@ TEST(SegNrrd, VoxelsThatBelongToNoSegmentAreCounted) {
       << some->info().note;
   const auto all = open_volume(dir.path() / "a.seg.nrrd", {.overlap = Overlap::kFirst});
   EXPECT_NE(all->info().note, "");
-  EXPECT_EQ(open(most + "Segment2_LabelValue:=3\nSegment2_Layer:=1\n")->info().note, "");
+  static_cast<void>(dir.file(
+      "b.seg.nrrd",
+      seg_nrrd(kinds + most + "Segment2_LabelValue:=3\nSegment2_Layer:=1\n", "4\nsizes: 2 2 2 1")));
+  const auto none = open_volume(dir.path() / "b.seg.nrrd", {.overlap = Overlap::kFirst});
+  EXPECT_EQ(none->info().note.find("belong"), std::string::npos) << none->info().note;
 }
 
 /// Header extensions as they lie in a file: length, code, text padded to 16 bytes.
