@@ -256,7 +256,7 @@ class Solvers(unittest.TestCase):
             capture_output=True, text=True,
         )
         self.assertEqual(done.returncode, 2, done.stderr)
-        self.assertIn("w.facets.csv: this is --names", done.stderr)
+        self.assertIn("-o w.facets.csv: name used twice, this is --names", done.stderr)
 
 
 if __name__ == "__main__":
