@@ -134,12 +134,19 @@ double rounded(double value, int digits) {
 
 class CardFiles : public testing::TestWithParam<CardFormat> {};
 
+/// A mesh whose shortest edge is long enough for ten digits.
+MeshData mesh_for_cards(unsigned seed, bool labels_signed) {
+  MeshData mesh = random_mesh(seed, labels_signed);
+  for (Position& p : mesh.vertices) p[1] = 1e6 * (p[1] + 1);
+  return mesh;
+}
+
 TEST_P(CardFiles, HoldTheMeshToTheirDigits) {
   const TempDir dir;
   const auto path = dir.path() / ("m" + GetParam().extension);
   for (const Element element : {Element::kTet4, Element::kTet10}) {
     for (const bool labels_signed : {false, true}) {
-      MeshData mesh = random_mesh(3, labels_signed);
+      MeshData mesh = mesh_for_cards(3, labels_signed);
       save(mesh, path, element);
       MeshData back = read_back(path);
       back.vertices.resize(mesh.vertices.size());  // middles of edges come behind
@@ -159,12 +166,23 @@ TEST_P(CardFiles, HoldTheMeshToTheirDigits) {
 TEST_P(CardFiles, AreTheSameBytesEachTimeAndMayBeEmpty) {
   const TempDir dir;
   const auto path = dir.path() / ("m" + GetParam().extension);
-  save(random_mesh(1, true), path, Element::kTet10);
+  save(mesh_for_cards(1, true), path, Element::kTet10);
   const std::string first = content_of(path);
-  save(random_mesh(1, true), path, Element::kTet10);
+  save(mesh_for_cards(1, true), path, Element::kTet10);
   EXPECT_TRUE(content_of(path) == first);
   save({}, path);
   EXPECT_TRUE(read_back(path).tets.empty());
+}
+
+TEST_P(CardFiles, HaveTooFewDigitsFarFromTheOrigin) {
+  const TempDir dir;
+  const auto path = dir.path() / ("m" + GetParam().extension);
+  MeshData mesh = mesh_for_cards(2, false);
+  save(mesh, path);
+  for (Position& p : mesh.vertices) p[0] += 1e9;
+  if (GetParam().digits > 9) return save(mesh, path);
+  expect_error(ErrorKind::kUsage, {path.string(), "10 digits", "--origin"},
+               [&] { save(mesh, path); });
 }
 
 TEST_P(CardFiles, OutOfRoomIsAResourceErrorAndLeavesNothing) {
