@@ -165,6 +165,35 @@ TEST(Library, FetchesRegions) {
   EXPECT_THROW((void)mesh(Volume::of(region)), std::out_of_range);
 }
 
+TEST(Library, HoldsRegionsToTheirType) {
+  const auto volume_of_label = [](VoxelType type, std::uint64_t label) {
+    RegionVolume region{.type = type, .shape = {6, 5, 4}};
+    region.read = [label](const Box& box, std::span<std::uint64_t> out) {
+      std::fill(out.begin(), out.end(), 1);
+      if (box.lo == Index{} && !out.empty()) out.front() = label;
+    };
+    return Volume::of(region);
+  };
+  const auto minus = [](std::int64_t n) { return static_cast<std::uint64_t>(-n); };
+  const std::pair<VoxelType, std::uint64_t> bad[] = {{VoxelType::kU8, 256},
+                                                     {VoxelType::kU8, minus(1)},
+                                                     {VoxelType::kI8, 128},
+                                                     {VoxelType::kI8, minus(129)},
+                                                     {VoxelType::kU32, std::uint64_t{1} << 32U}};
+  for (const auto& [type, label] : bad) {
+    EXPECT_THAT(failure(ErrorKind::kInput, [&] { (void)mesh(volume_of_label(type, label)); }),
+                HasSubstr("voxel (0, 0, 0) came back with a label"));
+  }
+  const std::pair<VoxelType, std::uint64_t> good[] = {{VoxelType::kU8, 255},
+                                                      {VoxelType::kI8, 127},
+                                                      {VoxelType::kI8, minus(128)},
+                                                      {VoxelType::kU64, minus(1)},
+                                                      {VoxelType::kI64, minus(1)}};
+  for (const auto& [type, label] : good) {
+    EXPECT_GT(mesh(volume_of_label(type, label)).tets.size(), 0U);
+  }
+}
+
 class Collector : public MeshWriter {
  public:
   void begin(std::uint64_t tets) override { announced_ = tets; }
@@ -192,6 +221,9 @@ TEST(Library, WritesIntoAWriter) {
   EXPECT_TRUE(writer.is_whole);
   EXPECT_EQ(digest(writer.mesh), json::parse(report)["digest"]);
   EXPECT_EQ(mesh_to(writer, volume_of(labels), {}, {.report = false}), "");
+  EXPECT_THAT(failure(ErrorKind::kUsage,
+                      [&] { mesh_to(writer, volume_of(labels), {}, {.sample = "a=image.npy"}); }),
+              HasSubstr("sample: a writer takes no values"));
 }
 
 TEST(Library, MeshesInSeveralThreadsAtOnce) {
@@ -301,6 +333,63 @@ TEST(Library, MergesLargeLabelsWithoutSign) {
   EXPECT_TRUE(verify(made, volume_of(labels), options).passed);
 }
 
+/// A mesh with two columns of values that are all alike.
+Mesh mesh_with_values(const std::vector<std::string>& names) {
+  const auto labels = grains();
+  Mesh made = mesh(volume_of(labels));
+  for (std::size_t i = 0; i < names.size(); ++i) {
+    made.values[names[i]].assign(made.tets.size(), static_cast<double>(i));
+  }
+  return made;
+}
+
+TEST(Library, NamesOfValuesAreMadeFitForFiles) {
+  const mw::test::TempFolder folder;
+  const Mesh made = mesh_with_values({"", "a b", "a/b", "label", "x\ny"});
+  for (const char* name : {"m.vtkhdf", "m.msh", "m.vtu"}) {
+    write_mesh(made, folder.path() / name);
+    const Mesh back = read_mesh(folder.path() / name);
+    std::vector<std::string> names;
+    for (const auto& column : back.values) names.push_back(column.first);
+    EXPECT_EQ(names, (std::vector<std::string>{"a_b", "a_b_2", "label_2", "value_", "x_y"}));
+    EXPECT_EQ(back.tets.size(), made.tets.size()) << name;
+    EXPECT_EQ(back.values.at("label_2"), made.values.at("label")) << name;
+  }
+}
+
+TEST(Library, MaterialsNeedValuesThatAreNotWritten) {
+  const mw::test::TempFolder folder;
+  const Mesh made = mesh_with_values({"hu", "other"});
+  const FileOptions alone{.values = false, .materials = "hu=3"};
+  write_mesh(made, folder.path() / "m.inp", alone);
+  EXPECT_TRUE(std::filesystem::exists(folder.path() / "m.inp.materials.csv"));
+  EXPECT_THAT(failure(ErrorKind::kUsage, [&] { write_mesh(made, folder.path() / "m.msh", alone); }),
+              HasSubstr("values: "));
+  EXPECT_FALSE(std::filesystem::exists(folder.path() / "m.msh"));
+}
+
+TEST(Library, WritesRunsWithoutValues) {
+  const mw::test::TempFolder folder;
+  const auto labels = grains();
+  std::string head = "{'descr': '|u1', 'fortran_order': False, 'shape': (20, 18, 22), }";
+  head.resize(117, ' ');
+  std::ofstream(folder.path() / "image.npy", std::ios::binary)
+      << std::string("\x93NUMPY\x01\x00\x76\x00", 10) << head << "\n"
+      << std::string(20 * 18 * 22, '\7');
+  const Options options{.sample = "hu=" + (folder.path() / "image.npy").string()};
+  const auto write = [&](const char* name, const FileOptions& file) {
+    return mesh_to_file(folder.path() / name, volume_of(labels), {}, options, {}, file);
+  };
+  const std::string report = write("m.vtu", {.values = false});
+  EXPECT_TRUE(read_mesh(folder.path() / "m.vtu").values.empty());
+  EXPECT_EQ(json::parse(report)["samples"].size(), 1U);
+  write("n.vtu", {});
+  EXPECT_EQ(read_mesh(folder.path() / "n.vtu").values.count("hu"), 1U);
+  write("m.mesh", {.values = false});  // which has no place for values
+  write("m.inp", {.values = false, .materials = "hu=2"});
+  EXPECT_TRUE(std::filesystem::exists(folder.path() / "m.inp.materials.csv"));
+}
+
 TEST(Library, RefusesWhatIsNoVolume) {
   const auto labels = grains();
   ArrayVolume array{.data = labels.data(), .type = VoxelType::kU64, .shape = kShape};
@@ -309,6 +398,9 @@ TEST(Library, RefusesWhatIsNoVolume) {
     array.shape = {22, bad, 20};
     EXPECT_THAT(refusal(), HasSubstr("shape (y)"));
   }
+  constexpr std::int64_t kHuge = std::int64_t{1} << 40;  // whose square no number holds
+  array.shape = {kHuge, kHuge, 1};
+  EXPECT_THAT(refusal(), HasSubstr("shape (x)"));
   array.shape = kShape;
   array.space.axes[0] = {0.6, 0.8, 0};
   EXPECT_THAT(refusal(), HasSubstr("right angles"));

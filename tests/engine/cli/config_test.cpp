@@ -86,6 +86,12 @@ TEST_F(ConfigTest, EveryKindOfValueSurvivesPrinting) {
   }
 }
 
+TEST_F(ConfigTest, PrintsNoOtherNamesThanThoseGiven) {
+  EXPECT_EQ(line("output", "-o $(printf 'm\\303\\244.vtu')"), "output = \"m\\u00e4.vtu\"");
+  EXPECT_EQ(line("output", "-o $(printf 'm\\357\\277\\275.vtu')"), "output = \"m\\ufffd.vtu\"");
+  expect_failure(2, "mesh --print-config -o $(printf 'm\\377.vtu')", "bytes that are no UTF-8");
+}
+
 TEST_F(ConfigTest, FlagsTakeNegativeNumbers) {
   EXPECT_EQ(line("origin", "--origin -1,-2.5,3"), "origin = [-1,-2.5,3]");
   EXPECT_EQ(line("background", "--background -3"), "background = \"-3\"");

@@ -187,6 +187,14 @@ TEST_F(MeshInfoTest, WrongUse) {
   expect_failure(2, "info", "FILE");
   expect_failure(3, "info gone.vtu", "gone.vtu");
   expect_failure(2, "info v.npy --csv", "FILE must be a mesh");
+  for (const std::string words :
+       {"--crop 0,0,0,5,5,5", "--spacing 2", "--merge 1=2", "--merge One=2", "--drop-specks 3",
+        "--object 1", "--dtype u8", "--values distances", "--cache c"}) {
+    expect_failure(2, "info m.vtu " + words, words.substr(0, words.find(' ')));
+  }
+  expect_failure(2, "info m.vtu --crop 0,0,0,5,5,5", "--crop: says something of a volume");
+  expect_done("info m.vtu", "MW_SPACING=2");
+  expect_done("info m.vtu v.npy --spacing 2");
 }
 
 }  // namespace

@@ -134,6 +134,18 @@ class RunPage(unittest.TestCase):
         run("mesh", "v.npy", "-o", "w.vtu", "--quality-floor", "0", "--html", "w.html")
         self.assertIn("the run had no floor", " ".join(Page("w.html").text))
 
+    def test_rough_labels_are_judged_by_the_certificate(self):
+        """Dust is off by more than 5 %, as it may be."""
+        dust = numpy.random.default_rng(1).random((20, 20, 20)) < 0.15
+        numpy.save("dust.npy", dust.astype(numpy.uint8))
+        for certify, verdict in (("on", "holds"), ("off", "not checked here")):
+            run("mesh", "dust.npy", "-o", "dust.vtu", "--certify", certify, "--memory", "1GiB",
+                "--html", "dust.html", "--report", "dust.json")
+            with open("dust.json", encoding="utf-8") as file:
+                self.assertGreater(json.load(file)["shape"]["volume_error_max_abs"], 0.05)
+            row = Page("dust.html").source.split('<th scope="row">P8</th>')[1].split("</tr>")[0]
+            self.assertIn(f">{verdict}</td>", row)
+
     def test_second_opinion_is_a_command_that_works(self):
         masks = numpy.zeros((2, 8, 9, 10), numpy.uint8)
         masks[0, 1:6, 2:7, 2:6] = masks[1, 3:7, 3:8, 4:9] = 1

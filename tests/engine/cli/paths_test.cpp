@@ -33,6 +33,43 @@ TEST_F(PathsTest, WorkFoldersThatCollideAreRefusedBeforeWork) {
   expect_failure(3, mesh + "--workdir m.vtu2", "v.npy");
 }
 
+/// No output takes the place of what the command reads or of another output.
+TEST_F(PathsTest, NamesAreUsedOnce) {
+  make_volume();
+  write("names.csv", "id,name\n1,one\n");
+  write("run.toml", "window = 8\n");
+  expect_done("mesh v.npy -o m.msh");
+  expect_done("convert m.msh m.vtu");
+  expect_done("convert m.vtu p.pvtu --pieces 2");
+  std::filesystem::create_hard_link(folder() / "m.vtu", folder() / "same.vtu");
+  const std::string before = read("v.npy") + read("m.vtu") + read("names.csv") + read("run.toml");
+  const std::string twice = ": name used twice, this is ";
+  for (const auto& [words, piece] : std::initializer_list<std::array<std::string, 2>>{
+           {"verify v.npy m.vtu --report v.npy", "--report v.npy" + twice + "the input"},
+           {"verify v.npy m.vtu --report ./m.vtu", "--report ./m.vtu" + twice + "the mesh to read"},
+           {"verify v.npy m.vtu --report same.vtu", twice + "the mesh to read"},
+           {"verify v.npy m.vtu --names names.csv --report names.csv", twice + "--names"},
+           {"verify v.npy m.msh --report m.msh.labels.csv", twice + "the mesh to read"},
+           {"verify v.npy p.pvtu --report p/p_0000.vtu", twice + "the mesh to read"},
+           {"verify v.npy,v.npy m.vtu --report v.npy", twice + "the input"},
+           {"mesh v.npy -o a.xdmf --report a.h5", "--report a.h5" + twice + "-o"},
+           {"mesh v.npy -o d.msh --html d.msh.labels.csv", "--html d.msh.labels.csv" + twice},
+           {"mesh v.npy -o a.inp --sample x=v.npy --materials x=2 --trace a.inp.materials.csv",
+            "--trace a.inp.materials.csv" + twice + "-o"},
+           {"mesh v.npy -o a.vtu --size @v2.npy --report v2.npy", twice + "--size"},
+           {"mesh v.npy -o a.vtu --config run.toml --report run.toml", twice + "--config"},
+           {"convert m.vtu d.msh --pairs d.msh.labels.csv", "--pairs d.msh.labels.csv" + twice},
+           {"convert m.vtu m.vtu", "-o m.vtu" + twice + "the mesh to read"},
+           {"convert m.msh m.msh2 --pairs m.msh.labels.csv", twice + "the mesh to read"}}) {
+    expect_failure(2, words, piece);
+  }
+  std::filesystem::create_symlink("m.vtu", folder() / "m.png");
+  expect_failure(2, "picture m.vtu -o m.png", "-o m.png" + twice + "the mesh to read");
+  std::filesystem::create_symlink("m.vtu", folder() / "m.stl");
+  expect_failure(2, "surface m.vtu -o m.stl", "-o m.stl" + twice + "the mesh to read");
+  EXPECT_EQ(read("v.npy") + read("m.vtu") + read("names.csv") + read("run.toml"), before);
+}
+
 TEST_F(PathsTest, LinksAreFollowed) {
   make_volume();
   std::filesystem::create_directory(folder() / "real");

@@ -149,6 +149,25 @@ TEST_F(UsageTest, ReplacesNothingButItsOwnMeshes) {
   }
 }
 
+/// Files beside a mesh are known by the mesh; where that is not there, by themselves.
+TEST_F(UsageTest, ReplacesNothingButItsOwnBesideAMesh) {
+  make_volume();
+  for (const char* name : {"v.h5", "v.cells.xdmf", "v.xdmf.labels.csv", "v.facets.csv"}) {
+    write(name, "my measurements");
+    expect_failure(2, "mesh v.npy -o v.xdmf", std::string("-o ") + name + ": is there, and not of");
+    EXPECT_EQ(read(name), "my measurements");
+    std::filesystem::remove(folder() / name);
+  }
+  write("v.inp.materials.csv", "my measurements");
+  expect_failure(2, "mesh v.npy -o v.inp --sample x=v.npy --materials x=2", "v.inp.materials.csv");
+  write("v.h5", "my measurements");
+  expect_done("mesh v.npy -o v.xdmf --force");
+  expect_done("mesh v.npy -o v.xdmf");
+  // What a kill between two names leaves.
+  std::filesystem::remove(folder() / "v.xdmf");
+  expect_done("mesh v.npy -o v.xdmf");
+}
+
 TEST_F(UsageTest, SaysWhatWasMeshed) {
   expect_done("synth spheres --shape 20,20,20 --labels 2 --seed 1 -o v.npy");
   write("names.csv", "id,name\n0,air\n1,ball\n");
@@ -272,6 +291,9 @@ TEST_F(UsageTest, VariablesOfFlagsThatHaveNone) {
   make_volume();
   expect_failure(2, "info v.npy", "MW_JSON: no option", "MW_JSON=1");
   expect_failure(2, "mesh --print-config", "MW_CONFIG: no option", "MW_CONFIG=c.toml");
+  // MW_COUNT is a number of tets.
+  expect_failure(2, "synth noise --shape 3,3,3 --seed 1 -o w.npy", "--count N is missing",
+                 "MW_COUNT=3");
 }
 
 TEST_F(UsageTest, SizesAsPeopleWriteThem) {

@@ -156,6 +156,9 @@ class SameMesh(InFolder):
         by_hand = np.where(self.labels == wanted, self.labels, 0)[box]
         by_hand = mwmesh.mesh(by_hand, labels=[wanted], origin=[int(v) for v in lo[::-1]])
         self.assertEqual(alone.digest, by_hand.digest)
+        merged = mwmesh.mesh(self.path("v.npy"), object=wanted, merge={wanted: 77})
+        self.assertEqual(list(merged.volumes()), [77])
+        self.assertEqual(len(merged.tets), len(alone.tets))
         rest = mwmesh.mesh(self.path("v.npy"), object=[wanted], background=wanted)
         self.assertEqual(list(rest.volumes()), [0])
         with self.assertRaisesRegex(mwmesh.InputError, "no voxel has 99"):
@@ -403,6 +406,17 @@ class Figures(unittest.TestCase):
         self.assertIn("P2 orientation", [name for name, passed, _ in verdict.checks if not passed])
         self.assertIn("FAIL", repr(verdict))
 
+    def test_verify_uses_names_that_the_volume_can_have(self):
+        labels = np.ones((6, 6, 6), np.int8)
+        labels[2:4, 2:4, 2:4] = -1
+        mesh = mwmesh.mesh(labels, names={-1: "neg", 1: "pos"})
+        self.assertTrue(mesh.verify(labels))
+        verdict = mesh.verify(np.ones((6, 6, 6), np.uint8))
+        self.assertFalse(verdict)
+        self.assertIn("label is not in the volume", repr(verdict))
+        with self.assertRaisesRegex(mwmesh.UsageError, "names"):
+            mesh.verify(np.ones((6, 6, 6), np.uint8), names={-1: "neg"})
+
     def test_what_hangs_is_welded(self):
         blocks = np.zeros((12, 12, 12), np.uint8)
         blocks[2:10, 2:6, 2:6] = 1
@@ -634,6 +648,9 @@ class Values(InFolder):
         again = pickle.loads(pickle.dumps(mesh))
         np.testing.assert_array_equal(again.values["hu"], mesh.values["hu"])
         mesh.save(self.path("m.vtu"))
+        mesh.save(self.path("m.inp"), values=False, materials="hu=3")
+        with self.assertRaisesRegex(mwmesh.UsageError, "^values: "):
+            mesh.save(self.path("m.msh"), values=False, materials="hu=3")
         np.save(self.path("v.npy"), labels)
         part = mwmesh.mesh(self.path("v.npy"), crop=((2, 1, 3), (9, 8, 10)),
                            sample={"hu": self.path("image.npy")})
@@ -706,7 +723,13 @@ class Seen(InFolder):
         with unittest.mock.patch.dict(sys.modules, {"pyvista": pyvista}):
             self.mesh.plot(off_screen=True)
             self.mesh.plot(labels=[1, 2])
-        (first,), (second,) = (call.args for call in pyvista.wrap.call_args_list)
+            named = mwmesh.Mesh(self.mesh.points, self.mesh.tets, self.mesh.labels, {1: "neg"})
+            named.plot(labels="neg")
+            named.plot(labels=1)
+        (first,), (second,), (third,), (fourth,) = (
+            call.args for call in pyvista.wrap.call_args_list)
+        for grid in (third, fourth):
+            self.assertEqual(grid.GetNumberOfCells(), np.count_nonzero(self.mesh.labels == 1))
         inner = np.count_nonzero(self.mesh.labels != 0)
         self.assertEqual(first.GetNumberOfCells(), inner)
         self.assertEqual(second.GetNumberOfCells(), np.isin(self.mesh.labels, (1, 2)).sum())
@@ -999,6 +1022,27 @@ class Errors(InFolder):
         self.check(mwmesh.UsageError, "is masked; fill it", Blocks())
         self.check(mwmesh.UsageError, "names", grains(), names={"a", "b"})
 
+    def test_regions_that_are_not_what_was_asked(self):
+        class Blocks:
+            def __init__(self, array, dtype, turn=False):
+                self.array, self.turn = array, turn
+                self.shape, self.dtype = array.shape, np.dtype(dtype)
+
+            def __getitem__(self, box):
+                block = self.array[box]
+                return block.reshape(block.shape[::-1]) if self.turn else block
+
+        labels = np.ones((6, 7, 8), np.int64)
+        mwmesh.mesh(Blocks(labels, np.uint8))
+        self.check(mwmesh.InputError, "another shape", Blocks(labels, np.int64, turn=True))
+        for label, dtype in ((-1, np.uint8), (-1, np.uint64), (300, np.uint8), (200, np.int8)):
+            labels[2, 3, 4] = label
+            self.check(mwmesh.InputError, "cannot hold", Blocks(labels, dtype))
+        labels[2, 3, 4] = -1
+        mwmesh.mesh(Blocks(labels, np.int8))
+        large = labels.astype(np.uint64)
+        self.check(mwmesh.InputError, "cannot hold", Blocks(large, np.int64))
+
     def test_sheared_affines_have_a_way_out(self):
         sheared = np.array([[2, 0.6, 0, 5], [0, 0.8, 0, 6], [0, 0, 3, 7]])
         self.check(mwmesh.InputError, "give frame voxel", grains(), affine=sheared)
@@ -1165,7 +1209,17 @@ class Sessions(InFolder):
         for wrong in [(((0, 0, 0), (99, 1, 1)), 1), (before[1:],), (), (1, 2, 3)]:
             with self.assertRaises(mwmesh.UsageError):
                 session.update(*wrong)
+        masked = np.ma.masked_equal(before, before[0, 0, 0])
+        for edit in ((masked,), (box, masked[:2, :2, :2])):
+            with self.assertRaisesRegex(mwmesh.UsageError, "is masked"):
+                session.update(*edit)
+        with self.assertRaisesRegex(mwmesh.UsageError, "is masked"):
+            mwmesh.Session(masked)
         self.assertTrue(np.array_equal(session.array, before))
+        floats = mwmesh.Session(before.astype(np.float64), window=8)
+        for wrong in (2**53 + 1, np.full((2, 2, 2), 2**53 + 1), 2**64 - 1):
+            with self.assertRaisesRegex(mwmesh.UsageError, "can hold"):
+                floats.update(box, wrong)
         with self.assertRaises(mwmesh.UsageError):
             mwmesh.Session(before, order="raster")
         with self.assertRaises(mwmesh.UsageError):
