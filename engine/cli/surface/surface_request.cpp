@@ -115,12 +115,11 @@ void add_output_options(OptionSet& options, SurfaceFlags& flags) {
                .help = "stl, ply, precomputed or draco [by the extension]",
                .group = kOutputGroup,
                .assign = into(flags.format)});
-  options.add(
-      {.name = "unit",
-       .value = "UNIT",
-       .help = "nm, um, mm or m: of the mesh, for precomputed meshes [as the mesh says, else nm]",
-       .group = kOutputGroup,
-       .assign = into(flags.unit)});
+  options.add({.name = "unit",
+               .value = "UNIT",
+               .help = "nm, um, mm or m: of the mesh, for precomputed meshes [its own, or nm]",
+               .group = kOutputGroup,
+               .assign = into(flags.unit)});
 }
 
 }  // namespace
