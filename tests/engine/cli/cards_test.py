@@ -302,12 +302,12 @@ class Cards(unittest.TestCase):
     def test_what_does_not_fit_is_refused(self):
         with open("large.mesh", "w", encoding="ascii") as file:
             file.write("MeshVersionFormatted 2\nDimension 3\nVertices\n4\n0 0 0 0\n1e120 0 0 0\n"
-                       "0 1e120 0 0\n0 0 -1e-120 0\nTetrahedra\n1\n1 3 2 4 5\nEnd\n")
+                       "0 1e120 0 0\n0 0 -1e120 0\nTetrahedra\n1\n1 3 2 4 5\nEnd\n")
         done = start("convert", "large.mesh", "large.k")
         self.assertEqual(done.returncode, 2, done.stderr)
         self.assertIn("exponent", done.stderr)
         run("convert", "large.mesh", "large.cdb")
-        self.assertEqual(read_cdb("large.cdb").points[4], [0, 0, -1e-120])
+        self.assertEqual(read_cdb("large.cdb").points[4], [0, 0, -1e120])
 
 
 if __name__ == "__main__":

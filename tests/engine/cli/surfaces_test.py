@@ -189,13 +189,13 @@ class Surfaces(unittest.TestCase):
                        + bytes([1] * 32 + [2] * 32))
         run("mesh", "mm.nrrd", "-o", "mm.vtu")
         for unit, edge in ((), 4e6), (("--unit", "um"), 4e3):
-            run("surface", "mm.vtu", *unit, "-o", "meshes", "--labels", "1")
-            with open("meshes/1:0", encoding="utf-8") as file:
+            run("surface", "mm.vtu", *unit, "-o", "scaled", "--labels", "1")
+            with open("scaled/1:0", encoding="utf-8") as file:
                 (fragment,) = json.load(file)["fragments"]
-            data = np.fromfile(f"meshes/{fragment}", np.uint8)
+            data = np.fromfile(f"scaled/{fragment}", np.uint8)
             points = data[4 : 4 + 12 * int(data[:4].view("<u4")[0])].view("<f4")
             self.assertAlmostEqual(float(points.max() - points.min()) / edge, 1, places=5)
-            shutil.rmtree("meshes")
+            shutil.rmtree("scaled")
 
     def test_precomputed(self):
         run("surface", "v.vtu", "--unit", "um", "-o", "meshes")
