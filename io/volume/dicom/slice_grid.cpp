@@ -56,7 +56,8 @@ Lattice centred(const Places& sorted, double step) {
   return out;
 }
 
-/// Returns the step near `guess` with the least squares of all offsets; 0: all places are one.
+/// Returns the step near `guess` with the least squares of all offsets, rounded to what coordinates
+/// of 16 characters tell; 0: all places are one.
 double fitted_step(const Places& sorted, double guess) {
   const auto count = static_cast<double>(sorted.size());
   double number = 0, numbers = 0, places = 0;
@@ -73,7 +74,8 @@ double fitted_step(const Places& sorted, double guess) {
     products += n * (sorted[i] - places / count);
     squares += n * n;
   }
-  return squares > 0 ? products / squares : 0;
+  constexpr double kParts = 1e9;  // of a mm
+  return squares > 0 ? std::round(kParts * products / squares) / kParts : 0;
 }
 
 /// Returns the lattice of a step that the file states, or of one that it may have been rounded

@@ -122,6 +122,18 @@ TEST_F(MeshInfoTest, NoContactOfTheVoxelsIsMissing) {
   EXPECT_EQ(found, faces);
 }
 
+TEST_F(MeshInfoTest, VolumesHaveTheVolumeOfEachLabel) {
+  expect_done("synth noise --shape 9,8,7 --labels 4 --seed 3 -o v.npy");
+  const ProgramRun result = run("info v.npy --spacing 0.5,2,3 --json");
+  ASSERT_EQ(result.code, 0) << result.err;
+  double sum = 0;
+  for (const json& row : json::parse(result.out)["labels"]["per_label"]) {
+    EXPECT_EQ(row["volume"], 3 * row["voxels"].get<double>());
+    sum += row["volume"].get<double>();
+  }
+  EXPECT_EQ(sum, 3.0 * 9 * 8 * 7);
+}
+
 /// A shell, a ring, and what is in and around them.
 TEST_F(MeshInfoTest, CountsComponentsTunnelsAndCavities) {
   std::string voxels;
