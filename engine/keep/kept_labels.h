@@ -52,8 +52,7 @@ class KeptLabels {
   std::vector<Place> places_;
 };
 
-/// Writes the file that KeptLabels opens.  It reads the volume once,
-/// and holds two tiles in memory.
+/// Writes the file that KeptLabels opens.  It reads the volume once, and holds two tiles in memory.
 void write_kept_labels(const io::LabelVolume& volume, io::AtomicFile& file);
 
 /// Appends a note to that file.  REQUIRES: write_kept_labels() has written it; called once.

@@ -19,11 +19,11 @@ namespace mw::io {
 void check_scheme(std::string_view text);
 
 /// Returns the web address that an address stands for, without '/' at its end: gs://BUCKET/PATH and
-/// s3://BUCKET/PATH become those at which Google and Amazon serve public buckets.  The scheme
-/// is in lower case.  Blanks and letters beyond ASCII are percent-encoded.  REQUIRES:
-/// is_remote_address(address). ERRORS: mw::Error(kUsage) without a host or a bucket, and for a
-/// user, a password, a query or a fragment in it, as such parts may be secret, and addresses stand
-/// in messages and reports.
+/// s3://BUCKET/PATH become those at which Google and Amazon serve public buckets.  The scheme is in
+/// lower case.  Blanks and letters beyond ASCII are percent-encoded.
+/// REQUIRES: is_remote_address(address).
+/// ERRORS: mw::Error(kUsage) without a host or a bucket, and for a user, a password, a query or a
+/// fragment in it, as such parts may be secret, and addresses stand in messages and reports.
 [[nodiscard]] std::string web_address(std::string_view address);
 
 /// Appends a path, percent-encoded; its parts "." and ".." mean what they do in paths, and do not

@@ -17,9 +17,9 @@
 #include <vector>
 
 #include "io/file/errors.h"
-#include "io/file/lower_case.h"
 #include "io/file/text_numbers.h"
 #include "io/remote/address.h"
+#include "io/remote/http_headers.h"
 
 namespace mw::io {
 /// The result of an attempt.
@@ -51,85 +51,6 @@ constexpr std::uint64_t kMaxUnasked = 64ULL << 20U;
 constexpr const char* kTryLater = "try again later; a run that was saved goes on with --resume";
 constexpr const char* kPackedPart = "the part is packed (Content-Encoding)";
 constexpr const char* kBrokenServer = "ask those who run the server, or copy the volume to a disk";
-
-bool is_same_letters(std::string_view a, std::string_view b) {
-  return lower_case(a) == lower_case(b);
-}
-
-/// Takes a number off the front of text; false when there is none.
-bool take_number(std::string_view& text, std::uint64_t& number) {
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
-  if (error != std::errc()) return false;
-  text.remove_prefix(static_cast<std::size_t>(end - text.data()));
-  return true;
-}
-
-bool take_letter(std::string_view& text, char letter) {
-  if (text.empty() || text.front() != letter) return false;
-  text.remove_prefix(1);
-  return true;
-}
-
-/// The header Content-Range, such as "bytes 0-15/1024".
-struct ContentRange {
-  std::uint64_t first = 0;
-  std::uint64_t last = 0;
-  std::uint64_t file_bytes = 0;
-};
-
-std::optional<ContentRange> parse_content_range(std::string_view text) {
-  constexpr std::string_view kUnit = "bytes ";
-  if (!text.starts_with(kUnit)) return std::nullopt;
-  text.remove_prefix(kUnit.size());
-  ContentRange out;
-  const bool is_whole = take_number(text, out.first) && take_letter(text, '-') &&
-                        take_number(text, out.last) && take_letter(text, '/') &&
-                        take_number(text, out.file_bytes) && text.empty();
-  const bool is_sound = out.first <= out.last && out.last < out.file_bytes;
-  return is_whole && is_sound ? std::optional(out) : std::nullopt;
-}
-
-/// The headers of an answer, which is the last one behind redirects.
-struct Headers {
-  long status = 0;
-  std::string content_range;
-  std::string content_encoding;
-  std::string content_length;
-  std::string transfer_encoding;
-  bool has_frames = false;  ///< the protocol is HTTP/2 or later
-  std::string etag;
-  std::string last_modified;
-
-  void add(std::string_view line) {
-    if (line.starts_with("HTTP/")) {
-      *this = {};
-      has_frames = !line.starts_with("HTTP/1");
-      const std::size_t blank = std::min(line.find(' '), line.size() - 1);
-      std::from_chars(line.data() + blank + 1, line.data() + line.size(), status);
-      return;
-    }
-    const std::size_t colon = line.find(':');
-    if (colon == line.npos) return;
-    const std::string_view name = line.substr(0, colon);
-    const std::string value(trimmed(line.substr(colon + 1)));
-    if (is_same_letters(name, "content-range")) content_range = value;
-    if (is_same_letters(name, "content-encoding")) content_encoding = value;
-    if (is_same_letters(name, "content-length")) content_length = value;
-    if (is_same_letters(name, "transfer-encoding")) transfer_encoding = value;
-    if (is_same_letters(name, "etag")) etag = value;
-    if (is_same_letters(name, "last-modified")) last_modified = value;
-  }
-  [[nodiscard]] std::string version() const {
-    return etag.empty() || etag.starts_with("W/") ? last_modified : etag;
-  }
-  /// Whether a connection that breaks is told from the end of the body.
-  [[nodiscard]] bool has_end() const {
-    return has_frames || !content_length.empty() || is_same_letters(transfer_encoding, "chunked");
-  }
-  [[nodiscard]] bool is_packed() const {
-    return !content_encoding.empty() && !is_same_letters(content_encoding, "identity");
-  }
-};
 
 /// Starts the library once, before it is used by threads.
 void start_library() {
@@ -238,7 +159,7 @@ struct HttpClient::Exchange {
   std::uint64_t offset = 0;
   std::span<std::byte> out{};
 
-  Headers headers{};
+  HttpHeaders headers{};
   std::uint64_t received = 0;  ///< of the body
   std::uint64_t taken = 0;     ///< of a part
   bool is_too_large = false;
@@ -359,9 +280,8 @@ std::optional<std::uint64_t> HttpClient::Exchange::file_bytes() const {
     const auto range = parse_content_range(headers.content_range);
     return range ? std::optional(range->file_bytes) : std::nullopt;
   }
-  std::uint64_t length = 0;
-  std::string_view text = headers.content_length;
-  if (!headers.is_packed() && take_number(text, length) && text.empty()) return length;
+  const auto length = parse_count(headers.content_length);
+  if (!headers.is_packed() && length) return length;
   return is_ended ? std::optional(received) : std::nullopt;
 }
 
@@ -451,7 +371,7 @@ namespace {
 /// libcurl calls this for each header; nothing that C++ throws may pass through it.
 std::size_t on_header(char* bytes, std::size_t /*one*/, std::size_t count, void* target) noexcept {
   try {
-    static_cast<Headers*>(target)->add({bytes, count});
+    static_cast<HttpHeaders*>(target)->add({bytes, count});
     return count;
   } catch (...) {
     return 0;

@@ -143,12 +143,13 @@ void GroupedSink::place_tet(TetRows tet, Faces& faces) {
                   text("a tet names vertex ", row, " of ", mesh_.vertices_.size()));
     }
   }
-  const auto at = [&](std::size_t corner) { return mesh_.vertices_[tet[corner]]; };
+  std::array<Position, 4> corners{};
+  for (std::size_t i = 0; i < 4; ++i) corners[i] = mesh_.vertices_[tet[i]];
   for (const auto& [from, to] : kTetEdges) {
-    const Position edge = minus(at(to), at(from));
+    const Position edge = minus(corners[to], corners[from]);
     mesh_.shortest_square_ = std::min(mesh_.shortest_square_, dot(edge, edge));
   }
-  if (volume6(at(0), at(1), at(2), at(3)) < 0) std::swap(tet[2], tet[3]);
+  if (volume6(corners[0], corners[1], corners[2], corners[3]) < 0) std::swap(tet[2], tet[3]);
   const std::uint64_t number = mesh_.tets_.size();
   mesh_.tets_.append(tet);
   for (std::uint64_t opposite = 0; opposite < 4; ++opposite) {
