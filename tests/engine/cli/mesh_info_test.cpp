@@ -126,8 +126,9 @@ TEST_F(MeshInfoTest, VolumesHaveTheVolumeOfEachLabel) {
   expect_done("synth noise --shape 9,8,7 --labels 4 --seed 3 -o v.npy");
   const ProgramRun result = run("info v.npy --spacing 0.5,2,3 --json");
   ASSERT_EQ(result.code, 0) << result.err;
+  const json info = json::parse(result.out);
   double sum = 0;
-  for (const json& row : json::parse(result.out)["labels"]["per_label"]) {
+  for (const json& row : info["labels"]["per_label"]) {
     EXPECT_EQ(row["volume"], 3 * row["voxels"].get<double>());
     sum += row["volume"].get<double>();
   }
