@@ -6,12 +6,12 @@
 #include <algorithm>
 #include <array>
 #include <set>
-#include <string>
 #include <tuple>
 #include <utility>
 
+#include "io/file/errors.h"
+#include "io/file/text_numbers.h"
 #include "kernels/core/assert.h"
-#include "kernels/core/error.h"
 #include "kernels/core/index.h"
 
 namespace mw::io {
@@ -73,9 +73,10 @@ class WeldedVolume::Tile {
     }
   }
 
-  /// Finds what the places whose first voxel is in the tile fill.
-  void find(std::vector<Filled>& out) const {
-    for_each_index(tile_, [&](Index3 v) {
+  /// Finds what the places whose first voxel is in this layer of the tile fill.
+  void find(std::int64_t z, std::vector<Filled>& out) const {
+    const Box3 layer{{tile_.lo.x, tile_.lo.y, z}, {tile_.hi.x, tile_.hi.y, z + 1}};
+    for_each_index(layer, [&](Index3 v) {
       if (is_uniform(v)) return;
       at_edge(v, kSteps[0], kSteps[1], out);
       at_edge(v, kSteps[0], kSteps[2], out);
@@ -165,6 +166,49 @@ class WeldedVolume::Tile {
   std::vector<char> solid_;
 };
 
+/// What one round fills, while tiles are looked at.
+class WeldedVolume::Round {
+ public:
+  /// REQUIRES: `filled` voxels of earlier rounds are held too.
+  Round(std::size_t filled, std::uint64_t memory)
+      : filled_(filled), memory_(memory), slack_(memory / sizeof(Filled) / 8) {}
+
+  /// Takes what a tile fills.  A voxel may be found many times, so that what was found is put in
+  /// order layer by layer, whenever it has grown by an eighth of the limit.
+  void add(const Tile& tile, const Box3& voxels) {
+    for (std::int64_t z = voxels.lo.z; z < voxels.hi.z; ++z) {
+      tile.find(z, found_);
+      if (found_.size() > ordered_ + slack_) put_in_order();
+    }
+  }
+  /// Returns all, ascending and each voxel once.
+  [[nodiscard]] std::vector<Filled> take() && {
+    put_in_order();
+    return std::move(found_);
+  }
+
+ private:
+  void put_in_order() {
+    const auto same = [](const Filled& a, const Filled& b) { return a.at == b.at; };
+    std::sort(found_.begin(), found_.end(),
+              [](const Filled& a, const Filled& b) { return a.at < b.at; });
+    found_.erase(std::unique(found_.begin(), found_.end(), same), found_.end());
+    ordered_ = found_.size();
+    if ((filled_ + ordered_) * sizeof(Filled) <= memory_) return;
+    throw Error(
+        ErrorKind::kResource,
+        text("--weld: ", filled_ + ordered_,
+             " voxels and more would be filled, which takes more than ", size_words(memory_),
+             ", a quarter of --memory: raise it, or drop specks first (--drop-specks)"));
+  }
+
+  std::size_t filled_;
+  std::uint64_t memory_;
+  std::size_t slack_;
+  std::vector<Filled> found_;
+  std::size_t ordered_ = 0;  ///< how many were left when they were last put in order
+};
+
 WeldedVolume::WeldedVolume(const LabelVolume& volume, const std::vector<RawLabel>& givers,
                            std::uint64_t memory)
     : VolumeView(volume), givers_(givers, has_signed_labels(volume.info())) {
@@ -173,18 +217,22 @@ WeldedVolume::WeldedVolume(const LabelVolume& volume, const std::vector<RawLabel
   add_tiles_near({{0, 0, 0}, shape}, shape, tiles);
   std::vector<char> seen(givers_.size());
   for (bool is_first = true; !tiles.empty(); is_first = false) {
-    std::vector<Filled> found;
+    Round round(filled_.size(), memory);
     for (const TileKey& key : tiles) {
-      const Tile tile(*this, voxels_of(key, shape));
+      const Box3 voxels = voxels_of(key, shape);
+      const Tile tile(*this, voxels);
       if (is_first) tile.see_givers(seen);
-      tile.find(found);
+      round.add(tile, voxels);
     }
     if (is_first) check_givers(seen);
     tiles.clear();
+    const std::vector<Filled> found = std::move(round).take();
     const Index3 reach{kReach, kReach, kReach};
-    for (const Index3 v : take(std::move(found), memory)) {
+    for (const Filled& f : found) {
+      const Index3 v = voxel_at(f.at, shape);
       add_tiles_near({v - reach, v + reach + Index3{1, 1, 1}}, shape, tiles);
     }
+    keep(found);
   }
 }
 
@@ -197,27 +245,13 @@ void WeldedVolume::check_givers(const std::vector<char>& seen) const {
                                      "; mwmesh info lists its labels");
 }
 
-std::vector<Index3> WeldedVolume::take(std::vector<Filled> found, std::uint64_t memory) {
-  const auto order = [](const Filled& a, const Filled& b) { return a.at < b.at; };
-  const auto same = [](const Filled& a, const Filled& b) { return a.at == b.at; };
-  std::sort(found.begin(), found.end(), order);
-  found.erase(std::unique(found.begin(), found.end(), same), found.end());
-  const std::uint64_t bytes = (filled_.size() + found.size()) * sizeof(Filled);
-  if (bytes > memory) {
-    throw Error(ErrorKind::kResource,
-                "--weld: " + std::to_string(filled_.size() + found.size()) +
-                    " voxels and more would be filled, which takes more than " +
-                    std::to_string(memory >> 20U) +
-                    " MiB, a quarter of --memory: raise it, or drop specks first (--drop-specks)");
-  }
-  std::vector<Index3> out;
-  for (const Filled& f : found) out.push_back(voxel_at(f.at, info().shape));
+void WeldedVolume::keep(const std::vector<Filled>& found) {
   if (!found.empty()) ++facts_.rounds;
   facts_.voxels += found.size();
   const auto middle = static_cast<std::ptrdiff_t>(filled_.size());
   filled_.insert(filled_.end(), found.begin(), found.end());
-  std::inplace_merge(filled_.begin(), filled_.begin() + middle, filled_.end(), order);
-  return out;
+  std::inplace_merge(filled_.begin(), filled_.begin() + middle, filled_.end(),
+                     [](const Filled& a, const Filled& b) { return a.at < b.at; });
 }
 
 void WeldedVolume::read(const Box3& box, std::span<RawLabel> out) const {

@@ -48,10 +48,11 @@ class WeldedVolume : public VolumeView {
     RawLabel label = 0;
   };
   class Tile;
+  class Round;
 
   void check_givers(const std::vector<char>& seen) const;
-  /// Adds what one round fills, and returns those voxels.
-  std::vector<Index3> take(std::vector<Filled> found, std::uint64_t memory);
+  /// Adds what one round fills.  REQUIRES: found ascends, each voxel once.
+  void keep(const std::vector<Filled>& found);
 
   LabelTable givers_;
   std::vector<Filled> filled_;  ///< ascending

@@ -154,5 +154,40 @@ TEST(WeldedVolume, RefusesWhatItCannotDo) {
                [&] { WeldedVolume(volume, {0}, 1000); });
 }
 
+/// A volume that tells how far it was read.
+class WatchedVolume : public VolumeView {
+ public:
+  using VolumeView::VolumeView;
+  void read(const Box3& box, std::span<RawLabel> out) const override {
+    ++reads_;
+    below().read(box, out);
+  }
+  [[nodiscard]] int reads() const { return reads_; }
+
+ private:
+  mutable int reads_ = 0;
+};
+
+TEST(WeldedVolume, StopsAtTheFirstTileThatTakesTooMuch) {
+  std::mt19937 random(613);
+  const SmallVolume small = random_volume_of(random, VolumeKind::kNoise, {400, 4, 4}, 2);
+  const MemoryVolume volume = volume_of(small, VoxelType::kU32, {0, 1});
+  const WatchedVolume watched(volume);
+  expect_error(ErrorKind::kResource, {"--weld", "more than 1000 bytes"},
+               [&] { WeldedVolume(watched, {0}, 1000); });
+  EXPECT_EQ(watched.reads(), 1);
+}
+
+/// Many edges ask for one voxel, which counts once.
+TEST(WeldedVolume, NeedsNoMoreThanWhatItHolds) {
+  std::mt19937 random(614);
+  const SmallVolume small = random_volume_of(random, VolumeKind::kNoise, {20, 20, 20}, 2);
+  const MemoryVolume volume = volume_of(small, VoxelType::kU32, {0, 1});
+  const WeldedVolume free(volume, {0}, kEnough);
+  const std::uint64_t bytes = free.facts().voxels * 16;
+  EXPECT_EQ(read_all(WeldedVolume(volume, {0}, bytes)), read_all(free));
+  expect_error(ErrorKind::kResource, {"--weld"}, [&] { WeldedVolume(volume, {0}, bytes - 1); });
+}
+
 }  // namespace
 }  // namespace mw::io
