@@ -22,6 +22,8 @@ constexpr std::string_view kMagic{"\x93NUMPY", 6};
 constexpr std::string_view kSpaces = " \t\r\n";
 constexpr std::size_t kMaxDictBytes = 1 << 20;
 constexpr std::int64_t kMaxComponents = 65535;
+/// NumPy has no arrays with more axes.
+constexpr std::size_t kMaxAxes = 64;
 
 /// Returns the text behind `'key':`.
 std::string_view value_of(std::string_view dict, std::string_view key, std::string_view file) {
@@ -93,6 +95,7 @@ std::vector<std::int64_t> parse_tuple(std::string_view value, std::string_view f
 Index3 parse_shape(std::string_view value, NpyHeader& header, VoxelValues values,
                    std::string_view file) {
   std::vector<std::int64_t> axes = parse_tuple(value, file);
+  if (axes.size() > kMaxAxes) fail_axes(axes.size(), file);
   if (axes.size() == 2) axes.insert(axes.begin(), 1);
   // The array may be one volume of a series, or one channel.
   while (axes.size() > 3 && axes.front() == 1) axes.erase(axes.begin());

@@ -200,11 +200,18 @@ std::vector<std::int64_t> spatial_sizes(const FieldMap& fields, NrrdHeader& head
   return sizes;
 }
 
+/// The most axes of a NRRD file, by the format's definition.
+constexpr std::size_t kMaxNrrdAxes = 16;
+
 /// Returns the shape, and finds layers.
 Index3 parse_sizes(const FieldMap& fields, NrrdHeader& header, std::string_view file) {
   const auto all = parse_numbers<std::int64_t>(required(fields, "sizes", file), "sizes", file);
   const auto rank =
       parse_numbers<std::int64_t>(required(fields, "dimension", file), "dimension", file);
+  if (all.size() > kMaxNrrdAxes) {
+    fail_input(file, "NRRD field 'sizes'",
+               text("the volume has ", all.size(), " axes, 3 are needed"), "pick one channel");
+  }
   const std::vector<std::int64_t> sizes = spatial_sizes(fields, header, file);
   if (sizes.size() != 3 || rank.size() != 1 || rank[0] != static_cast<std::int64_t>(all.size())) {
     fail_input(file, "NRRD fields 'dimension' and 'sizes'",
@@ -272,9 +279,10 @@ Vector3 three_numbers(const std::string& value, std::string_view field, std::str
 void parse_steps(const FieldMap& fields, FileSpace& space, std::string_view file) {
   if (const auto found = fields.find("spacedirections"); found != fields.end()) {
     std::string vectors = found->second;
+    // Blanks keep the length, so that a header of many "none" is gone through only once.
     for (std::size_t at = vectors.find("none"); at != std::string::npos;
-         at = vectors.find("none")) {
-      vectors.replace(at, 4, " ");
+         at = vectors.find("none", at)) {
+      vectors.replace(at, 4, "    ");
     }
     const auto v = parse_numbers<double>(vectors, "space directions", file);
     if (v.size() != 9) fail_input(file, "NRRD field 'space directions'", "not three 3-vectors");

@@ -281,6 +281,10 @@ TEST(VolumeErrors, Npy) {
   expect_refused(dir, "a.npy", npy("<U4", "(2, 2, 2)"), {"descr", "unsupported"});
   expect_refused(dir, "a.npy", npy("|u1", "(8,)"), {"shape", "1 axes"});
   expect_refused(dir, "a.npy", npy("|u1", "(2, 2, 2, 1, 2)"), {"shape", "5 axes"});
+  std::string axes = "(";
+  for (int i = 0; i < 61; ++i) axes += "1, ";
+  EXPECT_EQ(read_all(*open_volume(dir.file("b.npy", npy("|u1", axes + "2, 2, 2)")))).size(), 8U);
+  expect_refused(dir, "a.npy", npy("|u1", axes + "1, 2, 2, 2)"), {"shape", "65 axes"});
   expect_refused(dir, "a.npy", npy("|u1", "(2, 0, 2)"), {"shape", "(y)", "not positive"});
   expect_refused(dir, "a.npy", npy("|u1", "(2, 2, -2)"), {"shape", "(x)", "not positive"});
   expect_refused(dir, "a.npy", npy("|u1", "(2, 2, 1048577)"), {"shape", "1048576", "32-bit"});
@@ -351,6 +355,17 @@ TEST(VolumeErrors, Nrrd) {
   refuse("type: uchar\nencoding: raw\ndimension: 2\nsizes: 4 2\n", {"2 axes"});
   refuse("type: uchar\nencoding: raw\ndimension: 3\nsizes: 2 2 x\n", {"sizes", "2 2 x"});
   refuse("type: uchar\nencoding: raw\ndimension: 3\nsizes: 2 2 3\n", {"12 bytes", "holds 8"});
+  std::string ones, nones;
+  for (int i = 0; i < 14; ++i) {
+    ones += " 1";
+    nones += " none";
+  }
+  refuse("type: uchar\nencoding: raw\ndimension: 17\nsizes: 2 2 2" + ones + "\n", {"17 axes"});
+  const std::string vectors = "space directions: (1,0,0) (0,1,0) (0,0,1)" + nones;
+  const std::string most = "type: uchar\nencoding: raw\ndimension: 16\nsizes: 2 2 2" +
+                           ones.substr(2) + "\n" + vectors.substr(0, vectors.size() - 5) + "\n";
+  EXPECT_EQ(read_all(*open_volume(dir.file("d.nrrd", "NRRD0004\n" + most + "\n" + kEight))).size(),
+            8U);
   refuse(good + "spacings: 1 nan 1\n", {"spacings", "--spacing"});
   refuse(good + "space directions: none (1,0,0) (0,1,0)\n", {"space directions"});
   refuse(good + "space origin: (0,inf,0)\n", {"space origin"});
