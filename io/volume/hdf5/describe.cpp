@@ -18,11 +18,20 @@ namespace {
 /// The most data sets that an error names.
 constexpr std::size_t kMaxNamed = 12;
 
+/// Returns the shape as the file has it.  H5Dget_space() would open the files of a virtual data
+/// set, to see how far they reach.
+Hdf5Handle space_of(hid_t set) {
+  const Hdf5Handle list(H5Dget_create_plist(set), &H5Pclose);
+  if (!list.valid()) return {};
+  const bool is_virtual = H5Pget_layout(list.get()) == H5D_VIRTUAL;
+  return {is_virtual ? H5Pget_virtual_vspace(list.get(), 0) : H5Dget_space(set), &H5Sclose};
+}
+
 Hdf5Entry entry_of(hid_t group, const char* name, std::string path) {
   Hdf5Entry entry{.path = std::move(path), .shape = {}, .type = "unreadable"};
   const Hdf5Handle set(H5Dopen2(group, name, H5P_DEFAULT), &H5Dclose);
   const Hdf5Handle type(set.valid() ? H5Dget_type(set.get()) : H5I_INVALID_HID, &H5Tclose);
-  const Hdf5Handle space(set.valid() ? H5Dget_space(set.get()) : H5I_INVALID_HID, &H5Sclose);
+  const Hdf5Handle space = set.valid() ? space_of(set.get()) : Hdf5Handle();
   if (!type.valid() || !space.valid()) return entry;
   std::vector<hsize_t> shape(H5S_MAX_RANK);
   const int rank = H5Sget_simple_extent_dims(space.get(), shape.data(), nullptr);

@@ -165,6 +165,29 @@ TEST_F(Hdf5Conventions, GeometryInAnotherFileIsNotRead) {
   }
 }
 
+/// How far a virtual data set reaches now is asked of no other file.
+TEST_F(Hdf5Conventions, ShapesThatAreListedComeFromTheFileItself) {
+  write_data_set(create_hdf5(dir_.path() / "b.h5"), "/b", {.shape = {9, 4, 5}},
+                 labels_of({.shape = {9, 4, 5}}));
+  {
+    const Hdf5Handle file = create();
+    const std::array<hsize_t, 3> now{2, 4, 5}, most{H5S_UNLIMITED, 4, 5}, start{0, 0, 0},
+        one{1, 1, 1};
+    const Hdf5Handle space(H5Screate_simple(3, now.data(), most.data()), &H5Sclose);
+    H5Sselect_hyperslab(space.get(), H5S_SELECT_SET, start.data(), nullptr, one.data(),
+                        most.data());
+    const Hdf5Handle storage(H5Pcreate(H5P_DATASET_CREATE), &H5Pclose);
+    const std::string other = (dir_.path() / "b.h5").string();
+    EXPECT_GE(H5Pset_virtual(storage.get(), space.get(), other.c_str(), "/b", space.get()), 0);
+    const Hdf5Handle set(H5Dcreate2(file.get(), "/a", H5T_STD_I32LE, space.get(), H5P_DEFAULT,
+                                    storage.get(), H5P_DEFAULT),
+                         &H5Dclose);
+    EXPECT_TRUE(set.valid());
+  }
+  expect_refused({"there are: /a 2 x 4 x 5 i32"}, named("/none"));
+  expect_refused({"other files", "virtual"});
+}
+
 TEST_F(Hdf5Conventions, Dream3dFromVersion8On) {
   const Hdf5Sample ids{.shape = {3, 4, 5, 1}, .type = VoxelType::kI32};
   {
