@@ -137,8 +137,10 @@ class DicomReader {
     const double value = OFStandard::atof(digits.c_str());
     return std::isfinite(value) ? value : 0;
   }
-  [[nodiscard]] std::int32_t whole(const DcmTagKey& key) const {
-    const double value = number(data_, key);
+  [[nodiscard]] std::int32_t whole(const DcmTagKey& key) const { return whole(data_, key); }
+  /// Returns -1 for what is none of 0 to 1e9.
+  [[nodiscard]] static std::int32_t whole(DcmItem* item, const DcmTagKey& key) {
+    const double value = number(item, key);
     return value >= 0 && value <= 1e9 ? static_cast<std::int32_t>(value) : -1;
   }
 
@@ -201,8 +203,8 @@ class DicomReader {
     DcmItem* const position = group(frame, DCM_PlanePositionSequence);
     demand(position != nullptr, "Plane Position Sequence", "a frame has no position");
     add_vector(position, DCM_ImagePositionPatient, 0, out.first);
-    out.segment = static_cast<std::int32_t>(
-        number(group(frame, DCM_SegmentIdentificationSequence), DCM_ReferencedSegmentNumber));
+    out.segment =
+        whole(group(frame, DCM_SegmentIdentificationSequence), DCM_ReferencedSegmentNumber);
     const DicomGrid grid = grid_of(frame);
     demand(grid.along_row != Vector3{} && grid.along_column != Vector3{},
            "Image Orientation (Patient)", "a frame has none");
@@ -258,9 +260,9 @@ class DicomReader {
       auto* const item = dynamic_cast<DcmItem*>(next);
       if (item == nullptr) continue;
       demand(item->tagExistsWithValue(DCM_SegmentNumber), "Segment Number", "a segment has none");
-      SentSegment out{.number = static_cast<std::int32_t>(number(item, DCM_SegmentNumber))};
+      SentSegment out{.number = whole(item, DCM_SegmentNumber)};
       demand(out.number >= least && out.number <= kMostSegmentNumber, "Segment Number",
-             text(out.number, " is not from ", least, " to ", kMostSegmentNumber));
+             text("a segment has none from ", least, " to ", kMostSegmentNumber));
       OFString label;
       item->findAndGetOFString(DCM_SegmentLabel, label);
       const std::string_view kept(label.c_str(), std::min(label.size(), kMostNameBytes));
