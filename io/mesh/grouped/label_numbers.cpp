@@ -78,6 +78,7 @@ LabelNumbers::LabelNumbers(const LabelTable& table, NumberRange range) : numbers
     while (taken.contains(low));
     numbers_[rank] = low;
   }
+  if (!numbers_.empty()) largest_ = *std::max_element(numbers_.begin(), numbers_.end());
 }
 
 void check_number(std::string_view file, std::uint64_t largest, const NumberLimit& limit) {

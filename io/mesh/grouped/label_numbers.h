@@ -3,7 +3,6 @@
 // Numbers in formats that have smaller ones: those of labels of 64 bits, of nodes and of elements.
 #pragma once
 
-#include <algorithm>
 #include <cstdint>
 #include <filesystem>
 #include <map>
@@ -34,12 +33,11 @@ class LabelNumbers {
   /// Returns the number of a label, by its rank.
   [[nodiscard]] std::int64_t operator[](Label rank) const { return numbers_[rank]; }
   /// Returns the largest number, or 0 where there are no labels.
-  [[nodiscard]] std::int64_t largest() const {
-    return numbers_.empty() ? 0 : *std::max_element(numbers_.begin(), numbers_.end());
-  }
+  [[nodiscard]] std::int64_t largest() const { return largest_; }
 
  private:
   std::vector<std::int64_t> numbers_;
+  std::int64_t largest_ = 0;
 };
 
 /// The largest number of a node or element in a format.

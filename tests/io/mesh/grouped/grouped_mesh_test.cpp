@@ -319,6 +319,9 @@ TEST(LabelNumbers, KeepWhatFitsAndComeBack) {
     const LabelTable table(labels, false);
     const LabelNumbers numbers(table);
     std::set<std::int64_t> seen;
+    std::int64_t largest = 0;
+    for (Label rank = 0; rank < table.size(); ++rank) largest = std::max(largest, numbers[rank]);
+    EXPECT_EQ(numbers.largest(), largest);
     const LabelNames names({{labels[0], "a \"quoted\", name", Colour{1, 2, 3, 4}}});
     write_label_table(path, table, names, numbers);
     NumberedLabels back(path);
