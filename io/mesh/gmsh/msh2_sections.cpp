@@ -3,8 +3,6 @@
 // Reads the sections of .msh 2.2, which many tools still write.
 #include "io/mesh/gmsh/msh_sections.h"
 
-#include <cstdlib>
-
 #include "io/file/errors.h"
 #include "io/file/text_numbers.h"
 #include "io/mesh/gmsh/msh_elements.h"
@@ -52,7 +50,7 @@ void read_element(MshInput& in, std::int64_t element, const Kind& kind, MshConte
   for (std::uint64_t& node : nodes) node = positive(in, in.integer("a node of an element"));
   ++out.elements;
   if (!kind.tet) return;
-  const std::int64_t number = physical != 0 ? std::abs(physical) : entity;
+  const std::int64_t number = physical != 0 ? without_sign(in, physical) : entity;
   out.mesh.add_tet(nodes, static_cast<RawLabel>(number));
   out.numbers.push_back(static_cast<std::uint64_t>(element));
 }

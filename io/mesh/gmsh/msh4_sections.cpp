@@ -3,8 +3,6 @@
 // Reads the sections of .msh 4.1.
 #include "io/mesh/gmsh/msh_sections.h"
 
-#include <cstdlib>
-
 #include "io/file/errors.h"
 #include "io/mesh/gmsh/msh_elements.h"
 
@@ -29,8 +27,9 @@ void read_entity(MshInput& in, std::int64_t dimension, MshContent& out) {
   const std::int64_t tag = in.integer("the tag of an entity");
   in.skip_reals(dimension == 0 ? 3 : 6);  // its place or box
   const std::int64_t physical = read_tags(in, "a physical group");
-  // The sign of a group tells the orientation.
-  if (dimension == kVolume && physical != 0) out.physical_of[tag] = std::abs(physical);
+  if (dimension == kVolume && physical != 0) {
+    out.physical_of[tag] = without_sign(in, physical);
+  }
   if (dimension > 0) static_cast<void>(read_tags(in, "what bounds an entity"));
 }
 

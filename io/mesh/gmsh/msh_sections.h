@@ -3,8 +3,10 @@
 // Reads the sections of .msh files in both versions into one content.
 #pragma once
 
+#include <limits>
 #include <map>
 
+#include "io/file/errors.h"
 #include "io/mesh/gmsh/msh_input.h"
 #include "io/mesh/tagged_mesh.h"
 
@@ -24,6 +26,14 @@ struct MshContent {
 };
 
 // ERRORS (all functions): see MshInput.
+
+/// Returns the number of a physical group, whose sign tells the orientation.
+[[nodiscard]] inline std::int64_t without_sign(const MshInput& in, std::int64_t group) {
+  if (group == std::numeric_limits<std::int64_t>::min()) {
+    in.fail(text(group, " is no number of a physical group"));
+  }
+  return group < 0 ? -group : group;
+}
 
 /// Read a section of version 4.1, from behind its first line, such as "$Entities", to its last.
 void read_msh4_entities(MshInput& in, MshContent& out);

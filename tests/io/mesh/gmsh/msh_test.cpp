@@ -203,6 +203,10 @@ TEST_F(Msh, RefusesWhatItDoesNotRead) {
              "$Nodes\n0 0 0 0\n$EndNodes\n$Elements\n1 1 1 1\n0 1 15 1\n1 1\n"
              "$EndElements\n",
          {"tetrahedron"});
+  constexpr const char* kLeast = "-9223372036854775808";
+  refuse(with(foreign(), "1 2 7 8", text("1 2 ", kLeast, " 8")), {kLeast, "group"});
+  refuse(with(version_2(false, false), "2 4 2 8 1", text("2 4 2 ", kLeast, " 1")),
+         {kLeast, "group"});
   dir_.file("m.msh.labels.csv", "id,number,name\n5,7,x\n");
   refuse(foreign(), {"12", "labels.csv"});
 }
