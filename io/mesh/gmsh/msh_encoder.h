@@ -15,9 +15,11 @@ namespace mw::io {
 /// ERRORS: see AtomicFile.
 class MshEncoder {
  public:
-  MshEncoder(const std::filesystem::path& path, bool ascii) : file_(path), ascii_(ascii) {}
+  MshEncoder(const std::filesystem::path& path, bool ascii)
+      : file_(path), name_(path.string()), ascii_(ascii) {}
 
   [[nodiscard]] bool ascii() const { return ascii_; }
+  [[nodiscard]] const std::string& name() const { return name_; }
   /// Adds a line such as "$Nodes".
   void begin_section(std::string_view name) { add_line("$", name); }
   /// Adds a line such as "$EndNodes".
@@ -42,6 +44,7 @@ class MshEncoder {
   void add(T number);
 
   AtomicFile file_;
+  std::string name_;
   std::string row_;
   bool ascii_;
 };

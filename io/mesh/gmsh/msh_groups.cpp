@@ -21,14 +21,23 @@ std::string without_quotes(std::string name) {
   return name;
 }
 
-/// Returns the name, or the plain one where it is longer than the 127 bytes that Gmsh documents.
-std::string gmsh_name(std::string name, const std::string& plain) {
-  constexpr std::size_t kMaxBytes = 127;
-  return name.size() > kMaxBytes ? plain : name;
+/// Gmsh documents this limit.
+constexpr std::size_t kMaxNameBytesOfGmsh = 127;
+
+/// True if the group is the first one of its name: all labels share that of a side.
+bool begins_name(const std::vector<FacetGroup>& groups, std::size_t g) {
+  return g == 0 || groups[g].side == Side::kInterface || groups[g].side != groups[g - 1].side;
 }
 
 std::string name_line(std::int32_t dimension, std::int64_t tag, const std::string& name) {
   return text(dimension, " ", tag, " \"", name, "\"");
+}
+
+void write_wedge_names(MshEncoder& out, const GroupedMesh& mesh, const LabelNumbers& labels) {
+  const PlainNames names(mesh);
+  for (std::size_t g = 0; g < mesh.wedge_groups().size(); ++g) {
+    out.add_line(name_line(kMshVolume, wedge_volume(labels, mesh, g), names.wedges(g)));
+  }
 }
 
 /// Writes a section ElementData, alike in both versions; number_of(tet) is the number of a tet.
@@ -40,9 +49,10 @@ void write_column(MshEncoder& out, GroupedMesh& mesh, const std::string& name, N
   // These are one time and three integers: its number, the components of a value, the values.
   for (const char* const line : {"1", "0", "3", "0", "1"}) out.add_line(line);
   out.add_line(text(mesh.facet_count() + mesh.tet_count() + mesh.wedge_count()));
-  std::int32_t element = 0;
+  std::uint64_t element = 0;
   const auto put = [&](std::uint64_t tet) {
-    out.put(++element);
+    ++element;
+    out.ascii() ? out.put(element) : out.put(static_cast<std::int32_t>(element));
     out.put(number_of(tet));
     out.end_row();
   };
@@ -83,29 +93,31 @@ void write_record(MshEncoder& out, const GroupedMesh& mesh) {
 }
 
 void write_physical_names(MshEncoder& out, const GroupedMesh& mesh, const LabelNumbers& labels) {
-  const GroupNames names(mesh, without_quotes);
+  const GroupNames names(mesh, without_quotes, kMaxNameBytesOfGmsh);
   const std::vector<FacetGroup>& groups = mesh.facet_groups();
-  std::vector<std::string> lines;
+  std::size_t count = mesh.table().size() + mesh.wedge_groups().size();
+  for (std::size_t g = 0; g < groups.size(); ++g) count += begins_name(groups, g) ? 1U : 0U;
+  out.begin_section("PhysicalNames");
+  out.add_line(text(count));
   for (std::size_t g = 0; g < groups.size(); ++g) {
-    const bool is_named_before =
-        g > 0 && groups[g].side != Side::kInterface && groups[g].side == groups[g - 1].side;
-    if (is_named_before) continue;
-    const std::string plain = plain_facet_name(mesh.table(), groups[g]);
-    lines.push_back(name_line(kMshSurface, physical_surface(labels, groups[g], g),
-                              gmsh_name(names.facets(groups[g]), plain)));
+    if (!begins_name(groups, g)) continue;
+    std::string name = names.facets(groups[g]);
+    if (name.size() > kMaxNameBytesOfGmsh) name = plain_facet_name(mesh.table(), groups[g]);
+    out.add_line(name_line(kMshSurface, physical_surface(labels, groups[g], g), name));
   }
   for (Label rank = 0; rank < mesh.table().size(); ++rank) {
-    const std::string plain = plain_volume_name(mesh.table(), rank);
-    lines.push_back(name_line(kMshVolume, labels[rank], gmsh_name(names.volume(rank), plain)));
+    out.add_line(name_line(kMshVolume, labels[rank], names.volume(rank)));
   }
-  const PlainNames plain_names(mesh);
-  for (std::size_t g = 0; g < mesh.wedge_groups().size(); ++g) {
-    lines.push_back(name_line(kMshVolume, wedge_volume(labels, mesh, g), plain_names.wedges(g)));
-  }
-  out.begin_section("PhysicalNames");
-  out.add_line(text(lines.size()));
-  for (const std::string& line : lines) out.add_line(line);
+  if (!mesh.wedge_groups().empty()) write_wedge_names(out, mesh, labels);
   out.add_line("$EndPhysicalNames");
+}
+
+void check_element_data(const MshEncoder& out, std::uint64_t elements) {
+  constexpr std::uint64_t kMost = std::numeric_limits<std::int32_t>::max();
+  if (out.ascii() || elements <= kMost) return;
+  throw Error(ErrorKind::kUsage,
+              text(out.name(), ": values of elements have numbers up to ", kMost, " in binary, ",
+                   elements, " are needed; write text (--ascii) or .vtkhdf"));
 }
 
 void write_element_data(MshEncoder& out, GroupedMesh& mesh) {

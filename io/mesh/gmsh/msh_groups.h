@@ -59,6 +59,10 @@ class MshTables {
   std::optional<AtomicFile> materials_;
 };
 
+/// ERRORS: mw::Error(kUsage) naming the file where this many elements cannot have values, because
+/// Gmsh numbers them in 32 bits there, in binary.
+void check_element_data(const MshEncoder& out, std::uint64_t elements);
+
 /// Writes a section ElementData for each of the values of tets, alike in both versions.  A triangle
 /// or a wedge has the value of the tet behind it, because meshio reads no data that only some
 /// elements have.

@@ -28,6 +28,9 @@ std::vector<std::vector<std::int32_t>> surfaces_of(const GroupedMesh& mesh,
 }  // namespace
 
 void MshWriter::write(GroupedMesh& mesh) {
+  if (!mesh.header().values.empty()) {
+    check_element_data(out_, mesh.facet_count() + mesh.tet_count() + mesh.wedge_count());
+  }
   Contents contents{mesh, msh_numbers(mesh), NodeClasses(mesh, folder_)};
   write_format();
   write_record(out_, mesh);

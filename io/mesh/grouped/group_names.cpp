@@ -5,6 +5,8 @@
 #include "io/mesh/grouped/group_names.h"
 
 #include <cctype>
+#include <unordered_map>
+#include <unordered_set>
 
 #include "io/file/errors.h"
 #include "io/names/csv_names.h"
@@ -47,6 +49,17 @@ std::string plain_text(std::string_view name, const NameRule& rule) {
   return out.empty() || is_letter(out.front()) ? out : "L_" + out;
 }
 
+/// Returns for each name whether it is one, is not too long, and no other is the same.
+std::vector<char> are_kept(const std::vector<std::string>& names, std::size_t max_bytes) {
+  std::unordered_map<std::string_view, std::size_t> uses;
+  for (const std::string& name : names) ++uses[name];
+  std::vector<char> out;
+  for (const std::string& name : names) {
+    out.push_back(!name.empty() && name.size() <= max_bytes && uses[name] == 1 ? 1 : 0);
+  }
+  return out;
+}
+
 }  // namespace
 
 const char* side_name(Side side) {
@@ -59,28 +72,42 @@ std::string label_digits(const LabelTable& table, Label rank) {
   return label_text(table.raw(rank), table.is_signed());
 }
 
-GroupNames::GroupNames(const GroupedMesh& mesh, const Spelling& spelled) {
-  const LabelTable& table = mesh.table();
-  const auto name_of = [&](Label rank) {
-    const std::string& name = mesh.names().name(table.raw(rank));
-    return spelled ? spelled(name) : name;
-  };
-  std::map<std::string, std::size_t> uses;
-  for (Label rank = 0; rank < table.size(); ++rank) ++uses[name_of(rank)];
-  for (Label rank = 0; rank < table.size(); ++rank) {
-    const std::string name = name_of(rank);
-    const std::string digits = label_digits(table, rank);
-    if (name.empty()) {
-      volumes_.push_back("label_" + digits);
-    } else {
-      volumes_.push_back(uses[name] > 1 ? text(name, " (", digits, ")") : name);
+GroupNames::GroupNames(const GroupedMesh& mesh, const Spelling& spelled, std::size_t max_bytes)
+    : table_(mesh.table()) {
+  for (Label rank = 0; rank < table_.size(); ++rank) {
+    const std::string& name = mesh.names().name(table_.raw(rank));
+    volumes_.push_back(spelled ? spelled(name) : name);
+  }
+  const std::vector<char> kept = are_kept(volumes_, max_bytes);
+  std::unordered_set<std::string_view> taken;
+  for (Label rank = 0; rank < table_.size(); ++rank) {
+    if (kept[rank] != 0) taken.insert(volumes_[rank]);
+  }
+  for (Label rank = 0; rank < table_.size(); ++rank) {
+    std::string& name = volumes_[rank];
+    if (kept[rank] == 0) {
+      const std::string behind = text(" (", label_digits(table_, rank), ")");
+      name = name.empty() ? "label_" + label_digits(table_, rank) : name + behind;
+      if (name.size() > max_bytes) name = plain_volume_name(table_, rank);
+      while (taken.contains(name)) name += behind;
+      taken.insert(name);
     }
+    if (name.find('|') != std::string::npos) barred_.insert(name);
   }
 }
 
+/// Where no name has a '|', that of an interface has one, which says what both labels are called.
+/// The others end in different labels, and have two or more.
 std::string GroupNames::facets(const FacetGroup& group) const {
   if (group.side != Side::kInterface) return side_name(group.side);
-  return volume(group.first) + "|" + volume(group.second);
+  std::string name = volume(group.first) + "|" + volume(group.second);
+  bool is_taken = is_barred(group.first) || is_barred(group.second) || barred_.contains(name);
+  while (is_taken) {
+    name +=
+        text(" (", label_digits(table_, group.first), "|", label_digits(table_, group.second), ")");
+    is_taken = barred_.contains(name);
+  }
+  return name;
 }
 
 std::string plain_volume_name(const LabelTable& table, Label rank) {

@@ -5,6 +5,7 @@
 #pragma once
 
 #include <functional>
+#include <limits>
 #include <map>
 #include <set>
 #include <string>
@@ -24,21 +25,31 @@ namespace mw::io {
 [[nodiscard]] std::string label_digits(const LabelTable& table, Label rank);
 
 /// Names for people, made of the names of labels.
+/// ENSURES: no two labels have one name, and an interface has neither the name of another one nor
+/// that of a label.
 class GroupNames {
  public:
   /// Where a format cannot write all names, spelled returns a label's name as it can.
   using Spelling = std::function<std::string(const std::string&)>;
-  explicit GroupNames(const GroupedMesh& mesh, const Spelling& spelled = {});
+  /// Labels with a longer name than max_bytes have plain_volume_name().
+  /// REQUIRES: the mesh outlives this.
+  explicit GroupNames(const GroupedMesh& mesh, const Spelling& spelled = {},
+                      std::size_t max_bytes = std::numeric_limits<std::size_t>::max());
 
   /// Returns the label's name; "label_7" where it has none, "name (7)" where another has the same
-  /// (or is spelled so).
+  /// (or is spelled so).  Where that is the name of another label, " (7)" follows once more.
   [[nodiscard]] const std::string& volume(Label rank) const { return volumes_[rank]; }
-  /// Returns the names of both labels of an interface, the lower label first: "liver|kidney".
+  /// Returns the names of both labels of an interface, the lower label first: "liver|kidney".  The
+  /// labels follow, as in "a|b|c (1|2)", where a name has a '|' or a label is called like that.
   /// Facets on a side of the box have the name of that side, which is the same for all labels.
   [[nodiscard]] std::string facets(const FacetGroup& group) const;
 
  private:
+  [[nodiscard]] bool is_barred(Label rank) const { return barred_.contains(volumes_[rank]); }
+
+  const LabelTable& table_;
   std::vector<std::string> volumes_;
+  std::set<std::string> barred_;  ///< those of volumes_ that have a '|'
 };
 
 /// Return names by numbers alone: "LABEL_7", "FACE_1_2", "X_MIN", "OUTER".  The label -7 is "M7".

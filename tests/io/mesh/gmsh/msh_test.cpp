@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: The mwmesh authors
 // SPDX-License-Identifier: Apache-2.0
 // Gmsh files: what we write comes back, what others write is read, damage is refused.
+#include "io/mesh/gmsh/msh_groups.h"
 #include "io/mesh/gmsh/node_classes.h"
 #include "io/mesh/grouped/grouped_sink.h"
 #include "tests/io/mesh/grid_mesh.h"
@@ -90,6 +91,49 @@ TEST_F(Msh, NamesThatMeetWithoutTheirQuotesHaveTheirLabels) {
     EXPECT_THAT(content, testing::HasSubstr(line));
   }
   EXPECT_TRUE(std::ranges::equal(read_mesh(path()).names.rows(), mesh.names.rows()));
+}
+
+/// Returns the names of section PhysicalNames.
+std::vector<std::string> physical_names(const std::string& content) {
+  std::vector<std::string> out;
+  std::istringstream lines(content.substr(content.find("$PhysicalNames\n")));
+  std::string line;
+  std::getline(lines, line);
+  std::getline(lines, line);
+  const std::size_t count = std::stoul(line);
+  while (std::getline(lines, line) && line != "$EndPhysicalNames") {
+    out.push_back(line.substr(line.find('"')));
+  }
+  EXPECT_EQ(out.size(), count);
+  return out;
+}
+
+TEST_F(Msh, NoTwoGroupsHaveOneName) {
+  MeshData mesh = grid_mesh({3, 3, 3}, 5);
+  for (std::size_t t = 0; t < mesh.tets.size(); ++t) mesh.labels[t] = 1 + t % 8;
+  mesh.names = LabelNames({{2, "label_1", {}},
+                           {3, "LABEL_4", {}},
+                           {4, std::string(200, 'x'), {}},
+                           {5, "a|b", {}},
+                           {6, "c", {}},
+                           {7, "a", {}},
+                           {8, "b|c", {}}});
+  for (const char* const file : {"m.msh", "m.msh2"}) {
+    save(mesh, dir_.path() / file);
+    std::vector<std::string> names = physical_names(content_of(dir_.path() / file));
+    std::sort(names.begin(), names.end());
+    EXPECT_EQ(std::adjacent_find(names.begin(), names.end()), names.end()) << file;
+    EXPECT_THAT(names, testing::IsSupersetOf({"\"label_1\"", "\"LABEL_4\"", "\"a|b\""}));
+  }
+}
+
+TEST(MshElementData, RefusesNumbersThatBinaryFilesCannotHold) {
+  const TempDir dir;
+  const auto path = dir.path() / "m.msh";
+  check_element_data(MshEncoder(path, true), 2147483648);
+  check_element_data(MshEncoder(path, false), 2147483647);
+  expect_error(ErrorKind::kUsage, {path.string(), "2147483648", "--ascii"},
+               [&] { check_element_data(MshEncoder(path, false), 2147483648); });
 }
 
 constexpr const char* kHead4 = "$MeshFormat\n4.1 0 8\n$EndMeshFormat\n";

@@ -233,6 +233,25 @@ TEST(GroupNames, NamesOfLabelsAreUniqueAndSidesShareOne) {
   EXPECT_EQ(plain_volume_name(LabelTable({static_cast<RawLabel>(-5)}, true), 0), "LABEL_M5");
 }
 
+TEST(GroupNames, DifferWhateverLabelsAreCalled) {
+  MeshData mesh = grid_mesh({2, 2, 2}, 5);
+  for (std::size_t t = 0; t < mesh.tets.size(); ++t) mesh.labels[t] = 1 + t % 6;
+  mesh.names = LabelNames(
+      {{2, "label_1", {}}, {3, "x", {}}, {4, "x", {}}, {5, "x (3)", {}}, {6, "label_1|x (3)", {}}});
+  const TempDir dir;
+  GroupedSink sink(dir.path(), nullptr);
+  const GroupedMesh& found = grouped(sink, mesh);
+  const GroupNames names(found);
+  EXPECT_EQ(names.volume(0), "label_1 (1)");
+  EXPECT_EQ(names.volume(1), "label_1");
+  EXPECT_EQ(names.volume(2), "x (3) (3)");
+  EXPECT_EQ(names.volume(3), "x (4)");
+  EXPECT_EQ(names.volume(4), "x (3)");
+  EXPECT_EQ(names.facets({.first = 1, .second = 4}), "label_1|x (3) (2|5)");
+  EXPECT_EQ(names.facets({.first = 1, .second = 3}), "label_1|x (4)");
+  EXPECT_EQ(names.facets({.first = 4, .second = 5}), "x (3)|label_1|x (3) (5|6)");
+}
+
 /// Every name by the rules of Abaqus, and no two the same by them.
 void expect_plain(const GroupedMesh& mesh) {
   const PlainNames names(mesh);
