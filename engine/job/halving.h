@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: The mwmesh authors
 // SPDX-License-Identifier: Apache-2.0
 // Sizes below some 1.4 voxels: the marches make edges twice as long, and the mesh that is written
-// has each tet cut into eight.
+// has each tet cut into eight, with interfaces that are smoother than those of the marches.
 #pragma once
 
 #include <functional>
@@ -23,22 +23,24 @@ namespace mw::engine {
 /// least size that can be kept; when several processes would have to cut.
 [[nodiscard]] int halvings_of(const io::VolumeInfo& volume, const MeshJob& job, double in_image);
 
-/// Returns the sizes for marches whose tets are cut this often afterwards.
-[[nodiscard]] SizeSettings before_halvings(SizeSettings sizes, int times);
+/// Returns the settings for marches whose tets are cut this often afterwards: larger sizes, and a
+/// smaller bound on the distance, as interfaces move when they become smoother.
+[[nodiscard]] MeshSettings before_halvings(MeshSettings settings, int times);
 
 /// The sinks that cut, one behind the other, and the figures of what they write.
 class Halving {
  public:
-  /// With times 0 the mesh is passed on as it is.  The job's stop() is called often while tets are
-  /// cut.  sizes are by dense label, 0 where none is asked; if empty, edges are not measured.
-  /// REQUIRES: below and table outlive it.
-  Halving(int times, io::MeshSink& below, const MeshJob& job, const io::LabelTable& table,
+  /// With times 0 the mesh is passed on as it is.  The job has the settings that were asked for;
+  /// its stop() is called often while tets are cut.  sizes are by dense label, 0 where none is
+  /// asked; if empty, edges are not measured.  REQUIRES: below and volume outlive it.
+  Halving(int times, io::MeshSink& below, const MeshJob& job, const io::DenseVolume& volume,
           std::vector<double> sizes);
 
   /// Returns where the mesh of the marches goes.
   [[nodiscard]] io::MeshSink& sink() { return cuts_.empty() ? below_ : *cuts_.back(); }
   /// Puts the figures of what was written in the place of those of the marches' mesh; those of
-  /// surfaces stay, as surfaces do.  REQUIRES: the sink is finished.
+  /// surfaces stay, and are of surfaces before they became smoother.
+  /// REQUIRES: the sink is finished.
   void report(RunReport& out);
 
  private:

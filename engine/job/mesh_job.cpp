@@ -332,7 +332,7 @@ report::FinishedRun mesh(const io::LabelVolume& opened, const MeshJob& asked, io
   const int halvings =
       halvings_of(opened.info(), asked,
                   sizes ? least_size_of(*sizes, job) : std::numeric_limits<double>::infinity());
-  job.settings.sizes = before_halvings(asked.settings.sizes, halvings);
+  job.settings = before_halvings(asked.settings, halvings);
   check(opened.info(), job.settings);
   check_keep(job.run, job.settings);
   const io::LabelScores* const scores = opened.scores();
@@ -376,7 +376,7 @@ report::FinishedRun mesh(const io::LabelVolume& opened, const MeshJob& asked, io
   std::optional<Certifier> certifier;
   if (plan.why_not.empty()) certifier.emplace(plan, job, labels, target, job.stop);
   const bool has_edges = job.is_measured && run.sizes.rules.any();
-  Halving halving(halvings, certifier ? certifier->sink() : target, job, run.labels,
+  Halving halving(halvings, certifier ? certifier->sink() : target, asked, labels,
                   has_edges ? edge_sizes(run.sizes.rules, run.labels) : std::vector<double>{});
   std::optional<ImageSampler> sampler;
   if (!job.samples.empty()) {
@@ -410,7 +410,7 @@ report::FinishedRun mesh(const io::LabelVolume& opened, const MeshJob& asked, io
   kept.finish(job.steps, size);
   if (run.engine.keep) run.engine.keep->voxels_read = kept.voxels_read();
   if (sampler) run.samples = sampler->facts();
-  io::MeshPromises promises = promises_of(job.settings);
+  io::MeshPromises promises = promises_of(asked.settings);
   promises.halvings = halvings;
   run.radius_ratio_floor = floor_of(promises);
   run.why_no_certificate = plan.why_not;

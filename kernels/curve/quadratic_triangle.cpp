@@ -51,6 +51,17 @@ Vec3 sum_of(const Weights& weights, const QuadraticTriangle& nodes) {
   return out;
 }
 
+/// Returns the flat triangle between three of the nodes, with its middles.
+QuadraticTriangle straight_triangle(const QuadraticTriangle& nodes,
+                                    const std::array<std::size_t, 3>& corners) {
+  QuadraticTriangle out;
+  for (std::size_t i = 0; i < 3; ++i) {
+    out[i] = nodes[corners[i]];
+    out[3 + i] = 0.5 * (nodes[corners[i]] + nodes[corners[(i + 1) % 3]]);
+  }
+  return out;
+}
+
 }  // namespace
 
 std::array<double, 3> swept_volumes(const QuadraticTriangle& from, const QuadraticTriangle& to) {
@@ -69,6 +80,23 @@ std::array<double, 3> swept_volumes(const QuadraticTriangle& from, const Quadrat
           0.5 * kSimpson[step] * point.weight * sum_of(point.shapes, move).dot(normal);
       for (std::size_t i = 0; i < 3; ++i) out[i] += volume * point.hats[i];
     }
+  }
+  return out;
+}
+
+std::array<double, 3> swept_part_volumes(const QuadraticTriangle& from,
+                                         const QuadraticTriangle& to) {
+  constexpr std::array<std::array<std::size_t, 3>, 4> kParts{
+      {{0, 3, 5}, {3, 1, 4}, {5, 4, 2}, {3, 4, 5}}};
+  std::array<double, 6> at_nodes{};
+  for (const auto& part : kParts) {
+    const std::array<double, 3> volumes =
+        swept_volumes(straight_triangle(from, part), straight_triangle(to, part));
+    for (std::size_t i = 0; i < 3; ++i) at_nodes[part[i]] += volumes[i];
+  }
+  std::array<double, 3> out{};
+  for (std::size_t i = 0; i < 3; ++i) {
+    out[i] = at_nodes[i] + 0.5 * (at_nodes[3 + i] + at_nodes[3 + (i + 2) % 3]);
   }
   return out;
 }

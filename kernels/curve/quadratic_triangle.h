@@ -22,4 +22,9 @@ using QuadraticTriangle = std::array<Vec3, 6>;
 [[nodiscard]] std::array<double, 3> swept_volumes(const QuadraticTriangle& from,
                                                   const QuadraticTriangle& to);
 
+/// Returns the same for the four straight triangles that the nodes make: one at each corner, and
+/// one between the middles.  The volume at a middle belongs to the two corners beside it.
+[[nodiscard]] std::array<double, 3> swept_part_volumes(const QuadraticTriangle& from,
+                                                       const QuadraticTriangle& to);
+
 }  // namespace mw

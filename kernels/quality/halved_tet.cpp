@@ -39,12 +39,7 @@ double least_ratio(const Parts& parts, const std::array<Vec3, 10>& nodes) {
 
 }  // namespace
 
-Parts halved_tet(const std::array<Vec3, 4>& corners) {
-  std::array<Vec3, 10> nodes;
-  std::copy(corners.begin(), corners.end(), nodes.begin());
-  for (std::size_t e = 0; e < kTetEdges.size(); ++e) {
-    nodes[4 + e] = 0.5 * (corners[kTetEdges[e][0]] + corners[kTetEdges[e][1]]);
-  }
+Parts halved_tet(const std::array<Vec3, 10>& nodes) {
   Parts best = kTetParts, next = kTetParts;
   double ratio = least_ratio(best, nodes);
   for (int diagonal = 1; diagonal < 3; ++diagonal) {

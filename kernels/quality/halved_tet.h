@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The mwmesh authors
 // SPDX-License-Identifier: Apache-2.0
-// A tet is cut into eight by the middles of its edges.
+// A tet is cut into eight by nodes on its edges.
 #pragma once
 
 #include <array>
@@ -11,13 +11,12 @@
 namespace mw {
 
 /// Returns the eight parts of a positive tet by its ten nodes (kernels/core/ten_nodes.h): one at
-/// each corner, which is like the tet itself, and four around one of three diagonals between the
-/// middles of opposite edges.  The diagonal is the one whose worst part has the largest radius
-/// ratio, of equal ones the first.
-/// ENSURES: the parts are positive where the middles are exact; a triangle is cut alike from both
-/// of its sides, into four that are like it.
+/// each corner, and four around one of three diagonals between the nodes of opposite edges.  The
+/// diagonal is the one whose worst part has the largest radius ratio, of equal ones the first.
+/// ENSURES: a triangle is cut alike from both of its sides; where nodes are the exact middles of
+/// edges the parts are positive, and those at the corners are like the tet.
 [[nodiscard]] std::array<std::array<std::size_t, 4>, 8> halved_tet(
-    const std::array<Vec3, 4>& corners);
+    const std::array<Vec3, 10>& nodes);
 
 /// Returns a radius ratio that the parts of a tet of ratio `floor` or more have.  It is 1.8
 /// floor^2, with 0.4 in place of larger floors, rounded down to three digits.

@@ -69,15 +69,21 @@ void add_to(Position& sum, const Vec3& v) {
   for (std::size_t k = 0; k < 3; ++k) sum[k] += v[static_cast<int>(k)];
 }
 
+Vec3 no_longer(const Vec3& move, double most) {
+  const double length = move.norm();
+  return length <= most ? move : move * (most / length);
+}
+
 bool is_box_side(Side side) {
   return side != Side::kInterface && side != Side::kOuter;
 }
 
 class Curving {
  public:
-  Curving(GroupedMesh& mesh, const std::filesystem::path& folder)
+  Curving(GroupedMesh& mesh, const std::filesystem::path& folder, const CurveRule& rule)
       : mesh_(mesh),
         folder_(folder),
+        rule_(rule),
         corners_(folder, mesh.vertex_count()),
         edges_(folder, mesh.node_count() - mesh.vertex_count()) {
     const auto& promises = mesh.header().record.promises;
@@ -91,7 +97,7 @@ class Curving {
     each_edge([this](std::uint64_t number, const Edge& edge) { bulge(number, edge); });
     for (std::uint64_t v = 0; v < corners_.size(); ++v) go_back(v);
     for (int round = 0; round < kRounds; ++round) balance();
-    return straightened(mesh_, moves(), folder_);
+    return straightened(mesh_, moves(), folder_, rule_.has_straight_parts);
   }
 
  private:
@@ -281,9 +287,8 @@ class Curving {
     corners_.change(v, [&](Corner& c) { c.move = position_of(within(move, c)); });
   }
 
-  [[nodiscard]] static Vec3 within(const Vec3& move, const Corner& corner) {
-    const double length = move.norm(), most = kMaxMove * corner.shortest;
-    return length <= most ? move : move * (most / length);
+  [[nodiscard]] Vec3 within(const Vec3& move, const Corner& corner) const {
+    return no_longer(move, std::min(kMaxMove * corner.shortest, rule_.most_move));
   }
 
   /// Moves corners so that each gives back the volume that its surroundings took.
@@ -311,7 +316,8 @@ class Curving {
       to[i] = from[i] + vector_of(corners_.get(facet.rows[i]).move);
       to[3 + i] = from[3 + i] + middle_move(edges_.get(edge_of(middles[i])));
     }
-    std::array<double, 3> volumes = swept_volumes(from, to);
+    std::array<double, 3> volumes =
+        rule_.has_straight_parts ? swept_part_volumes(from, to) : swept_volumes(from, to);
     hand_on(facet, volumes);
     for (std::size_t i = 0; i < 3; ++i) {
       corners_.change(facet.rows[i], [&](Corner& corner) { corner.volume += volumes[i]; });
@@ -338,7 +344,7 @@ class Curving {
   [[nodiscard]] Vec3 middle_move(const Edge& edge) {
     const Vec3 one = vector_of(corners_.get(edge.corners[0]).move);
     const Vec3 other = vector_of(corners_.get(edge.corners[1]).move);
-    return 0.5 * (one + other) + vector_of(edge.bulge);
+    return no_longer(0.5 * (one + other) + vector_of(edge.bulge), rule_.most_move);
   }
 
   /// Returns the moves by node; middles of edges on no interface follow from their corners.
@@ -358,6 +364,7 @@ class Curving {
 
   GroupedMesh& mesh_;
   std::filesystem::path folder_;
+  CurveRule rule_;
   PagedArray<Corner> corners_;
   PagedArray<Edge> edges_;
   bool is_periodic_ = false;
@@ -365,8 +372,9 @@ class Curving {
 
 }  // namespace
 
-PagedArray<Position> curve_nodes(GroupedMesh& mesh, const std::filesystem::path& folder) {
-  return Curving(mesh, folder).run();
+PagedArray<Position> curve_nodes(GroupedMesh& mesh, const std::filesystem::path& folder,
+                                 const CurveRule& rule) {
+  return Curving(mesh, folder, rule).run();
 }
 
 }  // namespace mw::io

@@ -3,12 +3,22 @@
 // Curved interfaces: where the ten nodes of each tet lie.
 #pragma once
 
+#include <limits>
+
 #include "io/file/scratch/paged_array.h"
 #include "io/mesh/grouped/grouped_mesh.h"
 
 namespace mw::io {
 
-/// Finds places for all nodes of a mesh with kCurvedTet10, from its straight tets alone.
+/// What becomes of the nodes that curve_nodes() places.
+struct CurveRule {
+  /// They are corners of straight tets, the parts of halved_tet(), and not nodes of curved ones.
+  bool has_straight_parts = false;
+  /// No node moves farther.
+  double most_move = std::numeric_limits<double>::infinity();
+};
+
+/// Finds places for all nodes of a mesh with middles, from its straight tets alone.
 ///
 /// Interfaces of straight triangles that enclose the right volume have their corners outside of a
 /// smooth convex surface, and the middles of their edges on it or inside.  Here both come to lie on
@@ -21,16 +31,18 @@ namespace mw::io {
 /// degrees its edges form lines.  These are curved likewise, by tangents; in a side of the box they
 /// stay in it.  Corners at the ends of lines stay, and so does a side of a periodic box.
 ///
-/// ENSURES: the Jacobian of each tet is at least kLeastJacobian of what it was, everywhere in it,
-/// proven by its Bernstein coefficients, and so are the parts of kTetParts; the straight tets
-/// between the corners keep the quality floor of the mesh's record, which is kCurvedFloor of the
-/// straight mesh's.  Where this would break, nodes go half the way, a quarter, or nowhere.  Edges
-/// inside of labels are straight, with their nodes in the middle.
+/// ENSURES: the Jacobian of each curved tet is at least kLeastJacobian of what it was, everywhere
+/// in it, proven by its Bernstein coefficients, and so are the parts of kTetParts; the straight
+/// tets between the corners keep the quality floor of the mesh's record, which is kCurvedFloor of
+/// the straight mesh's.  Straight parts have at least kLeastJacobian of the volume that they had,
+/// and the radius ratio that halved_floor() tells.  Where this would break, nodes go half the way,
+/// a quarter, or nowhere.  Edges inside of labels are straight, with their nodes in the middle.
 /// Memory: 24 MiB.  Disk: some 400 bytes a vertex and 120 an edge.
 /// ERRORS: see ScratchFile.
 /// REQUIRES: facets and middles were found; no vertex is doubled.
 [[nodiscard]] PagedArray<Position> curve_nodes(GroupedMesh& mesh,
-                                               const std::filesystem::path& folder);
+                                               const std::filesystem::path& folder,
+                                               const CurveRule& rule);
 
 /// The least share of six times a straight tet's volume that the Jacobian of the curved one keeps.
 inline constexpr double kLeastJacobian = 0.1;

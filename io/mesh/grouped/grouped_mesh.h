@@ -169,7 +169,7 @@ class GroupedMesh {
   std::vector<WedgeGroup> wedge_groups_;
   PagedFile<std::array<std::uint64_t, 2>> edges_;    ///< corners of each edge, with middles only
   PagedFile<std::array<std::uint64_t, 6>> middles_;  ///< by tet, with middles only
-  std::optional<PagedArray<Position>> curved_;       ///< all nodes, with kCurvedTet10 only
+  std::optional<PagedArray<Position>> curved_;       ///< all nodes, with curves only
 };
 
 /// Writes a grouped mesh into the file that its constructor has opened.

@@ -6,7 +6,6 @@
 #include <algorithm>
 
 #include "io/file/errors.h"
-#include "io/mesh/grouped/curved_nodes.h"
 #include "io/mesh/tet_record.h"
 #include "kernels/core/assert.h"
 #include "kernels/core/tet_facets.h"
@@ -28,9 +27,15 @@ std::array<std::uint64_t, 3> facet_rows(const TetRows& tet, std::uint64_t opposi
 }  // namespace
 
 GroupedSink::GroupedSink(const std::filesystem::path& folder, std::unique_ptr<GroupedWriter> writer,
-                         Element element)
-    : folder_(folder), mesh_(folder), tets_(folder), values_(folder), writer_(std::move(writer)) {
+                         Element element, std::optional<CurveRule> curves)
+    : folder_(folder),
+      mesh_(folder),
+      tets_(folder),
+      values_(folder),
+      writer_(std::move(writer)),
+      curves_(curves) {
   mesh_.element_ = element;
+  if (element == Element::kCurvedTet10) curves_.emplace();
 }
 
 void GroupedSink::begin(const MeshHeader& header) {
@@ -81,8 +86,7 @@ std::uint64_t GroupedSink::buffer_bytes() const {
   constexpr std::uint64_t kOfCorners = 64 << 20;
   constexpr std::uint64_t kOfMiddles = 32 << 20;
   constexpr std::uint64_t kOfCurves = 32 << 20;
-  return kOfCorners + (has_middles(mesh_.element_) ? kOfMiddles : 0) +
-         (mesh_.element_ == Element::kCurvedTet10 ? kOfCurves : 0);
+  return kOfCorners + (has_middles(mesh_.element_) ? kOfMiddles : 0) + (curves_ ? kOfCurves : 0);
 }
 
 void GroupedSink::group() {
@@ -99,7 +103,7 @@ void GroupedSink::group() {
   number_facets(facets);
   find_wedges();
   if (has_middles(mesh_.element_)) find_middles();
-  if (mesh_.element_ == Element::kCurvedTet10) mesh_.curved_.emplace(curve_nodes(mesh_, folder_));
+  if (curves_) mesh_.curved_.emplace(curve_nodes(mesh_, folder_, *curves_));
 }
 
 void GroupedSink::find_box() {

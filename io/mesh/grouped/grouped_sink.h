@@ -5,13 +5,14 @@
 
 #include "io/file/scratch/external_sort.h"
 #include "io/labels/label_set.h"
+#include "io/mesh/grouped/curved_nodes.h"
 #include "io/mesh/grouped/grouped_mesh.h"
 #include "io/mesh/merged_vertices.h"
 
 namespace mw::io {
 
 /// Collects a mesh; finish() groups it and calls the writer.
-/// Memory: 64 MiB, 96 with kTet10, 128 with kCurvedTet10, whatever the mesh; the rest waits in
+/// Memory: 64 MiB, 96 with kTet10, 128 with curves, whatever the mesh; the rest waits in
 /// temporary files in `folder`, at most some 400 bytes a tet (1,000 with kTet10, 1,300 with curved
 /// ones).
 /// ERRORS: see MeshSink; kInput when a tet names a vertex that never came, or three tets share a
@@ -19,9 +20,11 @@ namespace mw::io {
 /// with doubled vertices.
 class GroupedSink : public MeshSink {
  public:
-  /// writer may be empty where the caller takes the mesh.  REQUIRES: folder exists.
+  /// writer may be empty where the caller takes the mesh.  With curves, nodes lie where
+  /// curve_nodes() places them; kCurvedTet10 has curves of its own.
+  /// REQUIRES: folder exists; curves: an element with middles.
   GroupedSink(const std::filesystem::path& folder, std::unique_ptr<GroupedWriter> writer,
-              Element element = Element::kTet4);
+              Element element = Element::kTet4, std::optional<CurveRule> curves = {});
 
   void begin(const MeshHeader& header) override;
   void write_vertices(std::span<const Position> positions) override;
@@ -66,6 +69,7 @@ class GroupedSink : public MeshSink {
   Position lo_{};
   Position hi_{};
   std::unique_ptr<GroupedWriter> writer_;
+  std::optional<CurveRule> curves_;
 };
 
 }  // namespace mw::io

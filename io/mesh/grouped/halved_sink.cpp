@@ -15,12 +15,16 @@ constexpr std::size_t kHalvedBatch = 512;  ///< uncut tets whose parts are passe
 /// Passes on the eight parts of each tet of a mesh with ten nodes a tet.
 class HalvedWriter : public GroupedWriter {
  public:
-  HalvedWriter(MeshSink& below, SeeTet see) : below_(below), see_(std::move(see)) {}
+  HalvedWriter(MeshSink& below, SeeTet see, const std::optional<HalvedCurves>& curves)
+      : below_(below), see_(std::move(see)), curves_(curves) {}
 
   void write(GroupedMesh& mesh) override {
     MeshHeader header = mesh.header();
     header.tets *= kTetParts.size();
-    if (header.record.promises) ++header.record.promises->halvings;
+    if (auto& promises = header.record.promises) {
+      ++promises->halvings;
+      if (curves_) promises->max_distance = curves_->max_distance;
+    }
     below_.begin(header);
     write_nodes(mesh, below_);
     for (std::uint64_t tet = 0; tet < mesh.tet_count(); ++tet) {
@@ -36,10 +40,12 @@ class HalvedWriter : public GroupedWriter {
     const NodeRows rows = mesh.tet_nodes(tet);
     const RawLabel label = mesh.table().raw(mesh.label_of(tet));
     std::array<Position, 10> nodes{};
-    for (std::size_t i = 0; i < nodes.size(); ++i) nodes[i] = mesh.node(rows.begin()[i]);
-    std::array<Vec3, 4> corners;
-    for (std::size_t i = 0; i < 4; ++i) corners[i] = {nodes[i][0], nodes[i][1], nodes[i][2]};
-    for (const auto& [a, b, c, d] : halved_tet(corners)) {
+    std::array<Vec3, 10> places;
+    for (std::size_t i = 0; i < nodes.size(); ++i) {
+      nodes[i] = mesh.node(rows.begin()[i]);
+      places[i] = {nodes[i][0], nodes[i][1], nodes[i][2]};
+    }
+    for (const auto& [a, b, c, d] : halved_tet(places)) {
       rows_.push_back({rows.begin()[a], rows.begin()[b], rows.begin()[c], rows.begin()[d]});
       labels_.push_back(label);
       for (std::size_t k = 0; k < mesh.header().values.size(); ++k) {
@@ -59,15 +65,23 @@ class HalvedWriter : public GroupedWriter {
 
   MeshSink& below_;
   SeeTet see_;
+  std::optional<HalvedCurves> curves_;
   std::vector<TetRows> rows_;
   std::vector<RawLabel> labels_;
   std::vector<double> values_;
 };
 
+std::optional<CurveRule> rule_of(const std::optional<HalvedCurves>& curves) {
+  if (!curves) return std::nullopt;
+  return CurveRule{.has_straight_parts = true, .most_move = curves->most_move};
+}
+
 }  // namespace
 
-HalvedSink::HalvedSink(MeshSink& below, const std::filesystem::path& folder, SeeTet see)
-    : GroupedSink(folder, std::make_unique<HalvedWriter>(below, std::move(see)), Element::kTet10),
+HalvedSink::HalvedSink(MeshSink& below, const std::filesystem::path& folder, SeeTet see,
+                       const std::optional<HalvedCurves>& curves)
+    : GroupedSink(folder, std::make_unique<HalvedWriter>(below, std::move(see), curves),
+                  Element::kTet10, rule_of(curves)),
       below_(below) {}
 
 std::uint64_t HalvedSink::buffer_bytes() const {

@@ -12,14 +12,22 @@ namespace mw::io {
 /// Called for each tet that is written, in the order of the mesh.
 using SeeTet = std::function<void(const std::array<Position, 4>& corners, RawLabel label)>;
 
-/// Cuts every tet by the middles of its edges (kernels/quality/halved_tet.h), so that edges are
-/// half as long and all surfaces stay where they are.  Vertices keep their rows; behind them come
-/// the middles.  The tets come by label, the eight of each one after the other, with the values of
-/// the tet that they are parts of.  The record's promises say how often tets were cut.
+/// How interfaces become smoother while tets are cut.
+struct HalvedCurves {
+  double most_move = 0;                ///< no vertex and no middle of an edge moves farther
+  std::optional<double> max_distance;  ///< what the record promises of where they come to lie
+};
+
+/// Cuts every tet by nodes on its edges (kernels/quality/halved_tet.h), so that edges are half as
+/// long.  The nodes are the middles of edges, and all surfaces stay where they are; with curves,
+/// those of interfaces lie where curve_nodes() places them.  Vertices keep their rows; behind them
+/// come the middles.  The tets come by label, the eight of each one after the other, with the
+/// values of the tet that they are parts of.  The record's promises say how often tets were cut.
 /// Memory and disk: those of a GroupedSink with kTet10.  REQUIRES: the sink below outlives it.
 class HalvedSink : public GroupedSink {
  public:
-  HalvedSink(MeshSink& below, const std::filesystem::path& folder, SeeTet see = {});
+  HalvedSink(MeshSink& below, const std::filesystem::path& folder, SeeTet see = {},
+             const std::optional<HalvedCurves>& curves = {});
   [[nodiscard]] std::uint64_t buffer_bytes() const override;
 
  private:

@@ -20,6 +20,7 @@ struct NodeMove {
 /// Returns the places of all nodes.  While the moves would spoil tets, which then break what
 /// curve_nodes() ensures, the node that goes farthest in each of these goes less far.
 [[nodiscard]] PagedArray<Position> straightened(GroupedMesh& mesh, PagedArray<NodeMove> moves,
-                                                const std::filesystem::path& folder);
+                                                const std::filesystem::path& folder,
+                                                bool has_straight_parts);
 
 }  // namespace mw::io

@@ -106,6 +106,15 @@ class Sizes(unittest.TestCase):
         off = np.linalg.norm(Mesh("b.vtu").interface() - 20, axis=1) - 14
         self.assertLess(off.std(), 0.055)
 
+    def test_interfaces_become_smoother_where_tets_are_cut(self):
+        """A fine mesh of a ball is no coarse one with more corners in its flat faces."""
+        z, y, x = np.mgrid[:24, :24, :24] + 0.5
+        distance = np.sqrt((x - 12.2) ** 2 + (y - 11.9) ** 2 + (z - 12.3) ** 2) - 6
+        np.save("d.npy", distance.astype(np.float32))
+        run("mesh", "d.npy", "-o", "d.vtu", "--values", "distances", "--size", "1.3")
+        off = np.linalg.norm(Mesh("d.vtu").interface() - (12.2, 11.9, 12.3), axis=1) - 6
+        self.assertLess(off.std(), 0.03)
+
     def test_sizes_below_a_voxel_cut_the_tets_of_the_marches(self):
         """Edges have the sizes that are asked, the mesh proves itself, and nothing but the volume and
         the settings decides its bytes."""

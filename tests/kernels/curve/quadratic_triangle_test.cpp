@@ -82,6 +82,19 @@ TEST(SweptVolumes, OfAClosedSurfaceAreTheDifferenceOfVolumes) {
   }
 }
 
+TEST(SweptVolumes, OfStraightPartsAreTheDifferenceOfVolumes) {
+  std::mt19937 random(2);
+  for (int round = 0; round < 30; ++round) {
+    const auto from = octahedron(random, 0.1), to = octahedron(random, 0.3);
+    double swept = 0;
+    for (std::size_t i = 0; i < from.size(); ++i) {
+      for (const double part : swept_part_volumes(from[i], to[i])) swept += part;
+    }
+    // Two steps along each edge give the straight parts.
+    EXPECT_NEAR(swept, volume(to, 2) - volume(from, 2), 1e-12) << round;
+  }
+}
+
 TEST(SweptVolumes, AreWeightedByHats) {
   const QuadraticTriangle flat{Vec3(0, 0, 0), Vec3(2, 0, 0),   Vec3(0, 3, 0),
                                Vec3(1, 0, 0), Vec3(1, 1.5, 0), Vec3(0, 1.5, 0)};
@@ -95,6 +108,12 @@ TEST(SweptVolumes, AreWeightedByHats) {
   EXPECT_NEAR(parts[0], -3 * 2.0 / 15, 1e-14);
   EXPECT_NEAR(parts[1], -3 * 2.0 / 15, 1e-14);
   EXPECT_NEAR(parts[2], -3 * 1.0 / 15, 1e-14);
+  // Three straight parts of four are at that middle, which lies between the corners 0 and 1; each
+  // has a third of a quarter of the area there.
+  const auto straight = swept_part_volumes(flat, bulged);
+  EXPECT_NEAR(straight[0] + straight[1] + straight[2], -3 * 0.25, 1e-14);
+  EXPECT_NEAR(straight[0], straight[1], 1e-14);
+  EXPECT_LT(std::abs(straight[2]), std::abs(straight[0]));
 }
 
 }  // namespace

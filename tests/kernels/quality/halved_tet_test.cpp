@@ -62,11 +62,11 @@ TEST(HalvedTet, PartsArePositiveFillTheTetAndFitFaceToFace) {
   std::set<std::set<std::size_t>> diagonals;
   for (int trial = 0; trial < 500; ++trial) {
     const std::array<Point, 10> nodes = lattice_nodes(random);
-    Corners corners;
-    for (std::size_t i = 0; i < 4; ++i) corners[i] = Vec3(nodes[i].x, nodes[i].y, nodes[i].z);
+    std::array<Vec3, 10> places;
+    for (std::size_t i = 0; i < 10; ++i) places[i] = Vec3(nodes[i].x, nodes[i].y, nodes[i].z);
     std::map<Triangle, int> uses;
     Int128 sum = 0;
-    for (const auto& part : halved_tet(corners)) {
+    for (const auto& part : halved_tet(places)) {
       const Int128 volume = volume6(nodes[part[0]], nodes[part[1]], nodes[part[2]], nodes[part[3]]);
       EXPECT_GT(volume, 0);
       sum += volume;
@@ -121,7 +121,7 @@ TEST(HalvedTet, TheDiagonalIsTheBestOfThree) {
     }
     const std::array<Vec3, 10> nodes = nodes_of(t);
     double found = 1, corner = 1;
-    for (const auto& p : halved_tet(t)) {
+    for (const auto& p : halved_tet(nodes)) {
       const double ratio = ratio_of(nodes[p[0]], nodes[p[1]], nodes[p[2]], nodes[p[3]]);
       const bool has_corner = std::any_of(p.begin(), p.end(), [](std::size_t n) { return n < 4; });
       double& least = has_corner ? corner : found;
@@ -141,7 +141,7 @@ double worst_part(double floor, std::mt19937& random) {
     if (ratio_of(t[0], t[1], t[2], t[3]) < floor) return 1.0;
     const std::array<Vec3, 10> nodes = nodes_of(t);
     double least = 1;
-    for (const auto& p : halved_tet(t)) {
+    for (const auto& p : halved_tet(nodes)) {
       least = std::min(least, ratio_of(nodes[p[0]], nodes[p[1]], nodes[p[2]], nodes[p[3]]));
     }
     return least;

@@ -3,6 +3,7 @@
 // Grids of cubes cut once and twice, against what was there before.
 #include "io/mesh/grouped/halved_sink.h"
 
+#include "kernels/quality/quality.h"
 #include "tests/expect_error.h"
 #include "tests/io/mesh/grid_mesh.h"
 #include "tests/io/test_files.h"
@@ -92,6 +93,56 @@ TEST(HalvedSink, EachTetBecomesEight) {
     EXPECT_EQ(counts[1], wanted[1]);
     EXPECT_EQ(counts[2], wanted[2] + 8 * mesh.tets.size());  // eight inside of each tet
   }
+}
+
+double worst_ratio(const MeshData& mesh) {
+  double out = 1;
+  for (const TetRows& tet : mesh.tets) {
+    std::array<Vec3, 4> at;
+    for (std::size_t i = 0; i < 4; ++i) {
+      const Position& p = mesh.vertices[tet[i]];
+      at[i] = {p[0], p[1], p[2]};
+    }
+    out = std::min(out, radius_ratio({at[1] - at[0], at[2] - at[0], at[3] - at[0]}));
+  }
+  return out;
+}
+
+TEST(HalvedSink, CurvesMoveNodesNoFartherThanTheyMayAndKeepTetsGood) {
+  const TempDir dir;
+  std::size_t moved = 0;
+  for (unsigned seed = 0; seed < 6; ++seed) {
+    MeshData mesh = grid_mesh({4, 4, 4}, seed);
+    std::mt19937 random(seed);
+    for (Position& p : mesh.vertices) {
+      for (double& x : p) {
+        if (x != 0 && x != 4) x += 0.2 * (static_cast<double>(random()) / 4294967296.0 - 0.5);
+      }
+    }
+    for (RawLabel& label : mesh.labels) label /= 2;
+    mesh.record.box = MeshBox{.edges = {{{4, 0, 0}, {0, 4, 0}, {0, 0, 4}}}};
+    mesh.record.promises = MeshPromises{.max_distance = 1.2, .quality_floor = 0.3};
+    CollectedMesh straight, curved;
+    HalvedSink as_they_are(straight, dir.path());
+    write_mesh(mesh, as_they_are);
+    const double most_move = seed % 2 == 0 ? 0.02 : 0.2;
+    HalvedSink with_curves(curved, dir.path(), {},
+                           HalvedCurves{.most_move = most_move, .max_distance = 1.5});
+    write_mesh(mesh, with_curves);
+    EXPECT_EQ(curved.mesh().record.promises->max_distance, 1.5);
+    EXPECT_EQ(straight.mesh().record.promises->max_distance, 1.2);
+    EXPECT_FALSE(curved.mesh().record.curved);
+    EXPECT_GE(worst_ratio(curved.mesh()), std::min(0.2, 0.75 * worst_ratio(straight.mesh())));
+    EXPECT_EQ(curved.mesh().labels, straight.mesh().labels);
+    ASSERT_EQ(curved.mesh().vertices.size(), straight.mesh().vertices.size());
+    for (std::size_t v = 0; v < curved.mesh().vertices.size(); ++v) {
+      const Position &p = straight.mesh().vertices[v], &q = curved.mesh().vertices[v];
+      const double length = std::hypot(p[0] - q[0], p[1] - q[1], p[2] - q[2]);
+      EXPECT_LE(length, most_move * (1 + 1e-12));
+      moved += length > 1e-9 ? 1U : 0U;
+    }
+  }
+  EXPECT_GT(moved, 200U);
 }
 
 TEST(HalvedSink, TwoBehindEachOtherCutTwice) {
