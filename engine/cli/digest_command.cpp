@@ -13,17 +13,18 @@ namespace mw::cli {
 
 Command digest_command() {
   const auto mesh = std::make_shared<std::filesystem::path>();
-  Command command{.name = "digest",
-                  .about = "prints the digest of a mesh, the same in every format",
-                  .options = {},
-                  .run =
-                      [mesh](const OptionSet&) {
-                        io::DigestSink sink(io::scratch_folder());
-                        io::copy_mesh(*mesh, sink);
-                        std::cout << sink.digest() << "\n";
-                        return kExitDone;
-                      },
-                  .note = mesh_note()};
+  Command command{
+      .name = "digest",
+      .about = "prints the digest of a mesh, the same in every format and order of corners",
+      .options = {},
+      .run =
+          [mesh](const OptionSet&) {
+            io::DigestSink sink(io::scratch_folder());
+            io::copy_mesh(*mesh, sink);
+            std::cout << sink.digest() << "\n";
+            return kExitDone;
+          },
+      .note = mesh_note()};
   add_mesh_option(command.options, *mesh, "mesh to read");
   return command;
 }

@@ -84,7 +84,7 @@ void add_options(OptionSet& options, SynthJob& job) {
                .assign = into(job.spec.shape, parse_shape)});
   options.add({.name = "count",
                .value = "N",
-               .help = "labels; a few may have no voxel where the box cuts their cells",
+               .help = "number of labels, of which some may have no voxel",
                .flags = "--count,--labels",
                .required = true,
                .only_flag = true,  // MW_COUNT is a number of tets

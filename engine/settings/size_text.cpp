@@ -129,7 +129,7 @@ std::vector<std::string> size_tables(std::string_view text) {
 
 SizeRules parse_size_table(std::string_view text, std::string_view file) {
   SizeRules out;
-  io::CsvRecords records(text, ',', file);
+  io::CsvRecords records(text, io::csv_separator(text), file);
   io::CsvRecord record;
   for (bool first = true; records.next(record); first = false) {
     const auto& fields = record.fields;

@@ -24,8 +24,9 @@ namespace mw::engine {
 /// Returns the tables that the text names.
 [[nodiscard]] std::vector<std::string> size_tables(std::string_view text);
 
-/// Parses lines "label,size" of a table (CsvRecords), where a label is what stands before "=" in
-/// the text above; the first line may be a header.
+/// Parses lines "label,size" of a table (CsvRecords), with a comma, a semicolon or a tab between
+/// the two, where a label is what stands before "=" in the text above; the first line may be a
+/// header.
 /// ERRORS: mw::Error(kInput) naming file and line.
 [[nodiscard]] SizeRules parse_size_table(std::string_view text, std::string_view file);
 

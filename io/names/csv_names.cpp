@@ -13,6 +13,12 @@
 
 namespace mw::io {
 
+CsvRecords::CsvRecords(std::string_view text, char separator, std::string_view file)
+    : text_(text), separator_(separator), file_(file) {
+  constexpr std::string_view kUtf8Mark = "\xef\xbb\xbf";
+  if (text_.starts_with(kUtf8Mark)) text_.remove_prefix(kUtf8Mark.size());
+}
+
 void CsvRecords::skip_comments() {
   while (at_ < text_.size()) {
     const std::size_t end = std::min(text_.find('\n', at_), text_.size());
@@ -265,12 +271,16 @@ char separator_of(std::string_view line) {
 
 }  // namespace
 
+char csv_separator(std::string_view text) {
+  return separator_of(first_row(text));
+}
+
 bool is_csv_line(std::string_view line) {
   return separator_of(line) != '\0';
 }
 
 LabelNames parse_csv_names(std::string_view text, std::string_view file, bool repeats) {
-  CsvRecords records(text, separator_of(first_row(text)), file);
+  CsvRecords records(text, csv_separator(text), file);
   std::vector<ReadName> rows;
   CsvRecord record;
   if (!records.next(record)) return {};

@@ -17,11 +17,11 @@ struct CsvRecord {
 };
 
 /// Reads records, whose fields in double quotes may hold separators, line ends and, doubled, quotes
-/// (RFC 4180).  Lines that are empty or comments (is_comment_line) are skipped.
+/// (RFC 4180).  Lines that are empty or comments (is_comment_line) are skipped, and so is the mark
+/// of UTF-8 that spreadsheets put in front of the text.
 class CsvRecords {
  public:
-  CsvRecords(std::string_view text, char separator, std::string_view file)
-      : text_(text), separator_(separator), file_(file) {}
+  CsvRecords(std::string_view text, char separator, std::string_view file);
 
   /// Reads the next record into `record`; false when there is none.
   /// ERRORS: mw::Error(kInput) naming file and line when a quote is not closed.
@@ -56,6 +56,9 @@ class CsvRecords {
 ///         those of names_of_rows().
 [[nodiscard]] LabelNames parse_csv_names(std::string_view text, std::string_view file,
                                          bool repeats = false);
+
+/// Returns the first of tab, semicolon and comma that the first row of the text has, or NUL.
+[[nodiscard]] char csv_separator(std::string_view text);
 
 /// Whether the line has one of the separators.
 [[nodiscard]] bool is_csv_line(std::string_view line);

@@ -22,8 +22,8 @@ namespace {
 
 constexpr std::size_t kBufferBytes = 1 << 20;
 
-/// Follows a link, so that the file it names is replaced and not the link; refuses anything that
-/// exists and is no plain file (a folder, a device).
+/// Follows a link, so that the file it names is replaced or made, and not the link; refuses
+/// anything that exists and is no plain file (a folder, a device).
 std::filesystem::path resolve(const std::filesystem::path& target) {
   std::error_code ignored;
   const auto status = std::filesystem::status(target, ignored);
@@ -33,8 +33,12 @@ std::filesystem::path resolve(const std::filesystem::path& target) {
                     ": cannot create: exists and is not a regular file; give the "
                     "path of a file");
   }
-  if (!std::filesystem::is_symlink(target, ignored)) return target;
-  return std::filesystem::weakly_canonical(target, ignored);
+  constexpr int kMostLinks = 40;  // as many as Linux follows
+  std::filesystem::path file = target;
+  for (int i = 0; i < kMostLinks && std::filesystem::is_symlink(file, ignored); ++i) {
+    file = file.parent_path() / std::filesystem::read_symlink(file, ignored);
+  }
+  return file;
 }
 
 }  // namespace

@@ -31,6 +31,10 @@ std::string describe(int error_number) {
 
 FileSource::FileSource(const std::filesystem::path& path)
     : file_(::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK)), name_(path.string()) {
+  if (!file_.valid() && (errno == EMFILE || errno == ENFILE)) {
+    throw Error(ErrorKind::kResource,
+                name_ + ": cannot open: " + describe(errno) + "; raise ulimit -n");
+  }
   if (!file_.valid()) fail_input(name_, {}, "cannot open: " + describe(errno), "check the path");
   struct stat facts {};
   if (::fstat(file_.get(), &facts) != 0) fail_input(name_, {}, "cannot stat: " + describe(errno));

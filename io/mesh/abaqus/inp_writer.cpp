@@ -4,6 +4,7 @@
 #include "io/mesh/abaqus/inp_writer.h"
 
 #include "io/file/errors.h"
+#include "io/mesh/grouped/curved_nodes.h"
 #include "io/mesh/grouped/deck_ends.h"
 #include "io/mesh/grouped/facet_nodes.h"
 #include "io/mesh/grouped/fixed_fields.h"
@@ -40,6 +41,18 @@ std::string inp_comment(const std::string& set, const LabelName& row, bool is_si
   return line.size() > kMaxBytes ? comment({.label = row.label, .colour = row.colour}) : line;
 }
 
+/// Refuses tets that CalculiX takes for flat, because its limit does not know of units.
+void check_jacobians(std::string_view file, const GroupedMesh& mesh) {
+  constexpr double kLeastOfCalculix = 1e-20;
+  const double share = mesh.element() == Element::kCurvedTet10 ? kLeastJacobian : 1;
+  const double least = share * mesh.least_volume6();
+  if (least >= kLeastOfCalculix) return;
+  throw Error(ErrorKind::kUsage,
+              text(file, ": --deck: CalculiX takes tets with a Jacobian below ", kLeastOfCalculix,
+                   " for flat, and this mesh has ", least,
+                   "; give --spacing in a smaller unit, micrometres for instance"));
+}
+
 }  // namespace
 
 class InpWriter::NumberRows {
@@ -66,6 +79,7 @@ class InpWriter::NumberRows {
 void InpWriter::write(GroupedMesh& mesh) {
   check_number(name_, std::max(mesh.node_count(), mesh.tet_count() + mesh.wedge_count()),
                {.max = kMaxNumber, .subject = "Abaqus has", .others = ".msh or .vtkhdf"});
+  if (has_deck_) check_jacobians(name_, mesh);
   if (rule_) materials_.emplace(mesh, *rule_);
   PlainNames names(mesh,
                    {.reserved = materials_ ? materials_->names() : std::vector<std::string>{}});

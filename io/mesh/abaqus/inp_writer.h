@@ -28,7 +28,7 @@ namespace mw::io {
 /// CalculiX: a material with placeholders and a section for each label, or for each material and
 /// the elements in none, and one static step (MeshExtras::deck).
 /// Memory: 9 MiB.  ERRORS: see AtomicFile; mw::Error(kUsage) above 999,999,999 nodes or elements,
-/// which is all that Abaqus has numbers for.
+/// which is all that Abaqus has numbers for, and of a deck with tets too small for CalculiX.
 class InpWriter : public GroupedWriter {
  public:
   explicit InpWriter(const std::filesystem::path& path, const MeshExtras& extras = {})

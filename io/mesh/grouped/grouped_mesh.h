@@ -105,6 +105,8 @@ class GroupedMesh {
   [[nodiscard]] double largest_coordinate() const { return largest_coordinate_; }
   /// Returns the length of the shortest edge of a tet, infinity if there is no tet.
   [[nodiscard]] double shortest_edge() const { return std::sqrt(shortest_square_); }
+  /// Returns six times the volume of the smallest straight tet, infinity if there is no tet.
+  [[nodiscard]] double least_volume6() const { return least_volume6_; }
 
   /// Return the number of vertices, and of nodes: where tets have middles each edge adds one.
   [[nodiscard]] std::uint64_t vertex_count() const { return vertices_.size(); }
@@ -159,6 +161,7 @@ class GroupedMesh {
   Element element_ = Element::kTet4;
   double largest_coordinate_ = 0;
   double shortest_square_ = std::numeric_limits<double>::infinity();
+  double least_volume6_ = std::numeric_limits<double>::infinity();
   PagedFile<Position> vertices_;
   PagedFile<TetRows> tets_;
   PagedFile<double> values_;  ///< by tet, one for each name

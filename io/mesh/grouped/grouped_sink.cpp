@@ -153,7 +153,9 @@ void GroupedSink::place_tet(TetRows tet, Faces& faces) {
     const Position edge = minus(corners[to], corners[from]);
     mesh_.shortest_square_ = std::min(mesh_.shortest_square_, dot(edge, edge));
   }
-  if (volume6(corners[0], corners[1], corners[2], corners[3]) < 0) std::swap(tet[2], tet[3]);
+  const double volume = volume6(corners[0], corners[1], corners[2], corners[3]);
+  mesh_.least_volume6_ = std::min(mesh_.least_volume6_, std::abs(volume));
+  if (volume < 0) std::swap(tet[2], tet[3]);
   const std::uint64_t number = mesh_.tets_.size();
   mesh_.tets_.append(tet);
   for (std::uint64_t opposite = 0; opposite < 4; ++opposite) {

@@ -53,6 +53,10 @@ class Sizes(unittest.TestCase):
         tets = sum((mesh.labels == label).sum() for label in limits)
         self.assertEqual(sum(ratios["counts"]), 6 * tets)
         self.assertEqual(ratios["counts"][-1], 0)  # above 1.5
+        with open("sheet.csv", "w", encoding="utf-8-sig") as file:  # as a spreadsheet writes it
+            file.write(f"label;size\n{second};2.5\n{third};1.5\n")
+        self.mesh("s.vtu", "--size", f"{first}=2,@sheet.csv")
+        self.assertEqual(run("digest", "s.vtu"), run("digest", "m.vtu"))
         plain = self.mesh("p.vtu")
         self.assertTrue(all(plain.longest(label) > 1.5 * limit for label, limit in limits.items()))
         self.assertTrue(all("size" not in row for row in self.report["shape"]["per_label"]))

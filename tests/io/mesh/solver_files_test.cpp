@@ -236,6 +236,24 @@ TEST(InpWriter, NumbersAreWithinTheCharactersThatCalculixReads) {
   EXPECT_EQ(exponents, 3 * 18 + 1 + 3);  // coordinates above 0, the pull, and reference nodes
 }
 
+TEST(InpWriter, DecksOfTetsTooSmallForCalculixAreRefused) {
+  const TempDir dir;
+  for (const double step : {1e-7, 3e-7}) {  // the Jacobian of each tet is step^3
+    MeshData mesh = grid_mesh({2, 2, 2}, 1);
+    for (Position& p : mesh.vertices) p = {p[0] * step, p[1] * step, p[2] * step};
+    const auto write = [&](bool has_deck) {
+      write_mesh(mesh, *open_mesh_sink(dir.path() / "m.inp", Element::kTet4, {.deck = has_deck}));
+    };
+    write(false);
+    if (step > 2e-7) {
+      write(true);
+    } else {
+      expect_error(ErrorKind::kUsage, {"m.inp", "give --spacing in a smaller unit"},
+                   [&] { write(true); });
+    }
+  }
+}
+
 /// APDL takes ALL, STAT and DEFA, in letters of any size, for something else than a component.
 TEST(CdbWriter, ComponentsHaveNoReservedNames) {
   const TempDir dir;

@@ -52,6 +52,19 @@ TEST(AtomicFile, WritesThroughALink) {
   EXPECT_TRUE(std::filesystem::is_symlink(dir.path() / "link.bin"));
 }
 
+TEST(AtomicFile, MakesTheFileThatALinkNames) {
+  const TempDir dir;
+  std::filesystem::create_directory(dir.path() / "sub");
+  std::filesystem::create_symlink("sub/next.bin", dir.path() / "link.bin");
+  std::filesystem::create_symlink("real.bin", dir.path() / "sub/next.bin");
+  AtomicFile file(dir.path() / "link.bin");
+  file.append("new");
+  file.commit();
+  EXPECT_EQ(content_of(dir.path() / "sub/real.bin"), "new");
+  EXPECT_TRUE(std::filesystem::is_symlink(dir.path() / "link.bin"));
+  EXPECT_TRUE(std::filesystem::is_symlink(dir.path() / "sub/next.bin"));
+}
+
 TEST(AtomicFile, RefusesPathsThatCannotBeWritten) {
   const TempDir dir;
   expect_error(ErrorKind::kUsage, {"nowhere/out.bin"},
