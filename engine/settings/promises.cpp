@@ -40,9 +40,7 @@ io::MeshPromises promises_of(const MeshSettings& settings) {
 }
 
 double floor_of(const io::MeshPromises& promises) {
-  double floor = promises.quality_floor;
-  for (int i = 0; i < promises.halvings; ++i) floor = halved_floor(floor);
-  return floor;
+  return halved_floor(promises.quality_floor, promises.halvings);
 }
 
 std::string why_no_volumes(const io::MeshPromises& promises) {

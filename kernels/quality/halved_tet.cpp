@@ -63,4 +63,9 @@ double halved_floor(double floor) {
   return std::floor(kept * scale) / scale;
 }
 
+double halved_floor(double floor, int times) {
+  for (int i = 0; i < times; ++i) floor = halved_floor(floor);
+  return floor;
+}
+
 }  // namespace mw

@@ -23,5 +23,7 @@ namespace mw {
 /// It comes from a search for the worst tet, which is no proof: the search found 0.0835 for a floor
 /// of 0.2, and 2.1 floor^2 for small ones.
 [[nodiscard]] double halved_floor(double floor);
+/// Returns the ratio that is left after `times` cuts, one after the other.
+[[nodiscard]] double halved_floor(double floor, int times);
 
 }  // namespace mw

@@ -27,15 +27,18 @@ std::string describe(int error_number) {
              "the file is truncated: get a whole copy");
 }
 
+/// A file that is not opened because too many are open is no bad input.
+[[noreturn]] void fail_open(const std::string& name, int error) {
+  const std::string why = "cannot open: " + describe(error);
+  if (error != EMFILE && error != ENFILE) fail_input(name, {}, why, "check the path");
+  throw Error(ErrorKind::kResource, name + ": " + why + "; raise ulimit -n");
+}
+
 }  // namespace
 
 FileSource::FileSource(const std::filesystem::path& path)
     : file_(::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK)), name_(path.string()) {
-  if (!file_.valid() && (errno == EMFILE || errno == ENFILE)) {
-    throw Error(ErrorKind::kResource,
-                name_ + ": cannot open: " + describe(errno) + "; raise ulimit -n");
-  }
-  if (!file_.valid()) fail_input(name_, {}, "cannot open: " + describe(errno), "check the path");
+  if (!file_.valid()) fail_open(name_, errno);
   struct stat facts {};
   if (::fstat(file_.get(), &facts) != 0) fail_input(name_, {}, "cannot stat: " + describe(errno));
   if (S_ISDIR(facts.st_mode)) fail_input(name_, {}, "is a folder", "give a file");

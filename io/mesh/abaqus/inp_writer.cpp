@@ -50,7 +50,7 @@ void check_jacobians(std::string_view file, const GroupedMesh& mesh) {
   throw Error(ErrorKind::kUsage,
               text(file, ": --deck: CalculiX takes tets with a Jacobian below ", kLeastOfCalculix,
                    " for flat, and this mesh has ", least,
-                   "; give --spacing in a smaller unit, micrometres for instance"));
+                   "; mesh it with --spacing in a smaller unit, micrometres for instance"));
 }
 
 }  // namespace

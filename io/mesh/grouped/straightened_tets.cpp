@@ -16,7 +16,7 @@ namespace {
 constexpr std::array<double, 4> kShares{1, 0.5, 0.25, 0};
 
 // Moves may make the worst of a tet's straight parts worse by a quarter; the second is the radius
-// ratio from which on a part is good enough whatever it was.
+// ratio from which on a part is good enough whatever it was (bench/parameters.md, "Cut tets").
 constexpr double kKeptShare = 0.75;
 constexpr double kAlwaysGood = 0.2;
 
@@ -35,9 +35,8 @@ class Straightening {
       : mesh_(mesh), moves_(std::move(moves)), has_straight_parts_(has_straight_parts) {
     const auto& promises = mesh.header().record.promises;
     if (!promises) return;
-    floor_ = promises->quality_floor;
     const int cuts = has_straight_parts ? promises->halvings + 1 : 0;
-    for (int i = 0; i < cuts; ++i) floor_ = halved_floor(floor_);
+    floor_ = halved_floor(promises->quality_floor, cuts);
   }
 
   PagedArray<Position> run(const std::filesystem::path& folder) {

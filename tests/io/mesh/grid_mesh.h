@@ -60,4 +60,15 @@ inline MeshData grid_mesh(std::array<std::uint64_t, 3> cubes, unsigned seed) {
   return mesh;
 }
 
+/// Moves each vertex of a cube of edge^3 unit cubes by up to 0.1 along each axis, within its
+/// sides.
+inline void shake(MeshData& mesh, double edge, unsigned seed) {
+  std::mt19937 random(seed);
+  for (Position& p : mesh.vertices) {
+    for (double& x : p) {
+      if (x != 0 && x != edge) x += 0.2 * (static_cast<double>(random()) / 4294967296.0 - 0.5);
+    }
+  }
+}
+
 }  // namespace mw::io

@@ -248,7 +248,7 @@ TEST(InpWriter, DecksOfTetsTooSmallForCalculixAreRefused) {
     if (step > 2e-7) {
       write(true);
     } else {
-      expect_error(ErrorKind::kUsage, {"m.inp", "give --spacing in a smaller unit"},
+      expect_error(ErrorKind::kUsage, {"m.inp", "--spacing in a smaller unit"},
                    [&] { write(true); });
     }
   }

@@ -66,19 +66,25 @@ double volume(const std::vector<QuadraticTriangle>& surface, int steps) {
   return sum;
 }
 
+using Surface = std::vector<QuadraticTriangle>;
+
+double sum_swept(const Surface& from, const Surface& to, decltype(swept_volumes) swept) {
+  double sum = 0;
+  for (std::size_t i = 0; i < from.size(); ++i) {
+    for (const double part : swept(from[i], to[i])) sum += part;
+  }
+  return sum;
+}
+
 TEST(SweptVolumes, OfAClosedSurfaceAreTheDifferenceOfVolumes) {
   std::mt19937 random(1);
   for (int round = 0; round < 30; ++round) {
     const auto from = octahedron(random, 0.1), to = octahedron(random, 0.3);
-    double swept = 0;
-    for (std::size_t i = 0; i < from.size(); ++i) {
-      for (const double part : swept_volumes(from[i], to[i])) swept += part;
-    }
     // The error of flat triangles falls with the square of the steps.
     const auto limit = [](const auto& surface) {
       return (4 * volume(surface, 32) - volume(surface, 16)) / 3;
     };
-    EXPECT_NEAR(swept, limit(to) - limit(from), 1e-5) << round;
+    EXPECT_NEAR(sum_swept(from, to, swept_volumes), limit(to) - limit(from), 1e-5) << round;
   }
 }
 
@@ -86,12 +92,9 @@ TEST(SweptVolumes, OfStraightPartsAreTheDifferenceOfVolumes) {
   std::mt19937 random(2);
   for (int round = 0; round < 30; ++round) {
     const auto from = octahedron(random, 0.1), to = octahedron(random, 0.3);
-    double swept = 0;
-    for (std::size_t i = 0; i < from.size(); ++i) {
-      for (const double part : swept_part_volumes(from[i], to[i])) swept += part;
-    }
     // Two steps along each edge give the straight parts.
-    EXPECT_NEAR(swept, volume(to, 2) - volume(from, 2), 1e-12) << round;
+    EXPECT_NEAR(sum_swept(from, to, swept_part_volumes), volume(to, 2) - volume(from, 2), 1e-12)
+        << round;
   }
 }
 

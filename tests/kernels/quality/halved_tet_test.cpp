@@ -187,7 +187,8 @@ TEST(HalvedTet, TheFloorOfPartsFollowsThatOfTets) {
     EXPECT_LE(halved_floor(tiny), tiny) << tiny;
   }
   EXPECT_DOUBLE_EQ(halved_floor(0.2), 0.072);
-  EXPECT_DOUBLE_EQ(halved_floor(halved_floor(0.2)), 0.00933);
+  EXPECT_DOUBLE_EQ(halved_floor(0.2, 2), 0.00933);
+  EXPECT_EQ(halved_floor(0.2, 0), 0.2);
   double last = 0;
   for (double floor = 0.01; floor < 0.6; floor += 0.01) {
     EXPECT_GE(halved_floor(floor), last);

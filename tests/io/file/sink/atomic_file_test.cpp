@@ -119,6 +119,18 @@ TEST(FileSource, ShortReadNamesFileOffsetAndLength) {
                [&] { source.read_at(2, bytes); });
 }
 
+TEST(FileSource, TooManyOpenFilesAreNoBadInput) {
+  const TempDir dir;
+  const auto path = dir.file("a.bin", "12345");
+  rlimit usual{};
+  ASSERT_EQ(::getrlimit(RLIMIT_NOFILE, &usual), 0);
+  const rlimit none{.rlim_cur = 0, .rlim_max = usual.rlim_max};
+  ASSERT_EQ(::setrlimit(RLIMIT_NOFILE, &none), 0);
+  expect_error(ErrorKind::kResource, {"a.bin", "ulimit -n"}, [&] { FileSource source(path); });
+  ASSERT_EQ(::setrlimit(RLIMIT_NOFILE, &usual), 0);
+  EXPECT_EQ(FileSource(path).size(), 5U);
+}
+
 // What killed runs leave is removed, and nothing else.
 
 namespace fs = std::filesystem;

@@ -218,12 +218,7 @@ TEST(CurvedNodes, NoiseIsHeldBackUntilAllTetsAreSound) {
   std::size_t moved = 0;
   for (unsigned seed = 0; seed < 6; ++seed) {
     MeshData data = grid_mesh({5, 5, 5}, seed);
-    std::mt19937 random(seed);
-    for (Position& p : data.vertices) {
-      for (double& x : p) {
-        if (x != 0 && x != 5) x += 0.2 * (static_cast<double>(random()) / 4294967296.0 - 0.5);
-      }
-    }
+    shake(data, 5, seed);
     // Half of the meshes are of two labels, whose interfaces have more room to bend.
     for (RawLabel& label : data.labels) label = seed % 2 == 0 ? label : label / 2;
     data.record.box = MeshBox{.edges = {{{5, 0, 0}, {0, 5, 0}, {0, 0, 5}}}};

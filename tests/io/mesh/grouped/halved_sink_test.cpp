@@ -113,12 +113,7 @@ TEST(HalvedSink, CurvesMoveNodesNoFartherThanTheyMayAndKeepTetsGood) {
   std::size_t moved = 0;
   for (unsigned seed = 0; seed < 6; ++seed) {
     MeshData mesh = grid_mesh({4, 4, 4}, seed);
-    std::mt19937 random(seed);
-    for (Position& p : mesh.vertices) {
-      for (double& x : p) {
-        if (x != 0 && x != 4) x += 0.2 * (static_cast<double>(random()) / 4294967296.0 - 0.5);
-      }
-    }
+    shake(mesh, 4, seed);
     for (RawLabel& label : mesh.labels) label /= 2;
     mesh.record.box = MeshBox{.edges = {{{4, 0, 0}, {0, 4, 0}, {0, 0, 4}}}};
     mesh.record.promises = MeshPromises{.max_distance = 1.2, .quality_floor = 0.3};
