@@ -181,7 +181,8 @@ class Volume {
 [[nodiscard]] std::uint64_t find_label(const Volume& volume, std::string_view text);
 
 /// Returns the text of a setting with numbers in the place of names, "Liver|3=2,*=5".  Names that
-/// have one of ",;=" in them must be in double quotes.  ERRORS: those of find_label() for names.
+/// have one of ",;=" in them must be in double quotes.  ERRORS: those of find_label() for names,
+/// and kUsage for a size, which follows the last "=" of a part, that is no finite number.
 [[nodiscard]] std::string with_label_numbers(const Volume& volume, std::string_view text);
 
 /// Returns a random volume, x fastest: "voronoi", "tubes", "spheres", "noise" or "checkerboard".

@@ -118,8 +118,10 @@ std::uint64_t find_label(const Volume& volume, std::string_view text) {
 }
 
 std::string with_label_numbers(const Volume& volume, std::string_view text) {
-  return mw::api::guarded(
-      [&] { return mw::engine::with_numbers(text, VolumeAccess::labels(volume).info().names); });
+  return mw::api::guarded([&] {
+    mw::engine::check_sizes(text);  // no other setting has labels
+    return mw::engine::with_numbers(text, VolumeAccess::labels(volume).info().names);
+  });
 }
 
 std::vector<LabelName> read_names(const std::filesystem::path& path) {

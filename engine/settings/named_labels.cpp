@@ -166,6 +166,19 @@ bool has_names(std::string_view text) {
   return any;
 }
 
+void check_sizes(std::string_view text) {
+  bool follows_equals = false;
+  for (std::size_t at = 0; at < text.size(); ++at) {
+    const std::size_t end = end_of(text, at);
+    const std::string_view token = text.substr(at, end - at);
+    const bool ends_with_equals = end < text.size() && text[end] == '=';
+    // A file may have "=" in its name.
+    if (follows_equals && !ends_with_equals && !names_image(token)) (void)parse_number(token);
+    follows_equals = ends_with_equals;
+    at = end;
+  }
+}
+
 std::string with_numbers(std::string_view text, const io::LabelNames& names) {
   return replaced(text, [&](std::string_view token) { return number_of(token, names); });
 }

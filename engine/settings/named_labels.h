@@ -24,6 +24,11 @@ namespace mw::engine {
 /// Returns whether some label in the text of an option, such as "1,Lesion=3", is not a number.
 [[nodiscard]] bool has_names(std::string_view text);
 
+/// Checks the text of sizes, such as "Lesion=3,*=5", before labels are looked up, so that a size
+/// which is no number is not taken for a name.  A size is what follows the last "=" of a part.
+/// ERRORS: mw::Error(kUsage) for one that is no finite number.
+void check_sizes(std::string_view text);
+
 /// Returns the text of an option with numbers in the place of names.  What is between commas,
 /// semicolons and equals signs is a label, unless it is a number of any kind, "*", or a file:
 /// "@FILE", or an image of sizes by its ending.  A name that has one of these signs in it stands in

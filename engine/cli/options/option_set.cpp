@@ -103,7 +103,20 @@ void OptionSet::resolve(const std::map<std::string, std::string>& flags) {
   read_flags(flags);
   read_implied();
   for (Entry& entry : entries_) {
-    if (!waits_for_names(entry)) settle(entry);
+    if (waits_for_names(entry)) {
+      check_named(entry);
+    } else {
+      settle(entry);
+    }
+  }
+}
+
+void OptionSet::check_named(const Entry& entry) {
+  if (!entry.option.check_named) return;
+  try {
+    entry.option.check_named(entry.text);
+  } catch (const Error& error) {
+    refuse(entry.where, std::string(": ") + error.what());
   }
 }
 

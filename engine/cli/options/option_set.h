@@ -39,6 +39,7 @@ enum class Listed {
 
 /// Names of options and their values as text.
 using OptionTexts = std::vector<std::pair<std::string, std::string>>;
+using TextCheck = std::function<void(const std::string&)>;
 
 struct Option {
   std::string name;   ///< the flag without dashes; the config key has '_' for '-'
@@ -55,6 +56,8 @@ struct Option {
   bool only_flag = false;   ///< neither a key nor a variable has it
   bool repeats = false;     ///< may be given several times: the texts are joined by ';'
   bool has_labels = false;  ///< the value has labels in it, though its kind is not kLabels
+  /// Looks at the text before names of labels become numbers.  ERRORS: mw::Error(kUsage).
+  TextCheck check_named = nullptr;
   /// Takes the value over.  ERRORS: mw::Error(kUsage) for one that is not allowed.
   std::function<void(const std::string&)> assign;
   /// Returns values of other options that this value implies, where nothing else gives them.
@@ -104,6 +107,7 @@ class OptionSet {
   void read_flags(const std::map<std::string, std::string>& flags);
   void read_implied();
   static void settle(Entry& entry);
+  static void check_named(const Entry& entry);
   [[nodiscard]] static bool waits_for_names(const Entry& entry);
 
   std::vector<Entry> entries_;

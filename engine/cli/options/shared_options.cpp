@@ -4,6 +4,7 @@
 #include "engine/cli/options/shared_options.h"
 
 #include "engine/cli/options/values.h"
+#include "engine/settings/named_labels.h"
 #include "engine/settings/setting_table.h"
 #include "io/mesh/no_sink.h"
 #include "io/mesh/open_mesh.h"
@@ -58,6 +59,7 @@ int parse_threads(const std::string& text) {
 void add_setting_options(OptionSet& options, engine::MeshSettings& settings) {
   options.add(preset_option());
   for (const engine::Setting& setting : engine::setting_table()) {
+    const bool has_sizes = setting.kind == SettingKind::kSizes;
     options.add({.name = setting.name,
                  .value = setting.value,
                  .help = setting.help,
@@ -66,7 +68,8 @@ void add_setting_options(OptionSet& options, engine::MeshSettings& settings) {
                  .fallback = setting.text(engine::MeshSettings{}),
                  .choices = setting.choices,
                  .listed = setting.expert ? Listed::kInHelpAll : Listed::kInHelp,
-                 .has_labels = setting.kind == SettingKind::kSizes,
+                 .has_labels = has_sizes,
+                 .check_named = has_sizes ? TextCheck(engine::check_sizes) : nullptr,
                  .assign = [&](const std::string& text) { set(setting, settings, text); }});
   }
 }

@@ -502,6 +502,9 @@ TEST(Library, TakesStepsAndChoices) {
   EXPECT_EQ(find_label(volume, "77"), 77U);
   failure(ErrorKind::kUsage, [&] { (void)find_label(volume, "-1"); });
   failure(ErrorKind::kUsage, [&] { (void)find_label(made, "kidney"); });
+  EXPECT_EQ(with_label_numbers(volume, "liver|1=2,*=5"), "2|1=2,*=5");
+  EXPECT_EQ(failure(ErrorKind::kUsage, [&] { (void)with_label_numbers(volume, "liver=inf"); }),
+            "expected a finite number, got 'inf'");
   EXPECT_TRUE(verify(made, volume, options).passed);
   failure(ErrorKind::kUsage, [&] { (void)mesh(volume, {}, {.labels = {77}}); });
 }

@@ -160,6 +160,13 @@ TEST_F(NamesTest, StandForLabelsInOptions) {
                  "--labels spleem: no label is called 'spleem'; near it: spleen");
   expect_failure(2, mesh + "c.vtu --labels TWIN", "labels 5, 6 are called 'TWIN'");
   expect_failure(2, mesh + "c.vtu --size bone=4", "names are liver, spleen, a,b=c, 4th, Twin");
+  for (const std::string wrong : {"nan", "inf", "abc", "liver"}) {
+    for (const std::string place : {"4=", "liver=", "'\"a,b=c\"'="}) {
+      expect_failure(2, mesh + "c.vtu --size " + place + wrong,
+                     "expected a finite number, got '" + wrong + "'");
+    }
+  }
+  same("--size '\"a,b=c\"=4'", "--size 3=4");
   expect_failure(2, mesh + "c.vtu --labels 1-3", "expected a label of at most 64 bits, got '1-3'");
   expect_failure(2, "mesh v.npy -o c.vtu --labels liver", "give numbers, or names with --names");
 }

@@ -231,6 +231,8 @@ class Sizes(unittest.TestCase):
         self.refused(2, "0.347 can be kept", "--size", f"{label}=0.34")
         self.refused(2, "expected H, LABEL=H", "--size", f"{label}:3")
         self.refused(2, "must be positive", "--size", f"{label}=-3")
+        for text in ("nan", "inf", "abc", ""):
+            self.refused(2, f"expected a finite number, got '{text}'", "--size", f"{label}={text}")
         self.refused(2, "two sizes", "--size", f"{label}=3,{label}=3")
         self.refused(2, "nothing to grade", "--gradation", "0.2")
         self.refused(2, "from 0 to 10", "--size", f"{label}=3", "--gradation", "11")
