@@ -185,6 +185,9 @@ class Pilot {
   static constexpr double kTetVolume = 0.1178511301977579;
   /// Exponents of the size in the count: the flattest, the steepest, and the usual one.
   static constexpr double kFlattest = -0.3, kSteepest = -3.5, kUsual = -2.4;
+  /// The flattest one where sizes are to grow: the count hardly falls any more where other bounds
+  /// keep tets, and the end of the range, where that is known for sure, may be far.
+  static constexpr double kFlattestToFewer = -0.05;
 
   struct Trial {
     double at = 0;  ///< logarithm of the factor
@@ -217,7 +220,7 @@ class Pilot {
     if (trials_.size() > 1) {
       const Trial& other = trials_[trials_.size() - 2];
       slope = std::clamp((error_of(last) - error_of(other)) / (last.at - other.at), kSteepest,
-                         kFlattest);
+                         error_of(last) > 0 ? kFlattestToFewer : kFlattest);
     }
     return last.at - error_of(last) / slope;
   }

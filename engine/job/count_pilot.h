@@ -35,7 +35,8 @@ struct PilotTask {
 ///
 /// Where no factor gives the count, the factor is at an end of its range: the least sizes that
 /// voxels allow, or sizes of 64 voxels, with which only the bound on the distance, the topology and
-/// the quality floor keep tets.
+/// the quality floor keep tets.  Labels without a size keep theirs, where others have one: the
+/// factor does not reach them.
 /// REQUIRES: count > 0.
 /// ERRORS: those of mesh_volume(), and what the job's functions throw.
 [[nodiscard]] report::CountFacts scale_for_count(const PilotTask& task);

@@ -210,12 +210,25 @@ std::optional<report::CountFacts> saved_count(const MeshJob& job, report::Finish
   return run.count;
 }
 
+/// Returns how many of the labels that are written have no size, which the scale does not reach.
+std::uint64_t labels_without_size(const MeshJob& job, const io::LabelTable& table) {
+  const SizeRules& rules = job.settings.sizes.rules;
+  if (!rules.any() || !rules.image.empty()) return 0;
+  const LabelSelection kept(wanted_labels(job.choice, table), table);
+  std::uint64_t out = 0;
+  for (Label label = 0; label < table.size(); ++label) {
+    out += kept.keeps(label) && !rules.of_label(table.raw(label)) ? 1U : 0U;
+  }
+  return out;
+}
+
 /// Finds the scale by a pilot, unless an earlier run has done so.
 report::CountFacts count_facts(const PilotTask& task, const report::FinishedRun& run) {
-  if (const auto saved = saved_count(task.job, run)) return *saved;
   const report::ResourceMeter meter;
-  report::CountFacts out = scale_for_count(task);
-  out.seconds = meter.read().wall_seconds;
+  const std::optional<report::CountFacts> saved = saved_count(task.job, run);
+  report::CountFacts out = saved ? *saved : scale_for_count(task);
+  if (!saved) out.seconds = meter.read().wall_seconds;
+  out.labels_without_size = labels_without_size(task.job, run.labels);
   return out;
 }
 

@@ -174,8 +174,10 @@ Json count_json(const FinishedRun& run) {
              {"seconds", count.seconds},
              {"expected", count.expected}};
   }
-  return {{"asked", count.asked},       {"got", run.engine.tets},   {"scale", count.scale},
-          {"is_least", count.is_least}, {"is_most", count.is_most}, {"pilot", std::move(pilot)}};
+  return {{"asked", count.asked},     {"got", run.engine.tets},
+          {"scale", count.scale},     {"is_least", count.is_least},
+          {"is_most", count.is_most}, {"labels_without_size", count.labels_without_size},
+          {"pilot", std::move(pilot)}};
 }
 
 /// Returns the thin parts that --across found, with thicknesses in physical units.

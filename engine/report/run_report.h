@@ -27,9 +27,12 @@ struct CountFacts {
   std::uint64_t expected = 0;  ///< tets that the pilot found at that scale; 0: an earlier run did
   bool is_least = false;       ///< fewer cannot be had
   bool is_most = false;        ///< more cannot be had
-  int trials = 0;              ///< meshes that the pilot made; 0 if an earlier run made them
-  std::int64_t voxels = 0;     ///< voxels of these meshes in all
-  double seconds = 0.0;        ///< on the clock
+  /// Labels that are written and have no size, while others or interfaces have one.  An image
+  /// of sizes is taken to reach all labels.
+  std::uint64_t labels_without_size = 0;
+  int trials = 0;           ///< meshes that the pilot made; 0 if an earlier run made them
+  std::int64_t voxels = 0;  ///< voxels of these meshes in all
+  double seconds = 0.0;     ///< on the clock
 };
 
 /// What a run knows when its mesh has been written.

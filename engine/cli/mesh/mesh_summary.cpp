@@ -48,6 +48,43 @@ void print_sizes(const report::FinishedRun& run) {
             << " % of edges are 0.6 to 1.5 of what was asked\n";
 }
 
+/// Returns whether a number of tets is as near to what was asked as --count promises.
+bool is_near(std::uint64_t tets, const report::CountFacts& count) {
+  const auto asked = static_cast<double>(count.asked);
+  return std::abs(static_cast<double>(tets) - asked) <= 0.1 * asked;
+}
+
+std::string without_size_text(const report::CountFacts& count) {
+  const bool is_one = count.labels_without_size == 1;
+  return io::text(count.labels_without_size, is_one ? " label has" : " labels have",
+                  " no size, so no factor reaches ", is_one ? "its" : "their",
+                  " tets; add *=H to --size");
+}
+
+/// Says why the mesh cannot have as few tets as were asked for.
+std::string least_text(const report::FinishedRun& run) {
+  const std::string fewer = io::text("--count ", run.count->asked, ": fewer tets than ",
+                                     run.engine.tets, " cannot be had");
+  if (run.count->labels_without_size > 0) {
+    return fewer + " with these sizes: " + without_size_text(*run.count);
+  }
+  const std::string within = fewer + " within the bounds on distance, topology and shapes";
+  if (run.sizes.across > 0) return within + " with this --across; lower it";
+  const std::string& image = run.sizes.rules.image;
+  return within + "; raise --max-distance, or lower --quality-floor" +
+         (image.empty() ? "" : "; no factor reaches tets where " + image + " gives no size");
+}
+
+/// Says why the mesh cannot have as many tets as were asked for.
+std::string most_text(const report::FinishedRun& run) {
+  const std::string more = io::text("--count ", run.count->asked, ": more tets than ",
+                                    run.engine.tets, " cannot be had");
+  if (run.count->labels_without_size > 0) {
+    return more + " with these sizes: " + without_size_text(*run.count);
+  }
+  return more + " without cutting tets, which only --size does; ask for a size";
+}
+
 /// Prints how many tets were asked for, and warns if the mesh cannot have that number.
 void print_count(const report::FinishedRun& run) {
   if (!run.count) return;
@@ -59,28 +96,28 @@ void print_count(const report::FinishedRun& run) {
               << " s";
   }
   std::cout << "\n";
-  if (count.is_least) {
-    log_warning(io::text("--count ", count.asked, ": fewer tets than ", run.engine.tets,
-                         " cannot be had within the bounds on distance, topology and shapes",
-                         run.sizes.across > 0
-                             ? " with this --across; lower it"
-                             : "; raise --max-distance, or lower --quality-floor"));
-  }
-  if (count.is_most) {
-    log_warning(
-        io::text("--count ", count.asked, ": more tets than ", run.engine.tets,
-                 " cannot be had without cutting tets, which only --size does; ask for a size"));
-  }
+  if (count.is_least) log_warning(least_text(run));
+  if (count.is_most) log_warning(most_text(run));
 }
 
-/// Warns if the mesh is far from the number that was asked for, though sizes could give it.
+/// Warns if the mesh is far from the number that was asked for, though an end of the range of
+/// sizes does not explain it.
 void print_count_missed(const report::FinishedRun& run) {
   if (!run.count || run.count->is_least || run.count->is_most) return;
-  const auto asked = static_cast<double>(run.count->asked);
-  if (std::abs(static_cast<double>(run.engine.tets) - asked) <= 0.1 * asked) return;
-  log_warning(
-      io::text("--count ", run.count->asked, ": the mesh has ", run.engine.tets,
-               run.connected ? " tets, as parts of labels were left out or cut apart" : " tets"));
+  const report::CountFacts& count = *run.count;
+  if (is_near(run.engine.tets, count)) return;
+  std::string why;
+  if (count.trials > 0 && !is_near(count.expected, count)) {
+    why = io::text(", and no factor that the pilot tried came nearer than ", count.expected);
+    if (count.labels_without_size > 0) why += "; " + without_size_text(count);
+  } else if (count.trials > 0 && count.expected != run.engine.tets) {
+    why = io::text("; the pilot expected ", count.expected);
+  }
+  if (run.connected && run.connected->parts < run.connected->found) {
+    why += io::text("; ", run.connected->found - run.connected->parts, " of ", run.connected->found,
+                    " parts were left out (--parts)");
+  }
+  log_warning(io::text("--count ", count.asked, ": the mesh has ", run.engine.tets, " tets", why));
 }
 
 void print_halvings(const report::FinishedRun& run) {

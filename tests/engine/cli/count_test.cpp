@@ -5,6 +5,7 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "io/file/errors.h"
 #include "tests/engine/cli/run_program.h"
 
 namespace mw::cli {
@@ -73,6 +74,52 @@ TEST_F(CountTest, SaysWhatCannotBeHad) {
     EXPECT_NE(done.err.find(words), std::string::npos) << done.err;
     EXPECT_TRUE(json::parse(read("r.json"))["size"]["count"][key]) << count;
   }
+}
+
+/// The factor reaches labels with a size alone, and what is said when that is not enough is true.
+TEST_F(CountTest, SaysThatLabelsWithoutASizeAreOutOfReach) {
+  synth("voronoi", "--shape 32,32,32 --labels 12 --seed 1");
+  const json plain = report_of("");
+  const std::uint64_t tets = plain["output"]["tets"];
+  const std::uint64_t labels = plain["input"]["labels"];
+  const auto count = [&](double share) {
+    return std::to_string(static_cast<std::uint64_t>(share * static_cast<double>(tets)));
+  };
+  const auto without = [&](std::uint64_t number) {
+    return io::text(number, " labels have no size, so no factor reaches their tets; add *=H");
+  };
+  struct Case {
+    std::string options;
+    std::uint64_t labels_without_size;
+    std::string said, not_said;
+  };
+  const std::vector<Case> cases{
+      {"--size 4=1 --count " + count(0.5), labels - 1, without(labels - 1), "--max-distance"},
+      {"--size '4|1=1' --count " + count(0.5), labels, without(labels), "--max-distance"},
+      {"--size '4|1=1' --count " + count(0.8), labels, without(labels), "--max-distance"},
+      {"--size 4=1 --count 100000000", labels - 1, without(labels - 1), "cutting"},
+      {"--size 4=1 --labels 4 --count 10", 0, "raise --max-distance", "no size"},
+      {"--size '4=1,*=3' --count " + count(0.05), 0, "raise --max-distance", "no size"},
+      {"--count 100000000", 0, "cutting tets", "no size"}};
+  for (const Case& c : cases) {
+    SCOPED_TRACE(c.options);
+    const ProgramRun done = run("mesh v.npy -o v.vtu --force --report r.json " + c.options);
+    EXPECT_EQ(done.code, 0) << done.err;
+    const json told = json::parse(read("r.json"))["size"]["count"];
+    EXPECT_EQ(told["labels_without_size"], c.labels_without_size);
+    EXPECT_NE(told["is_least"], told["is_most"]);
+    EXPECT_NE(done.err.find(c.said), std::string::npos) << done.err;
+    EXPECT_EQ(done.err.find(c.not_said), std::string::npos) << done.err;
+    EXPECT_EQ(done.err.find("left out"), std::string::npos) << done.err;
+  }
+}
+
+/// Parts are left out behind the pilot, which does not know of them.
+TEST_F(CountTest, SaysThatPartsWereLeftOut) {
+  synth("spheres", "--shape 24,24,24 --labels 3 --seed 4");
+  const ProgramRun largest = run("mesh v.npy -o v.vtu --count 2000 --background 0 --parts largest");
+  EXPECT_NE(largest.err.find("; the pilot expected "), std::string::npos) << largest.err;
+  EXPECT_NE(largest.err.find(" parts were left out (--parts)"), std::string::npos) << largest.err;
 }
 
 /// A run whose page could not be written goes on with what its pilot found.
