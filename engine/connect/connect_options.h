@@ -100,6 +100,8 @@ struct ConnectFacts {
   std::uint64_t parts_after = 0;   ///< parts of the mesh with its doubled vertices
   std::uint64_t wedges = 0;        ///< wedges between the sides of cohesive interfaces
   std::uint64_t closed = 0;        ///< facets of these interfaces with no vertex doubled
+  std::uint64_t facets = 0;        ///< facets of all interfaces that should come apart
+  std::uint64_t held = 0;          ///< those of them with no vertex doubled, which cannot open
   std::vector<LabelPair> apart;    ///< pairs that should come apart but share no face
   std::uint64_t labels = 0;        ///< labels of the mesh, before parts were left out
   std::uint64_t stiff_labels = 0;  ///< labels without a vertex inside

@@ -59,7 +59,7 @@ PartFinder::PartFinder(ConnectOptions options, std::filesystem::path folder,
       pinched_(folder_, 3 * memory_bytes_ / 8),
       insides_(folder_, memory_bytes_ / 8),
       copied_(folder_, memory_bytes_ / 4),
-      cohesive_(folder_, memory_bytes_ / 4),
+      held_(folder_, memory_bytes_ / 4),
       copies_(folder_),
       tet_pieces_(folder_) {}
 
@@ -140,7 +140,7 @@ void PartFinder::find() {
   choose_parts();
   each_star(pinched_,
             [&](std::uint64_t row, std::vector<StarTet>& star) { look_at_pinched(row, star); });
-  count_wedges();
+  count_held_facets();
   count_parts();
   tell_apart();
 }
@@ -264,7 +264,7 @@ void PartFinder::look_at_pinched(std::uint64_t row, std::vector<StarTet>& star) 
     unite(&Piece::body_parent, piece_at(star[0].tet), piece_at(tet.tet));
   }
   if ((is_cut || options_.open_hinges) && split.count() > 1) double_vertex(row, star, split);
-  if (is_cut && options_.cohesive.any()) find_cohesive_facets(row, star, split);
+  if (is_cut) count_facets(row, star, split);
   count_hinges(row, star, std::move(joined));
 }
 
@@ -299,34 +299,39 @@ void PartFinder::count_hinges(std::uint64_t row, std::span<const StarTet> star, 
              .rows = {row, row}});
 }
 
-/// Adds the facets at a vertex; a facet is added once for each of its vertices.
-void PartFinder::find_cohesive_facets(std::uint64_t row, std::span<const StarTet> star,
-                                      const StarSets& sets) {
+/// Counts the facets of which this is the first vertex, and notes those that this vertex holds.
+void PartFinder::count_facets(std::uint64_t row, std::span<const StarTet> star,
+                              const StarSets& sets) {
   const std::vector<std::size_t> numbers = sets.numbers();
   each_star_face(star, [&](const StarPair& pair) {
+    if (!are_cut(split_, star, pair)) return;
     const StarTet &one = star[pair[0]], &other = star[pair[1]];
-    if (!options_.cohesive.has(one.label, other.label)) return;
+    const bool has_wedge = options_.cohesive.has(one.label, other.label);
     std::array<std::uint64_t, 4> facet{row};
     std::set_intersection(one.others.begin(), one.others.end(), other.others.begin(),
                           other.others.end(), facet.begin() + 1);
     std::sort(facet.begin(), facet.begin() + 3);
-    facet[3] = numbers[pair[0]] != numbers[pair[1]] ? 1 : 0;
-    cohesive_.add(facet);
+    if (facet[0] == row) {
+      ++facts_.facets;
+      facts_.wedges += has_wedge ? 1U : 0U;
+    }
+    facet[3] = has_wedge ? 1 : 0;
+    if (numbers[pair[0]] == numbers[pair[1]]) held_.add(facet);
   });
 }
 
-/// A facet has a wedge unless both tets keep all three vertices.
-void PartFinder::count_wedges() {
+/// A facet opens, and has its wedge, unless both tets keep all three vertices.
+void PartFinder::count_held_facets() {
   std::array<std::uint64_t, 4> last{};
-  const auto close = [&] { ++(last[3] != 0 ? facts_.wedges : facts_.closed); };
-  bool is_first = true;
-  cohesive_.each([&](const std::array<std::uint64_t, 4>& facet) {
-    const bool is_new = is_first || !std::equal(facet.begin(), facet.begin() + 3, last.begin());
-    if (is_new && !is_first) close();
-    is_first = false;
-    last = facet;  // a record of a doubled vertex comes behind the others
+  int times = 0;
+  held_.each([&](const std::array<std::uint64_t, 4>& facet) {
+    times = facet == last ? times + 1 : 1;
+    last = facet;
+    if (times < 3) return;
+    ++facts_.held;
+    facts_.closed += facet[3];
   });
-  if (!is_first) close();
+  facts_.wedges -= facts_.closed;
 }
 
 void PartFinder::add_hinge(const HingePlace& hinge) {

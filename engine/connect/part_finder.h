@@ -25,7 +25,7 @@ struct CopiedCorner {
   std::uint64_t copy = 0;  ///< number of the copy
 };
 
-/// Finds parts and hinges, and counts wedges where the options ask for some.
+/// Finds parts and hinges, and counts facets that open where the options ask for some.
 /// Memory: `memory_bytes` twice, 0.3 MiB, and 40 bytes a piece.  Disk: 192 bytes a tet in `folder`
 /// during find().  ENSURES: what is found depends on the mesh alone, not on how it was divided
 /// among calls of add().  Cost: 3 us a tet.
@@ -79,8 +79,8 @@ class PartFinder {
   void note_cut(RawLabel one, RawLabel other);
   void tell_apart();
   void count_hinges(std::uint64_t row, std::span<const StarTet> star, StarSets joined);
-  void find_cohesive_facets(std::uint64_t row, std::span<const StarTet> star, const StarSets& sets);
-  void count_wedges();
+  void count_facets(std::uint64_t row, std::span<const StarTet> star, const StarSets& sets);
+  void count_held_facets();
   void add_hinge(const HingePlace& hinge);
   void double_vertex(std::uint64_t row, std::span<const StarTet> star, const StarSets& sets);
 
@@ -99,9 +99,11 @@ class PartFinder {
   std::vector<Piece> pieces_;
   io::ExternalSort<6> stars_;
   io::ExternalSort<6> pinched_;
-  io::ExternalSort<2> insides_;   ///< label; 1 for a vertex inside, 0 for a tet
-  io::ExternalSort<3> copied_;    ///< tet, row, copy
-  io::ExternalSort<4> cohesive_;  ///< rows of a facet, ascending; 1 if a vertex of it is doubled
+  io::ExternalSort<2> insides_;  ///< label; 1 for a vertex inside, 0 for a tet
+  io::ExternalSort<3> copied_;   ///< tet, row, copy
+  /// Rows of a facet that should open, ascending, and 1 if it should have a wedge; once for each of
+  /// its vertices that both of its tets keep.
+  io::ExternalSort<4> held_;
   io::ScratchFile copies_;
   io::ScratchFile tet_pieces_;  ///< the piece of each tet; only where parts are left out
   std::uint64_t loaded_chunk_ = ~std::uint64_t{0};

@@ -29,12 +29,16 @@ Json hinge_json(const engine::HingePlace& hinge, bool is_signed) {
 
 }  // namespace
 
+Json pairs_json(const std::vector<engine::LabelPair>& pairs, bool labels_signed) {
+  Json out = Json::array();
+  for (const auto& [one, other] : pairs) {
+    out.push_back({label_json(one, labels_signed), label_json(other, labels_signed)});
+  }
+  return out;
+}
+
 Json connect_json(const engine::ConnectFacts& facts, bool labels_signed) {
   Json others = Json::array(), hinges = Json::array(), stiff = Json::array();
-  Json apart = Json::array();
-  for (const auto& [one, other] : facts.apart) {
-    apart.push_back({label_json(one, labels_signed), label_json(other, labels_signed)});
-  }
   for (const RawLabel label : facts.stiff) stiff.push_back(label_json(label, labels_signed));
   for (const engine::PartPlace& part : facts.others) {
     others.push_back(other_json(part, labels_signed));
@@ -60,7 +64,9 @@ Json connect_json(const engine::ConnectFacts& facts, bool labels_signed) {
             {"parts_after", facts.parts_after},
             {"wedges", facts.wedges},
             {"facets_without_wedge", facts.closed},
-            {"labels_that_do_not_meet", std::move(apart)}}}};
+            {"facets", facts.facets},
+            {"facets_that_cannot_open", facts.held},
+            {"labels_that_do_not_meet", pairs_json(facts.apart, labels_signed)}}}};
 }
 
 std::string connect_text(const engine::ConnectFacts& facts) {
@@ -90,12 +96,16 @@ std::string connect_text(const engine::ConnectFacts& facts) {
     add(io::text(facts.wedges, " cohesive wedges"));
     if (facts.closed > 0) add(io::text("none on ", facts.closed, " facets that cannot open"));
   }
+  if (facts.held > facts.closed) {
+    const std::uint64_t all = facts.facets - facts.wedges - facts.closed;
+    add(io::text(facts.held - facts.closed, " of ", all, " facets of --split cannot open"));
+  }
   return out;
 }
 
-std::string apart_text(const engine::ConnectFacts& facts, bool labels_signed) {
+std::string pairs_text(const std::vector<engine::LabelPair>& pairs, bool labels_signed) {
   std::string out;
-  for (const auto& [one, other] : facts.apart) {
+  for (const auto& [one, other] : pairs) {
     out += (out.empty() ? "" : ", ") + label_text(one, labels_signed, {}) + "|" +
            label_text(other, labels_signed, {});
   }

@@ -4,6 +4,7 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 #include "engine/connect/connect_options.h"
 #include "io/json/json.h"
@@ -19,7 +20,9 @@ namespace mw::report {
 
 /// Says how many labels have no vertex inside; empty where all have one.
 [[nodiscard]] std::string stiff_text(const engine::ConnectFacts& facts);
-/// Says which labels were to come apart and do not meet; empty where there are none.
-[[nodiscard]] std::string apart_text(const engine::ConnectFacts& facts, bool labels_signed);
+/// Returns the pairs as an option has them, "1|2, 1|3"; empty where there are none.
+[[nodiscard]] std::string pairs_text(const std::vector<engine::LabelPair>& pairs,
+                                     bool labels_signed);
+[[nodiscard]] io::Json pairs_json(const std::vector<engine::LabelPair>& pairs, bool labels_signed);
 
 }  // namespace mw::report

@@ -133,10 +133,17 @@ void print_parts(const report::FinishedRun& run) {
   if (!run.connected) return;
   const std::string parts = report::connect_text(*run.connected);
   if (!parts.empty()) std::cout << "parts       " << parts << "\n";
-  const std::string apart = report::apart_text(*run.connected, run.labels.is_signed());
+  const std::string apart = report::pairs_text(run.connected->apart, run.labels.is_signed());
   if (!apart.empty()) {
     log_warning("--split, --cohesive: " + apart +
                 ": these labels share no face in the mesh, so nothing opens between them");
+  }
+  const std::uint64_t facets = run.connected->facets;
+  if (facets > 0 && run.connected->held == facets) {
+    log_warning(io::text("--split, --cohesive: nothing opens: ", facets,
+                         facets == 1 ? " facet has" : " facets have",
+                         " only vertices at which the interface ends; a smaller --size there gives "
+                         "it others"));
   }
   const std::string stiff = report::stiff_text(*run.connected);
   if (!stiff.empty()) std::cout << "stiff       " << stiff << "\n";

@@ -142,6 +142,39 @@ class Parts(unittest.TestCase):
         self.assertEqual(code, 0, out)
         self.assertNotIn("share no face", out)
 
+    def test_facets_that_cannot_open_are_told(self):
+        """Labels 1 and 2 meet at one face of a voxel, amid label 3; 4 and 5 at a large interface."""
+        v = np.ones((9, 9, 24), np.uint8)  # [z, y, x]
+        v[:, :, 6:12] = 2
+        v[:, :, 4:8] = 3
+        v[4, 4, 4:6], v[4, 4, 6:8] = 1, 2
+        v[:, :, 12:] = 4
+        v[4:, :, 12:] = 5
+        np.save("held.npy", v)
+        run("mesh", "held.npy", "-o", "held.vtu")
+        whole = run("digest", "held.vtu")
+        for options, held, said in ((("--split", "1|2"), True, "of --split cannot open"),
+                                    (("--cohesive", "1|2"), True, "0 cohesive wedges, none on"),
+                                    (("--split", "1|2,4|5"), False, "of --split cannot open"),
+                                    (("--split", "1|2", "--cohesive", "4|5"), False,
+                                     "of --split cannot open"),
+                                    (("--split", "4|5"), False, "")):
+            code, out = fails("mesh", "held.npy", "-o", "held.vtu", "--force", "--report",
+                              "held.json", *options)
+            self.assertEqual(code, 0, out)
+            self.assertIn(said, out)
+            self.assertEqual("nothing opens" in out, held, out)
+            self.assertEqual("cannot open" in out, said != "", out)
+            self.assertEqual(run("digest", "held.vtu") == whole, held)
+            told = report("held.json")["parts"]["doubled"]
+            self.assertEqual(told["facets_that_cannot_open"] > 0, said != "")
+            self.assertEqual(told["facets_that_cannot_open"] == told["facets"], held)
+            self.assertEqual(told["facets_without_wedge"] > 0, options[0] == "--cohesive")
+        run("mesh", "held.npy", "-o", "held.vtu", "--force", "--report", "held.json", "--split",
+            "1|2", "--size", "1|2=0.5")
+        told = report("held.json")["parts"]["doubled"]
+        self.assertLess(told["facets_that_cannot_open"], told["facets"])
+
     def test_the_same_bytes_for_any_threads(self):
         for threads in (1, 3):
             run("mesh", "v.npy", "-o", f"t{threads}.vtu", "--background", 0, "--parts", 30, "--split",

@@ -40,6 +40,18 @@ std::map<FacetPlace, std::vector<Face>> faces_by_place(const io::MeshData& mesh)
   return out;
 }
 
+/// Returns how many facets should open by the rule, and how many of them have not.
+std::array<std::uint64_t, 2> facets_to_open(const io::MeshData& mesh, const SplitRule& rule) {
+  std::array<std::uint64_t, 2> out{};
+  for (const auto& [place, faces] : faces_by_place(mesh)) {
+    if (faces.size() != 2) continue;
+    if (!rule.cuts(mesh.labels[faces[0].tet], mesh.labels[faces[1].tet])) continue;
+    ++out[0];
+    out[1] += faces[0].rows == faces[1].rows ? 1U : 0U;
+  }
+  return out;
+}
+
 /// By place of the facet: the face under the wedge, and the one on top of it.
 struct Expected {
   std::map<FacetPlace, std::array<Face, 2>> wedges;
@@ -88,7 +100,7 @@ ConnectOptions random_options(unsigned seed) {
 }
 
 TEST(Wedges, AreThoseOfAllFacetsThatOpen) {
-  std::size_t wedges = 0, rims = 0, closed = 0;
+  std::size_t wedges = 0, rims = 0, closed = 0, held = 0;
   for (unsigned seed = 0; seed < 160; ++seed) {
     SCOPED_TRACE(seed);
     const io::MeshData made = random_mesh(seed);
@@ -100,6 +112,8 @@ TEST(Wedges, AreThoseOfAllFacetsThatOpen) {
     EXPECT_EQ(facts.wedges, expected.wedges.size());
     EXPECT_EQ(facts.closed, expected.closed);
     closed += facts.closed;
+    EXPECT_EQ((std::array{facts.facets, facts.held}), facets_to_open(mesh, options.all_split()));
+    held += facts.held - facts.closed;
     const ::mw::test::TempFolder folder;
     io::GroupedSink sink(folder.path(), nullptr);
     io::GroupedMesh& grouped = group(mesh, sink).mesh();
@@ -144,6 +158,7 @@ TEST(Wedges, AreThoseOfAllFacetsThatOpen) {
   }
   EXPECT_GT(std::min(wedges, rims), 100U);
   EXPECT_GT(closed, 5U);
+  EXPECT_GT(held, 2U);
 }
 
 /// Nodes in the middles of edges are those that the tets on both sides have.
