@@ -40,6 +40,8 @@ struct ConnectOptions {
   SplitRule split;
   bool open_hinges = false;
   io::CohesiveRule cohesive{};  ///< interfaces that are split, too, and get wedges
+  /// Pairs of labels that are looked for in the mesh; smaller number first, ascending.
+  std::vector<LabelPair> watched{};
 
   /// True if the mesh that is written may differ from the one that was made.
   [[nodiscard]] bool change_mesh() const {
@@ -103,6 +105,7 @@ struct ConnectFacts {
   std::uint64_t facets = 0;        ///< facets of all interfaces that should come apart
   std::uint64_t held = 0;          ///< those of them with no vertex doubled, which cannot open
   std::vector<LabelPair> apart;    ///< pairs that should come apart but share no face
+  std::vector<LabelPair> unmet;    ///< pairs of ConnectOptions::watched that share no face
   std::uint64_t labels = 0;        ///< labels of the mesh, before parts were left out
   std::uint64_t stiff_labels = 0;  ///< labels without a vertex inside
   std::vector<RawLabel> stiff;     ///< the first kMostPlaces of those

@@ -53,6 +53,7 @@ PartFinder::PartFinder(ConnectOptions options, std::filesystem::path folder,
     : options_(std::move(options)),
       split_(options_.all_split()),
       met_(split_.pairs.size()),
+      seen_(options_.watched.size()),
       folder_(std::move(folder)),
       memory_bytes_(memory_bytes),
       stars_(folder_, memory_bytes_),
@@ -169,6 +170,7 @@ void PartFinder::unite_star(std::uint64_t row, std::vector<StarTet>& star) {
     sets.unite(pair[0], pair[1]);
     const bool cuts = are_cut(split_, star, pair);
     is_cut = is_cut || cuts;
+    if (!seen_.empty()) watch(star[pair[0]].label, star[pair[1]].label);
     const std::uint32_t one = piece_at(star[pair[0]].tet), other = piece_at(star[pair[1]].tet);
     unite(&Piece::parent, one, other);
     if (!cuts) unite(&Piece::split_parent, one, other);
@@ -275,9 +277,21 @@ void PartFinder::note_cut(RawLabel one, RawLabel other) {
   if (!split_.all) met_[static_cast<std::size_t>(pair - pairs.begin())] = true;
 }
 
+void PartFinder::watch(RawLabel one, RawLabel other) {
+  if (one == other) return;
+  const std::vector<LabelPair>& pairs = options_.watched;
+  const LabelPair wanted = std::minmax(one, other);
+  const auto pair = std::lower_bound(pairs.begin(), pairs.end(), wanted);
+  if (pair == pairs.end() || *pair != wanted) return;
+  seen_[static_cast<std::size_t>(pair - pairs.begin())] = true;
+}
+
 void PartFinder::tell_apart() {
   for (std::size_t i = 0; i < met_.size() && !split_.all; ++i) {
     if (!met_[i]) facts_.apart.push_back(split_.pairs[i]);
+  }
+  for (std::size_t i = 0; i < seen_.size(); ++i) {
+    if (!seen_[i]) facts_.unmet.push_back(options_.watched[i]);
   }
 }
 

@@ -81,6 +81,7 @@ class PartFinder {
   void count_hinges(std::uint64_t row, std::span<const StarTet> star, StarSets joined);
   void count_facets(std::uint64_t row, std::span<const StarTet> star, const StarSets& sets);
   void count_held_facets();
+  void watch(RawLabel one, RawLabel other);
   void add_hinge(const HingePlace& hinge);
   void double_vertex(std::uint64_t row, std::span<const StarTet> star, const StarSets& sets);
 
@@ -89,8 +90,9 @@ class PartFinder {
   [[nodiscard]] std::uint32_t piece_at(std::uint64_t place) const;
 
   ConnectOptions options_;
-  SplitRule split_;        ///< all interfaces that come apart
-  std::vector<bool> met_;  ///< by pair of split_: true if a face is between its labels
+  SplitRule split_;         ///< all interfaces that come apart
+  std::vector<bool> met_;   ///< by pair of split_: true if a face is between its labels
+  std::vector<bool> seen_;  ///< by pair of options_.watched: likewise
   std::filesystem::path folder_;
   std::size_t memory_bytes_;
   std::vector<io::TetRows> tets_;  ///< tets of the chunk that is filled

@@ -305,10 +305,12 @@ void check_scored(const MeshJob& job) {
   }
 }
 
-ConnectTask connect_task(const MeshJob& job) {
-  return {.options = job.connect,
-          .folder = job.folder.empty() ? "." : job.folder,
-          .memory_bytes = ConnectTask::memory_of(job.run.store.memory)};
+ConnectTask connect_task(const MeshJob& job, const io::LabelTable& table) {
+  ConnectTask out{.options = job.connect,
+                  .folder = job.folder.empty() ? "." : job.folder,
+                  .memory_bytes = ConnectTask::memory_of(job.run.store.memory)};
+  out.options.watched = sized_interfaces(job, table);
+  return out;
 }
 
 /// Marches, and says where the work is when a run that ends early leaves some.
@@ -336,6 +338,19 @@ void refuse_changed_input(const io::LabelVolume& volume, std::uint64_t first, in
 }
 
 }  // namespace
+
+std::vector<LabelPair> sized_interfaces(const MeshJob& job, const io::LabelTable& table) {
+  std::vector<LabelPair> out;
+  const LabelSelection kept(wanted_labels(job.choice, table), table);
+  // A label that the volume does not have is refused by the marches.
+  const auto is_written = [&](RawLabel label) {
+    return table.contains(label) && kept.keeps(table.dense(label));
+  };
+  for (const InterfaceSize& s : job.settings.sizes.rules.interfaces) {
+    if (is_written(s.low) && is_written(s.high)) out.emplace_back(s.low, s.high);
+  }
+  return out;
+}
 
 report::FinishedRun mesh(const io::LabelVolume& opened, const MeshJob& asked, io::MeshSink& sink) {
   MeshJob job = asked;
@@ -384,7 +399,9 @@ report::FinishedRun mesh(const io::LabelVolume& opened, const MeshJob& asked, io
   }
   check_interfaces(job.connect, run.labels);
   std::optional<ConnectedSink> connected;
-  if (job.finds_parts || job.connect.change_mesh()) connected.emplace(sink, connect_task(job));
+  if (job.finds_parts || job.connect.change_mesh()) {
+    connected.emplace(sink, connect_task(job, run.labels));
+  }
   io::MeshSink& target = connected ? static_cast<io::MeshSink&>(*connected) : sink;
   std::optional<Certifier> certifier;
   if (plan.why_not.empty()) certifier.emplace(plan, job, labels, target, job.stop);

@@ -61,6 +61,11 @@ struct CertificatePlan {
 /// ERRORS: mw::Error(kUsage) when it is asked for and cannot be had.
 [[nodiscard]] CertificatePlan plan_certificate(const MeshJob& job);
 
+/// Returns the pairs of labels that are written and whose interface has a size of its own, as
+/// ConnectOptions::watched has them.
+[[nodiscard]] std::vector<LabelPair> sized_interfaces(const MeshJob& job,
+                                                      const io::LabelTable& table);
+
 /// Meshes a volume into `sink`, from begin to finish.  A certificate is made before finish(), of
 /// the mesh before parts are left out and vertices doubled.
 /// ENSURES: promises P1 to P3 and P5 of the README.  The digest is the caller's to add.

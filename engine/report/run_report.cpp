@@ -192,13 +192,21 @@ Json across_json(const FinishedRun& run) {
           {"least_thickness", parts.least * voxel}};
 }
 
+/// Returns the interfaces with sizes of their own that the mesh does not have; null if not looked
+/// at.
+Json unmet_json(const FinishedRun& run) {
+  if (!run.connected) return nullptr;
+  return pairs_json(run.connected->unmet, run.labels.is_signed());
+}
+
 /// Returns what was asked of sizes; the rows of labels have each label's own and its longest edge.
 Json size_json(const FinishedRun& run) {
   Json out{{"labels", run.sizes.rules.labels.size()},
            {"halvings", run.engine.halvings},
            {"inner_vertices_added", run.engine.inner_vertices},
            {"count", count_json(run)},
-           {"across", across_json(run)}};
+           {"across", across_json(run)},
+           {"labels_that_do_not_meet", unmet_json(run)}};
   // Edges are compared with the sizes of labels only.
   if (run.sizes.rules.labels.empty() && !run.sizes.rules.others) return out;
   const engine::EdgeRatios& ratios = run.engine.edge_ratios;

@@ -154,11 +154,12 @@ report::FinishedRun mesh_into(const MeshRequest& request, const io::LabelVolume&
 }
 
 /// Counts parts and hinges in a mesh that several processes have written.
-std::optional<engine::ConnectFacts> parts_of_file(const MeshRequest& request) {
+std::optional<engine::ConnectFacts> parts_of_file(const MeshRequest& request,
+                                                  const io::LabelTable& labels) {
   io::NoSink nowhere;
   const engine::MeshJob& job = request.job;
   engine::ConnectedSink sink(
-      nowhere, {.options = {},
+      nowhere, {.options = {.watched = engine::sized_interfaces(job, labels)},
                 .folder = job.folder.empty() ? "." : job.folder,
                 .memory_bytes = engine::ConnectTask::memory_of(job.run.store.memory)});
   io::copy_mesh(request.output, sink);
@@ -302,7 +303,9 @@ int mesh(const MeshRequest& request, const OptionSet& options) {
   }
   report::FinishedRun run = mesh_into(request, *volume, files);
   if (!run_processes().speaks()) return kExitDone;
-  if (!run.connected && files.shared.mesh != nullptr) run.connected = parts_of_file(request);
+  if (!run.connected && files.shared.mesh != nullptr) {
+    run.connected = parts_of_file(request, run.labels);
+  }
   tell_resume(request, run.engine.store);
   if (run.engine.keep) tell_keep(*run.engine.keep);
   run.resources = meter.read();

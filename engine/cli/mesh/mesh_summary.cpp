@@ -120,6 +120,13 @@ void print_count_missed(const report::FinishedRun& run) {
   log_warning(io::text("--count ", count.asked, ": the mesh has ", run.engine.tets, " tets", why));
 }
 
+/// Warns of sizes that were asked on faces between labels where there are none.
+void print_unmet(const report::FinishedRun& run) {
+  if (!run.connected || run.connected->unmet.empty()) return;
+  log_warning("--size " + report::pairs_text(run.connected->unmet, run.labels.is_signed()) +
+              ": these labels do not meet: they share no face in the mesh");
+}
+
 void print_halvings(const report::FinishedRun& run) {
   const int times = run.engine.halvings;
   if (times == 0) return;
@@ -257,6 +264,7 @@ void print_summary(const report::FinishedRun& run, const MeshRequest& request,
   print_halvings(run);
   print_sizes(run);
   print_count_missed(run);
+  print_unmet(run);
   print_across(run);
   print_samples(run);
   print_certificate(run);

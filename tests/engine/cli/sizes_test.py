@@ -158,6 +158,18 @@ class Sizes(unittest.TestCase):
         middles = mesh.points[mesh.tets].mean(1)[:, 0]
         self.assertGreater((abs(middles - 24) < 4).sum(), 5 * (abs(middles - 8) < 4).sum())
 
+    def test_interfaces_that_are_not_there_are_told(self):
+        z, y, x = np.mgrid[:16, :16, :24]
+        np.save("i.npy", np.where(x < 8, 1, np.where(x < 16, 2, 3)).astype(np.uint8))
+        for options, pairs in ((("--size", "3|1=2.5,1|2=3"), [[1, 3]]), (("--size", "2|3=2.5"), []),
+                               (("--size", "1|3=2.5", "--background", "3"), [])):
+            done = start("mesh", "i.npy", "-o", "i.vtu", "--force", "--report", "i.json", *options)
+            self.assertEqual(done.returncode, 0, done.stderr)
+            self.assertEqual("--size 1|3: these labels do not meet" in done.stderr, pairs != [],
+                             done.stderr)
+            with open("i.json", encoding="utf-8") as file:
+                self.assertEqual(json.load(file)["size"]["labels_that_do_not_meet"], pairs)
+
     def test_an_image_has_the_size_at_each_voxel(self):
         z, y, x = np.mgrid[:32, :32, :32]
         np.save("l.npy", np.where(y < 16, 1, 2).astype(np.uint8))

@@ -68,8 +68,34 @@ void expect_same_facts(const ConnectFacts& a, const ConnectFacts& b) {
             std::tie(b.vertices, b.hinge_vertices, b.hinge_edges, b.doubled, b.copies));
   EXPECT_EQ(std::tie(a.parts_after, a.facets, a.held, a.closed, a.wedges),
             std::tie(b.parts_after, b.facets, b.held, b.closed, b.wedges));
+  EXPECT_EQ(a.unmet, b.unmet);
   ASSERT_EQ(a.hinges.size(), b.hinges.size());
   for (std::size_t h = 0; h < a.hinges.size(); ++h) EXPECT_EQ(a.hinges[h].rows, b.hinges[h].rows);
+}
+
+TEST(ConnectedSink, TellsWhichWatchedLabelsShareNoFace) {
+  const std::vector<LabelPair> watched{{0, 1}, {0, 9}, {1, 2}, {1, 3}, {2, 3}, {7, 8}};
+  std::size_t met = 0, unmet = 0;
+  for (unsigned seed = 0; seed < 60; ++seed) {
+    const io::MeshData mesh = random_mesh(seed);
+    if (mesh.tets.empty()) continue;
+    std::map<std::set<std::uint64_t>, std::vector<RawLabel>> faces;
+    for (std::size_t t = 0; t < mesh.tets.size(); ++t) {
+      for (const std::uint64_t left_out : mesh.tets[t]) {
+        std::set<std::uint64_t> face(mesh.tets[t].begin(), mesh.tets[t].end());
+        face.erase(left_out);
+        faces[face].push_back(mesh.labels[t]);
+      }
+    }
+    std::vector<LabelPair> expected = watched;
+    for (const auto& [face, labels] : faces) {
+      if (labels.size() == 2) std::erase(expected, LabelPair(std::minmax(labels[0], labels[1])));
+    }
+    EXPECT_EQ(connect(mesh, {.watched = watched}).facts.unmet, expected) << seed;
+    met += watched.size() - expected.size();
+    unmet += expected.size();
+  }
+  EXPECT_GT(std::min(met, unmet), 50U);
 }
 
 TEST(ConnectedSink, CountsPartsAndHinges) {
