@@ -16,7 +16,7 @@ bool is_on_box(Side side) {
 
 ShellPlans::ShellPlans(const GroupedMesh& mesh, bool closed)
     : mesh_(mesh), by_label_(mesh.table().size()) {
-  const std::vector<FacetGroup>& groups = mesh.facet_groups();
+  const FacetGroups& groups = mesh.facet_groups();
   for (std::size_t g = 0; g < groups.size(); ++g) {
     if (is_on_box(groups[g].side) && !closed) continue;
     by_label_[groups[g].first].push_back({.group = g});

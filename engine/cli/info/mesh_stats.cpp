@@ -102,8 +102,9 @@ void measure_facets(io::GroupedMesh& mesh, MeshStats& stats) {
 
 /// Returns whether all tets together are the whole box, so that nothing was left out.
 bool fills_box(const io::GroupedMesh& mesh) {
-  return std::none_of(mesh.facet_groups().begin(), mesh.facet_groups().end(),
-                      [](const io::FacetGroup& group) { return group.side == io::Side::kOuter; });
+  return std::ranges::none_of(mesh.facet_groups(), [](const io::FacetGroup& group) {
+    return group.side == io::Side::kOuter;
+  });
 }
 
 void measure_betti(io::GroupedMesh& mesh, MeshStats& stats) {

@@ -30,7 +30,7 @@ std::vector<Label> by_size(const io::GroupedMesh& mesh, std::optional<Label> sur
 /// Returns for each label its groups of facets, ascending.
 std::vector<std::vector<std::size_t>> groups_of(const io::GroupedMesh& mesh) {
   std::vector<std::vector<std::size_t>> out(mesh.table().size());
-  const std::vector<io::FacetGroup>& groups = mesh.facet_groups();
+  const io::FacetGroups& groups = mesh.facet_groups();
   for (std::size_t i = 0; i < groups.size(); ++i) {
     out[groups[i].first].push_back(i);
     if (groups[i].second != kExterior) out[groups[i].second].push_back(i);
@@ -46,7 +46,7 @@ ViewData::ViewData(io::GroupedMesh& mesh, std::optional<Label> surrounding) : me
 }
 
 void ViewData::choose(std::optional<Label> surrounding) {
-  const std::vector<io::FacetGroup>& groups = mesh_.facet_groups();
+  const io::FacetGroups& groups = mesh_.facet_groups();
   const std::vector<std::vector<std::size_t>> of_label = groups_of(mesh_);
   std::vector<bool> taken(groups.size());
   for (const Label rank : by_size(mesh_, surrounding)) {

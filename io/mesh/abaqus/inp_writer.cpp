@@ -21,6 +21,10 @@ constexpr std::string_view kInpEnds = "** END OF MESH";
 
 constexpr std::uint64_t kMaxNumber = 999'999'999;
 
+/// The sets of nodes at the ends of a deck, where these are no sides of the box.
+constexpr const char* kLowSet = "DECK_LOW";
+constexpr const char* kHighSet = "DECK_HIGH";
+
 /// Returns the face of a C3D4 or C3D10 that lies opposite to a corner: S1 has the nodes 1 2 3, S2
 /// has 1 4 2, S3 has 2 4 3, S4 has 3 4 1.
 const char* face_name(std::uint64_t opposite) {
@@ -81,24 +85,33 @@ void InpWriter::write(GroupedMesh& mesh) {
                {.max = kMaxNumber, .subject = "Abaqus has", .others = ".msh or .vtkhdf"});
   if (has_deck_) check_jacobians(name_, mesh);
   if (rule_) materials_.emplace(mesh, *rule_);
-  PlainNames names(mesh,
-                   {.reserved = materials_ ? materials_->names() : std::vector<std::string>{}});
+  const PlainNames names(mesh, {.reserved = names_of_others()});
   write_head(mesh, names);
   write_nodes(mesh);
   for (Label rank = 0; rank < mesh.table().size(); ++rank) {
     write_elements(mesh, mesh.label_tets()[rank], names.volume(rank));
   }
   write_wedges(mesh, names);
-  for (const NamedFacets& set : named_facets(mesh, names)) {
+  for_each_named(mesh, names, [&](const NamedFacets& set) {
     write_node_set(mesh, set.name, set.group.facets, false);
     if (set.is_split) write_node_set(mesh, set.other, set.group.facets, true);
     write_surface(mesh, set.name, set.group.facets, false);
     if (!set.other.empty()) write_surface(mesh, set.other, set.group.facets, true);
-  }
+  });
   if (rule_) write_materials();
   if (has_deck_ && mesh.tet_count() > 0) write_deck(mesh, names);
   line(kInpEnds);
   table_ ? commit_together({*table_, file_}) : file_.commit();
+}
+
+/// Returns the names of sets that are neither labels nor facets.
+std::vector<std::string> InpWriter::names_of_others() const {
+  std::vector<std::string> out;
+  if (materials_) out = materials_->names();
+  if (!has_deck_) return out;
+  out.insert(out.end(), {kLowSet, kHighSet});
+  if (rule_) out.push_back(rest_set());
+  return out;
 }
 
 void InpWriter::write_head(const GroupedMesh& mesh, const PlainNames& names) {
@@ -145,9 +158,9 @@ void InpWriter::write_elements(GroupedMesh& mesh, RowRange tets, const std::stri
 }
 
 void InpWriter::write_wedges(GroupedMesh& mesh, const PlainNames& names) {
-  for (std::size_t g = 0; g < mesh.wedge_groups().size(); ++g) {
-    line("*ELEMENT, TYPE=COH3D6, ELSET=", names.wedges(g));
-    const RowRange wedges = mesh.wedge_groups()[g].wedges;
+  for (const WedgeGroup& group : mesh.wedge_groups()) {
+    line("*ELEMENT, TYPE=COH3D6, ELSET=", names.wedges(group));
+    const RowRange wedges = group.wedges;
     for (std::uint64_t w = wedges.begin; w < wedges.end; ++w) {
       std::string numbers = text(mesh.tet_count() + w + 1);
       for (const std::uint64_t row : mesh.wedge_nodes(mesh.wedge(w))) {
@@ -176,14 +189,14 @@ void InpWriter::write_node_set(GroupedMesh& mesh, const std::string& name, RowRa
   line("*NSET, NSET=", name);
   NumberRows rows(*this);
   const auto add = [&](std::uint64_t row) { rows.add(row + 1); };
-  for_each_facet_node(mesh, facets, folder_, add, of_second);
+  for_each_facet_node(mesh, facets, add, of_second);
   rows.end();
 }
 
 void InpWriter::write_materials() {
   NumberRows rows(*this);
   std::uint32_t last = 0;
-  materials_->for_each(folder_, [&](std::uint32_t material, std::uint64_t tet) {
+  materials_->for_each([&](std::uint32_t material, std::uint64_t tet) {
     if (material != last) {
       rows.end();
       line("*ELSET, ELSET=", materials_->name(material));
@@ -195,20 +208,19 @@ void InpWriter::write_materials() {
   materials_->append_table(*table_);
 }
 
-void InpWriter::write_deck(GroupedMesh& mesh, PlainNames& names) {
+void InpWriter::write_deck(GroupedMesh& mesh, const PlainNames& names) {
   line(
       "** A job to begin with.  1000 and 0.3 stand for modulus and Poisson's ratio of each "
       "material.");
   if (rule_) {
-    write_material_sections(mesh, names);
+    write_material_sections(mesh);
   } else {
     for (Label rank = 0; rank < mesh.table().size(); ++rank) write_section(names.volume(rank));
   }
   const DeckEnds ends(mesh);
-  std::string low = "Z_MIN", high = "Z_MAX";
+  const char* const low = ends.are_sides() ? "Z_MIN" : kLowSet;
+  const char* const high = ends.are_sides() ? "Z_MAX" : kHighSet;
   if (!ends.are_sides()) {
-    low = names.add("DECK_LOW");
-    high = names.add("DECK_HIGH");
     write_nodes_where(mesh, low, [&](const Position& p) { return ends.is_low(p); });
     write_nodes_where(mesh, high, [&](const Position& p) { return ends.is_high(p); });
   }
@@ -232,7 +244,7 @@ void InpWriter::write_section(const std::string& set) {
 }
 
 /// Writes a section for each set of a material, and one for the tets that are in none.
-void InpWriter::write_material_sections(GroupedMesh& mesh, PlainNames& names) {
+void InpWriter::write_material_sections(GroupedMesh& mesh) {
   std::uint64_t in_sets = 0;
   for (std::uint32_t m = 1; m <= materials_->count(); ++m) {
     const MaterialSets::Material& facts = materials_->facts(m);
@@ -242,14 +254,13 @@ void InpWriter::write_material_sections(GroupedMesh& mesh, PlainNames& names) {
     write_section(materials_->name(m));
   }
   if (in_sets == mesh.tet_count()) return;
-  const std::string none = names.add(rule_->values + "_none");
-  line("*ELSET, ELSET=", none);
+  line("*ELSET, ELSET=", rest_set());
   NumberRows rows(*this);
   for (std::uint64_t t = 0; t < mesh.tet_count(); ++t) {
     if (materials_->material_of(t) == 0) rows.add(t + 1);
   }
   rows.end();
-  write_section(none);
+  write_section(rest_set());
 }
 
 template <class Where>

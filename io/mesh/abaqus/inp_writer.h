@@ -8,8 +8,8 @@
 #include <string>
 
 #include "io/file/sink/atomic_file.h"
-#include "io/mesh/grouped/group_names.h"
 #include "io/mesh/grouped/material_sets.h"
+#include "io/mesh/grouped/plain_names.h"
 #include "io/mesh/mesh_extras.h"
 
 namespace mw::io {
@@ -32,26 +32,25 @@ namespace mw::io {
 class InpWriter : public GroupedWriter {
  public:
   explicit InpWriter(const std::filesystem::path& path, const MeshExtras& extras = {})
-      : folder_(path.parent_path()),
-        name_(path.string()),
-        file_(path),
-        rule_(extras.materials),
-        has_deck_(extras.deck) {
+      : name_(path.string()), file_(path), rule_(extras.materials), has_deck_(extras.deck) {
     if (rule_) table_.emplace(material_table_path(path));
   }
 
   void write(GroupedMesh& mesh) override;
 
  private:
+  [[nodiscard]] std::vector<std::string> names_of_others() const;
+  /// Returns the name of the set of the tets that are in none of a material.
+  [[nodiscard]] std::string rest_set() const { return rule_->values + "_none"; }
   void write_head(const GroupedMesh& mesh, const PlainNames& names);
   void write_nodes(GroupedMesh& mesh);
   void write_elements(GroupedMesh& mesh, RowRange tets, const std::string& name);
   void write_wedges(GroupedMesh& mesh, const PlainNames& names);
   void write_surface(GroupedMesh& mesh, const std::string& name, RowRange facets, bool of_second);
   void write_materials();
-  void write_deck(GroupedMesh& mesh, PlainNames& names);
+  void write_deck(GroupedMesh& mesh, const PlainNames& names);
   void write_section(const std::string& set);
-  void write_material_sections(GroupedMesh& mesh, PlainNames& names);
+  void write_material_sections(GroupedMesh& mesh);
   template <class Where>
   void write_nodes_where(GroupedMesh& mesh, const std::string& name, Where where);
   /// Writes numbers in rows of 16 to a line.
@@ -59,7 +58,6 @@ class InpWriter : public GroupedWriter {
   void write_node_set(GroupedMesh& mesh, const std::string& name, RowRange facets, bool of_second);
   void line(std::string_view line, std::string_view more = {}) { file_.append_line(line, more); }
 
-  std::filesystem::path folder_;
   std::string name_;
   AtomicFile file_;
   std::optional<MaterialRule> rule_;

@@ -18,18 +18,12 @@ constexpr std::uint64_t kTetType = 1, kFaceType = 2;
 
 void CdbWriter::write(GroupedMesh& mesh) {
   // The commands that select components take these three words for something else.
-  PlainNames names(mesh,
-                   {.max_bytes = 32, .allows_dash = false, .reserved = {"ALL", "STAT", "DEFA"}});
-  const std::vector<NamedFacets> sets = named_facets(mesh, names);
-  std::vector<Faces> faces;
+  const PlainNames names(mesh, {.max_bytes = 32,
+                                .allows_dash = false,
+                                .reserved = {"ALL", "STAT", "DEFA"},
+                                .of_triangles = "F_"});
   std::uint64_t elements = mesh.tet_count();
-  for (const NamedFacets& set : sets) {
-    faces.push_back({names.add("F_" + set.name), set.group.facets});
-    if (!set.other.empty()) {
-      faces.push_back({names.add("F_" + set.other), set.group.facets, true});
-    }
-    elements += (set.other.empty() ? 1 : 2) * set.group.facets.size();
-  }
+  for_each_faces(mesh, names, [&](const Faces& faces) { elements += faces.facets.size(); });
   check_number(name_, std::max(mesh.node_count(), elements),
                {.max = kMaxNumber, .subject = "Ansys files have", .others = ".exo or .vtkhdf"});
   const auto labels = static_cast<std::int64_t>(mesh.table().size());
@@ -44,10 +38,10 @@ void CdbWriter::write(GroupedMesh& mesh) {
     write_tets(mesh, mesh.label_tets()[rank], static_cast<std::uint64_t>(numbers[rank]));
   }
   std::uint64_t next = mesh.tet_count();
-  for (const Faces& set : faces) {
-    write_faces(mesh, set, next);
-    next += set.facets.size();
-  }
+  for_each_faces(mesh, names, [&](const Faces& faces) {
+    write_faces(mesh, faces, next);
+    next += faces.facets.size();
+  });
   line("       -1");
   for (Label rank = 0; rank < mesh.table().size(); ++rank) {
     write_element_set(names.volume(rank), mesh.label_tets()[rank]);
@@ -55,17 +49,26 @@ void CdbWriter::write(GroupedMesh& mesh) {
     line(text("MP,PRXY,", numbers[rank], ",0.3"));
   }
   next = mesh.tet_count();
-  for (const Faces& set : faces) {
-    write_element_set(set.name, {next, next + set.facets.size()});
-    next += set.facets.size();
-  }
-  for (const NamedFacets& set : sets) {
+  for_each_faces(mesh, names, [&](const Faces& faces) {
+    write_element_set(faces.name, {next, next + faces.facets.size()});
+    next += faces.facets.size();
+  });
+  for_each_named(mesh, names, [&](const NamedFacets& set) {
     write_node_set(mesh, set.name, set.group.facets, false);
     if (set.is_split) write_node_set(mesh, set.other, set.group.facets, true);
-  }
+  });
   line("FINISH");
   append_label_table(labels_, mesh.table(), mesh.names(), numbers);
   commit_together({labels_, file_});
+}
+
+/// Calls visit(Faces) on the components of triangles: an interface has two.
+template <class Visit>
+void CdbWriter::for_each_faces(const GroupedMesh& mesh, const PlainNames& names, Visit visit) {
+  for_each_facet_run(mesh, [&](const FacetGroup& run) {
+    visit(Faces{names.triangles(run), run.facets});
+    if (run.side == Side::kInterface) visit(Faces{names.triangles(run, true), run.facets, true});
+  });
 }
 
 void CdbWriter::write_head(const GroupedMesh& mesh) {
@@ -148,7 +151,7 @@ void CdbWriter::write_node_set(GroupedMesh& mesh, const std::string& name, RowRa
   constexpr std::size_t kItemColumns = 10, kOnLine = 8;
   std::uint64_t count = 0;
   for_each_facet_node(
-      mesh, facets, folder_, [&](std::uint64_t /*row*/) { ++count; }, of_second);
+      mesh, facets, [&](std::uint64_t /*row*/) { ++count; }, of_second);
   line(text("CMBLOCK,", name, ",NODE,", fixed_integer(count, kItemColumns)));
   line("(8i10)");
   std::string items;
@@ -158,7 +161,7 @@ void CdbWriter::write_node_set(GroupedMesh& mesh, const std::string& name, RowRa
     line(items);
     items.clear();
   };
-  for_each_facet_node(mesh, facets, folder_, add, of_second);
+  for_each_facet_node(mesh, facets, add, of_second);
   if (!items.empty()) line(items);
 }
 

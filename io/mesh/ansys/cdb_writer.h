@@ -22,10 +22,7 @@ namespace mw::io {
 class CdbWriter : public GroupedWriter {
  public:
   explicit CdbWriter(const std::filesystem::path& path)
-      : folder_(path.parent_path()),
-        name_(path.string()),
-        file_(path),
-        labels_(label_table_path(path)) {}
+      : name_(path.string()), file_(path), labels_(label_table_path(path)) {}
 
   void write(GroupedMesh& mesh) override;
 
@@ -37,6 +34,8 @@ class CdbWriter : public GroupedWriter {
     bool of_second = false;
   };
 
+  template <class Visit>
+  static void for_each_faces(const GroupedMesh& mesh, const PlainNames& names, Visit visit);
   void write_head(const GroupedMesh& mesh);
   void write_nodes(GroupedMesh& mesh);
   void write_tets(GroupedMesh& mesh, RowRange tets, std::uint64_t material);
@@ -48,7 +47,6 @@ class CdbWriter : public GroupedWriter {
   void write_node_set(GroupedMesh& mesh, const std::string& name, RowRange facets, bool of_second);
   void line(std::string_view line) { file_.append_line(line); }
 
-  std::filesystem::path folder_;
   std::string name_;
   AtomicFile file_;
   AtomicFile labels_;

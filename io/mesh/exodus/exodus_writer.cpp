@@ -7,7 +7,6 @@
 #include <numeric>
 
 #include "io/file/errors.h"
-#include "io/mesh/grouped/group_names.h"
 
 namespace mw::io {
 namespace {
@@ -25,16 +24,9 @@ int number(std::uint64_t row) {
   return static_cast<int>(row + 1);
 }
 
-std::vector<int> counted_from_one(std::size_t count) {
-  std::vector<int> out(count);
+std::vector<int> counted_from_one(int count) {
+  std::vector<int> out(static_cast<std::size_t>(count));
   std::iota(out.begin(), out.end(), 1);
-  return out;
-}
-
-template <class Sets>
-std::vector<std::string> names_of(const Sets& sets) {
-  std::vector<std::string> out;
-  for (const auto& set : sets) out.push_back(set.name);
   return out;
 }
 
@@ -56,59 +48,51 @@ void ExodusWriter::write(GroupedMesh& mesh) {
   const auto wedge_blocks = static_cast<std::int64_t>(mesh.wedge_groups().size());
   const LabelNumbers numbers(mesh.table(), {.max = std::numeric_limits<int>::max() - wedge_blocks});
   if (rule_) materials_.emplace(mesh, *rule_);
-  Plan plan = plan_of(mesh);
-  for (Label rank = 0; rank < mesh.table().size(); ++rank) {
-    plan.ids.push_back(static_cast<int>(numbers[rank]));
-  }
-  for (std::int64_t g = 1; g <= wedge_blocks; ++g) {
-    plan.ids.push_back(static_cast<int>(numbers.largest() + g));
-  }
+  Plan plan = plan_of(mesh, numbers);
   define(mesh, plan);
   out_.begin_data();
-  write_list(block_list_, plan.blocks, plan.ids);
-  write_list(side_set_list_, names_of(plan.side_sets), counted_from_one(plan.side_sets.size()));
-  write_list(node_set_list_, names_of(plan.node_sets), counted_from_one(plan.node_sets.size()));
-  write_list(element_set_list_, names_of(plan.element_sets),
-             counted_from_one(plan.element_sets.size()));
+  write_block_list(mesh, plan);
   write_nodes(mesh, plan);
   for (Label rank = 0; rank < mesh.table().size(); ++rank) {
     write_block(mesh, mesh.label_tets()[rank], plan.connectivity[rank]);
   }
   write_wedges(mesh, plan);
   write_values(mesh, plan);
-  for (const SideSet& set : plan.side_sets) write_side_set(mesh, set);
-  for (const NodeSet& set : plan.node_sets) write_node_set(mesh, set);
+  write_facet_sets(mesh, plan);
   write_element_sets(plan);
   append_label_table(labels_, mesh.table(), mesh.names(), numbers);
   table_ ? out_.commit(labels_, *table_) : out_.commit(labels_);
 }
 
-ExodusWriter::Plan ExodusWriter::plan_of(GroupedMesh& mesh) const {
-  Plan plan;
-  const PlainNames names(mesh);
+template <class Visit>
+void ExodusWriter::for_each_side_set(const GroupedMesh& mesh, const PlainNames& names,
+                                     Visit visit) {
+  for_each_named(mesh, names, [&](const NamedFacets& set) {
+    visit(FacetSet{set.name, set.group.facets});
+    if (!set.other.empty()) visit(FacetSet{set.other, set.group.facets, true});
+  });
+}
+
+template <class Visit>
+void ExodusWriter::for_each_node_set(const GroupedMesh& mesh, const PlainNames& names,
+                                     Visit visit) {
+  for_each_named(mesh, names, [&](const NamedFacets& set) {
+    visit(FacetSet{set.name, set.group.facets});
+    if (set.is_split) visit(FacetSet{set.other, set.group.facets, true});
+  });
+}
+
+ExodusWriter::Plan ExodusWriter::plan_of(const GroupedMesh& mesh,
+                                         const LabelNumbers& numbers) const {
+  Plan plan{.names = PlainNames(mesh)};
   for (Label rank = 0; rank < mesh.table().size(); ++rank) {
-    plan.blocks.push_back(names.volume(rank));
+    plan.ids.push_back(static_cast<int>(numbers[rank]));
   }
-  for (std::size_t g = 0; g < mesh.wedge_groups().size(); ++g) {
-    plan.blocks.push_back(names.wedges(g));
+  for (std::size_t g = 1; g <= mesh.wedge_groups().size(); ++g) {
+    plan.ids.push_back(static_cast<int>(numbers.largest() + static_cast<std::int64_t>(g)));
   }
-  for (const NamedFacets& set : named_facets(mesh, names)) {
-    const RowRange facets = set.group.facets;
-    plan.side_sets.push_back({.name = set.name, .facets = facets});
-    if (!set.other.empty()) {
-      plan.side_sets.push_back({.name = set.other, .facets = facets, .of_second = true});
-    }
-    for (const bool of_second : {false, true}) {
-      if (of_second && !set.is_split) continue;
-      std::uint64_t nodes = 0;
-      for_each_facet_node(
-          mesh, facets, folder_, [&](std::uint64_t /*row*/) { ++nodes; }, of_second);
-      plan.node_sets.push_back({.name = of_second ? set.other : set.name,
-                                .facets = facets,
-                                .nodes = nodes,
-                                .of_second = of_second});
-    }
-  }
+  for_each_side_set(mesh, plan.names, [&](const FacetSet& /*set*/) { ++plan.side_sets; });
+  for_each_node_set(mesh, plan.names, [&](const FacetSet& /*set*/) { ++plan.node_sets; });
   for (std::uint32_t m = 1; materials_ && m <= materials_->count(); ++m) {
     if (materials_->facts(m).tets == 0) continue;
     plan.element_sets.push_back({.name = materials_->name(m), .material = m});
@@ -138,28 +122,39 @@ void ExodusWriter::define(GroupedMesh& mesh, Plan& plan) {
   }
   const std::uint64_t elements = mesh.tet_count() + mesh.wedge_count();
   if (elements > 0) out_.add_dimension("num_elem", elements);
-  block_list_ = define_list("num_el_blk", "eb_", plan.blocks.size());
+  block_list_ = define_list("num_el_blk", "eb_", plan.ids.size());
   define_values(mesh, plan, define_blocks(mesh, plan));
-  side_set_list_ = define_list("num_side_sets", "ss_", plan.side_sets.size());
-  for (std::size_t s = 0; s < plan.side_sets.size(); ++s) {
-    SideSet& set = plan.side_sets[s];
-    const int sides = out_.add_dimension(text("num_side_ss", s + 1), set.facets.size());
-    set.elements = out_.add_integers(text("elem_ss", s + 1), {sides});
-    set.sides = out_.add_integers(text("side_ss", s + 1), {sides});
-  }
-  node_set_list_ = define_list("num_node_sets", "ns_", plan.node_sets.size());
-  for (std::size_t s = 0; s < plan.node_sets.size(); ++s) {
-    NodeSet& set = plan.node_sets[s];
-    const int nodes = out_.add_dimension(text("num_nod_ns", s + 1), set.nodes);
-    set.variable = out_.add_integers(text("node_ns", s + 1), {nodes});
-  }
+  define_facet_sets(mesh, plan);
   define_element_sets(plan);
+}
+
+void ExodusWriter::define_facet_sets(GroupedMesh& mesh, Plan& plan) {
+  int number = 0;
+  side_set_list_ = define_list("num_side_sets", "ss_", static_cast<std::size_t>(plan.side_sets));
+  for_each_side_set(mesh, plan.names, [&](const FacetSet& set) {
+    ++number;
+    const int sides = out_.add_dimension(text("num_side_ss", number), set.facets.size());
+    const int elements = out_.add_integers(text("elem_ss", number), {sides});
+    if (number == 1) plan.side_variable = elements;
+    out_.add_integers(text("side_ss", number), {sides});
+  });
+  number = 0;
+  node_set_list_ = define_list("num_node_sets", "ns_", static_cast<std::size_t>(plan.node_sets));
+  for_each_node_set(mesh, plan.names, [&](const FacetSet& set) {
+    ++number;
+    std::uint64_t count = 0;
+    for_each_facet_node(
+        mesh, set.facets, [&](std::uint64_t /*row*/) { ++count; }, set.of_second);
+    const int nodes = out_.add_dimension(text("num_nod_ns", number), count);
+    const int variable = out_.add_integers(text("node_ns", number), {nodes});
+    if (number == 1) plan.node_variable = variable;
+  });
 }
 
 std::vector<int> ExodusWriter::define_blocks(const GroupedMesh& mesh, Plan& plan) {
   const bool quadratic = has_middles(mesh.element());
   std::vector<int> out;
-  for (std::size_t b = 0; b < plan.blocks.size(); ++b) {
+  for (std::size_t b = 0; b < plan.ids.size(); ++b) {
     const bool has_tets = b < mesh.table().size();
     const RowRange range =
         has_tets ? mesh.label_tets()[b] : mesh.wedge_groups()[b - mesh.table().size()].wedges;
@@ -186,6 +181,10 @@ void ExodusWriter::define_element_sets(Plan& plan) {
 
 void ExodusWriter::write_element_sets(const Plan& plan) {
   if (!materials_) return;
+  write_list(element_set_list_, counted_from_one(static_cast<int>(plan.element_sets.size())));
+  for (std::size_t i = 0; i < plan.element_sets.size(); ++i) {
+    out_.put_text(element_set_list_.names, i, plan.element_sets[i].name, kNameBytes);
+  }
   std::vector<int> tets;
   std::uint64_t written = 0;
   auto set = plan.element_sets.begin();
@@ -194,7 +193,7 @@ void ExodusWriter::write_element_sets(const Plan& plan) {
     written += tets.size();
     tets.clear();
   };
-  materials_->for_each(folder_, [&](std::uint32_t material, std::uint64_t tet) {
+  materials_->for_each([&](std::uint32_t material, std::uint64_t tet) {
     if (material != set->material) {
       flush();
       ++set;  // those without tets are not in the plan
@@ -237,13 +236,20 @@ ExodusWriter::ListVariables ExodusWriter::define_list(const std::string& dimensi
   return list;
 }
 
-void ExodusWriter::write_list(const ListVariables& list, const std::vector<std::string>& names,
-                              std::span<const int> ids) {
-  if (names.empty()) return;
-  out_.put(list.status, 0, std::vector<int>(names.size(), 1));
+void ExodusWriter::write_list(const ListVariables& list, std::span<const int> ids) {
+  if (ids.empty()) return;
+  out_.put(list.status, 0, std::vector<int>(ids.size(), 1));
   out_.put(list.ids, 0, ids);
-  for (std::size_t i = 0; i < names.size(); ++i) {
-    out_.put_text(list.names, i, names[i], kNameBytes);
+}
+
+void ExodusWriter::write_block_list(const GroupedMesh& mesh, const Plan& plan) {
+  write_list(block_list_, plan.ids);
+  std::size_t block = 0;
+  for (Label rank = 0; rank < mesh.table().size(); ++rank) {
+    out_.put_text(block_list_.names, block++, plan.names.volume(rank), kNameBytes);
+  }
+  for (const WedgeGroup& group : mesh.wedge_groups()) {
+    out_.put_text(block_list_.names, block++, plan.names.wedges(group), kNameBytes);
   }
 }
 
@@ -310,7 +316,24 @@ void ExodusWriter::write_wedges(GroupedMesh& mesh, const Plan& plan) {
   }
 }
 
-void ExodusWriter::write_side_set(GroupedMesh& mesh, const SideSet& set) {
+void ExodusWriter::write_facet_sets(GroupedMesh& mesh, const Plan& plan) {
+  constexpr int kOfSideSet = 2;  // variables
+  write_list(side_set_list_, counted_from_one(plan.side_sets));
+  write_list(node_set_list_, counted_from_one(plan.node_sets));
+  int at = 0;
+  for_each_side_set(mesh, plan.names, [&](const FacetSet& set) {
+    out_.put_text(side_set_list_.names, static_cast<std::uint64_t>(at), set.name, kNameBytes);
+    write_side_set(mesh, set, plan.side_variable + kOfSideSet * at++);
+  });
+  at = 0;
+  for_each_node_set(mesh, plan.names, [&](const FacetSet& set) {
+    out_.put_text(node_set_list_.names, static_cast<std::uint64_t>(at), set.name, kNameBytes);
+    write_node_set(mesh, set, plan.node_variable + at++);
+  });
+}
+
+/// Writes the elements into the variable, and their sides into the next one.
+void ExodusWriter::write_side_set(GroupedMesh& mesh, const FacetSet& set, int variable) {
   in_steps(set.facets, [&](std::uint64_t first, std::uint64_t count) {
     std::vector<int> elements, sides;
     for (std::uint64_t f = first; f < first + count; ++f) {
@@ -318,16 +341,16 @@ void ExodusWriter::write_side_set(GroupedMesh& mesh, const SideSet& set) {
       elements.push_back(number(set.of_second ? facet.second_tet : facet.tet));
       sides.push_back(side_opposite(set.of_second ? facet.second_opposite : facet.opposite));
     }
-    out_.put(set.elements, first - set.facets.begin, elements);
-    out_.put(set.sides, first - set.facets.begin, sides);
+    out_.put(variable, first - set.facets.begin, elements);
+    out_.put(variable + 1, first - set.facets.begin, sides);
   });
 }
 
-void ExodusWriter::write_node_set(GroupedMesh& mesh, const NodeSet& set) {
+void ExodusWriter::write_node_set(GroupedMesh& mesh, const FacetSet& set, int variable) {
   std::vector<int> nodes;
   std::uint64_t written = 0;
   const auto flush = [&] {
-    out_.put(set.variable, written, nodes);
+    out_.put(variable, written, nodes);
     written += nodes.size();
     nodes.clear();
   };
@@ -335,7 +358,7 @@ void ExodusWriter::write_node_set(GroupedMesh& mesh, const NodeSet& set) {
     nodes.push_back(number(row));
     if (nodes.size() == kRowsAtOnce) flush();
   };
-  for_each_facet_node(mesh, set.facets, folder_, add, set.of_second);
+  for_each_facet_node(mesh, set.facets, add, set.of_second);
   flush();
 }
 

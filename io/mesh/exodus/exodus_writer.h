@@ -7,6 +7,7 @@
 #include "io/mesh/grouped/facet_nodes.h"
 #include "io/mesh/grouped/label_numbers.h"
 #include "io/mesh/grouped/material_sets.h"
+#include "io/mesh/grouped/plain_names.h"
 #include "io/mesh/mesh_extras.h"
 
 namespace mw::io {
@@ -21,37 +22,23 @@ namespace mw::io {
 /// Wedges between the sides of an interface are blocks of WEDGE behind those of labels, with ids
 /// above theirs and names such as COHESIVE_1_2; between tets of ten nodes they are not written,
 /// because VTK's reader and libMesh know no wedge of 12 nodes.
-/// Materials are element sets, and empty ones are left out.  Memory: 9 MiB.
+/// Materials are element sets, and empty ones are left out.  Memory: 26 MiB.
 /// ERRORS: see NetcdfOutput; mw::Error(kUsage) above 2,147,483,647 nodes or elements.
 class ExodusWriter : public GroupedWriter {
  public:
   explicit ExodusWriter(const std::filesystem::path& path, const MeshExtras& extras = {})
-      : folder_(path.parent_path()),
-        name_(path.string()),
-        out_(path),
-        labels_(label_table_path(path)),
-        rule_(extras.materials) {
+      : name_(path.string()), out_(path), labels_(label_table_path(path)), rule_(extras.materials) {
     if (rule_) table_.emplace(material_table_path(path));
   }
 
   void write(GroupedMesh& mesh) override;
 
  private:
-  /// A side set, which is facets as one of their labels has them.
-  struct SideSet {
+  /// Facets as one of their labels has them, or the nodes of these.
+  struct FacetSet {
     std::string name;
     RowRange facets;
     bool of_second = false;
-    int elements = 0;  ///< like sides, a variable of the file
-    int sides = 0;
-  };
-  /// A set of the nodes of facets.
-  struct NodeSet {
-    std::string name;
-    RowRange facets;
-    std::uint64_t nodes = 0;
-    bool of_second = false;
-    int variable = 0;
   };
   /// A set of the elements of a material.
   struct ElementSet {
@@ -61,16 +48,18 @@ class ExodusWriter : public GroupedWriter {
   };
   /// The contents of the file, with the variables that hold them.
   struct Plan {
-    std::vector<std::string> blocks;  ///< names, by rank of label; then those of wedges
-    std::vector<int> ids;
-    std::vector<SideSet> side_sets;
-    std::vector<NodeSet> node_sets;
-    std::vector<ElementSet> element_sets;
+    PlainNames names;
+    std::vector<int> ids{};  ///< of blocks: by rank of label; then those of wedges
+    int side_sets = 0;
+    int side_variable = 0;  ///< the first one; each side set has one of elements and one of sides
+    int node_sets = 0;
+    int node_variable = 0;  ///< the first one; each node set has one
+    std::vector<ElementSet> element_sets{};
     std::array<int, 3> coordinates{};
-    std::vector<int> connectivity;  ///< by block
+    std::vector<int> connectivity{};  ///< by block
     int value_names = 0;
     int time = 0;
-    std::vector<std::vector<int>> values;  ///< by name, by block
+    std::vector<std::vector<int>> values{};  ///< by name, by block
   };
   /// The variables that hold status, id and name of each member of a list.
   struct ListVariables {
@@ -79,13 +68,20 @@ class ExodusWriter : public GroupedWriter {
     int names = 0;
   };
 
-  [[nodiscard]] Plan plan_of(GroupedMesh& mesh) const;
+  template <class Visit>
+  static void for_each_side_set(const GroupedMesh& mesh, const PlainNames& names, Visit visit);
+  template <class Visit>
+  static void for_each_node_set(const GroupedMesh& mesh, const PlainNames& names, Visit visit);
+  [[nodiscard]] Plan plan_of(const GroupedMesh& mesh, const LabelNumbers& numbers) const;
   void define(GroupedMesh& mesh, Plan& plan);
   /// The dimension's length is the number of members, and `prefix` begins the variables' names.
   ListVariables define_list(const std::string& dimension, const std::string& prefix,
                             std::size_t members);
-  void write_list(const ListVariables& list, const std::vector<std::string>& names,
-                  std::span<const int> ids);
+  /// Writes status and ids; names follow.
+  void write_list(const ListVariables& list, std::span<const int> ids);
+  void write_block_list(const GroupedMesh& mesh, const Plan& plan);
+  void define_facet_sets(GroupedMesh& mesh, Plan& plan);
+  void write_facet_sets(GroupedMesh& mesh, const Plan& plan);
   /// elements holds the dimension of each block.
   void define_values(const GroupedMesh& mesh, Plan& plan, const std::vector<int>& elements);
   [[nodiscard]] std::vector<int> define_blocks(const GroupedMesh& mesh, Plan& plan);
@@ -93,12 +89,11 @@ class ExodusWriter : public GroupedWriter {
   void write_values(GroupedMesh& mesh, const Plan& plan);
   void write_block(GroupedMesh& mesh, RowRange tets, int variable);
   void write_wedges(GroupedMesh& mesh, const Plan& plan);
-  void write_side_set(GroupedMesh& mesh, const SideSet& set);
-  void write_node_set(GroupedMesh& mesh, const NodeSet& set);
+  void write_side_set(GroupedMesh& mesh, const FacetSet& set, int variable);
+  void write_node_set(GroupedMesh& mesh, const FacetSet& set, int variable);
   void define_element_sets(Plan& plan);
   void write_element_sets(const Plan& plan);
 
-  std::filesystem::path folder_;  ///< for temporary files
   std::string name_;
   NetcdfOutput out_;
   AtomicFile labels_;

@@ -4,7 +4,6 @@
 #include "io/mesh/febio/febio_writer.h"
 
 #include <algorithm>
-#include <set>
 
 #include "io/file/errors.h"
 #include "io/file/sink/atomic_file.h"
@@ -25,26 +24,12 @@ constexpr std::string_view kHead =
 constexpr const char* kLowSet = "deck_low";
 constexpr const char* kHighSet = "deck_high";
 
-/// Gives each name once, escaped for XML.
-class UniqueNames {
- public:
-  [[nodiscard]] std::string next(const std::string& wanted) {
-    std::string name = wanted;
-    for (int i = 2; !taken_.insert(name).second; ++i) name = text(wanted, "_", i);
-    return xml_escaped(name);
-  }
-
- private:
-  std::set<std::string> taken_;
-};
-
 /// Returns the names of parts by rank of label, escaped.
 std::vector<std::string> part_names(const GroupedMesh& mesh) {
   const GroupNames names(mesh);
-  UniqueNames unique;
   std::vector<std::string> out;
   for (Label rank = 0; rank < mesh.table().size(); ++rank) {
-    out.push_back(unique.next(names.volume(rank)));
+    out.push_back(xml_escaped(names.volume(rank)));
   }
   return out;
 }
@@ -126,13 +111,12 @@ void FebioWriter::write_part(GroupedMesh& mesh, RowRange tets, const std::string
 
 void FebioWriter::write_surfaces(GroupedMesh& mesh) {
   const GroupNames names(mesh);
-  UniqueNames unique;
-  for (const NumberedFacets& run : number_facets(mesh)) {
-    write_surface(mesh, run.facets, unique.next(run.name), false);
-    if (run.side != Side::kInterface) continue;
+  for_each_facet_run(mesh, [&](const FacetGroup& run) {
+    write_surface(mesh, run.facets, xml_escaped(names.facets(run)), false);
+    if (run.side != Side::kInterface) return;
     const FacetGroup seen_from_second{.first = run.second, .second = run.first};
-    write_surface(mesh, run.facets, unique.next(names.facets(seen_from_second)), true);
-  }
+    write_surface(mesh, run.facets, xml_escaped(names.facets(seen_from_second)), true);
+  });
 }
 
 void FebioWriter::write_surface(GroupedMesh& mesh, RowRange facets, const std::string& name,

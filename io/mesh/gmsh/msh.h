@@ -43,9 +43,7 @@ namespace mw::io {
 class MshWriter : public GroupedWriter {
  public:
   explicit MshWriter(const std::filesystem::path& path, const MeshExtras& extras = {})
-      : out_(path, extras.encoding == Encoding::kText),
-        tables_(path, extras.materials),
-        folder_(folder_of(path)) {}
+      : out_(path, extras.encoding == Encoding::kText), tables_(path, extras.materials) {}
 
   void write(GroupedMesh& mesh) override;
 
@@ -64,8 +62,9 @@ class MshWriter : public GroupedWriter {
 
   static Tag tag_of(const Contents& contents, std::size_t entity);
   void write_format();
-  void write_entities(const Contents& contents);
-  void put_entity(const Contents& contents, std::size_t entity, std::int32_t physical);
+  void write_entities(Contents& contents);
+  void put_volumes(Contents& contents);
+  void put_entity(Contents& contents, std::size_t entity, std::int32_t physical);
   void write_nodes(Contents& contents);
   void put_nodes(Contents& contents, std::size_t entity);
   void write_elements(const Contents& contents);
@@ -75,7 +74,6 @@ class MshWriter : public GroupedWriter {
 
   MshEncoder out_;
   MshTables tables_;
-  std::filesystem::path folder_;  ///< for temporary files
 };
 
 /// Writes the groups, names, numbers and tables of MshWriter in version 2.2, as text, for programs

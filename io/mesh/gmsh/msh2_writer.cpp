@@ -37,7 +37,7 @@ void Msh2Writer::write_elements(GroupedMesh& mesh, const LabelNumbers& numbers) 
   const bool quadratic = has_middles(mesh.element());
   out_.begin_section("Elements");
   out_.add_line(text(mesh.facet_count() + mesh.tet_count() + mesh.wedge_count()));
-  const std::vector<FacetGroup>& groups = mesh.facet_groups();
+  const FacetGroups& groups = mesh.facet_groups();
   for (std::size_t g = 0; g < groups.size(); ++g) {
     for (std::uint64_t f = groups[g].facets.begin; f < groups[g].facets.end; ++f) {
       write_element(f + 1, quadratic ? kMshTriangle6 : kMshTriangle3,

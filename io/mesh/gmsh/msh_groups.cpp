@@ -7,6 +7,7 @@
 
 #include "io/file/errors.h"
 #include "io/mesh/grouped/group_names.h"
+#include "io/mesh/grouped/plain_names.h"
 
 namespace mw::io {
 namespace {
@@ -25,7 +26,7 @@ std::string without_quotes(std::string name) {
 constexpr std::size_t kMaxNameBytesOfGmsh = 127;
 
 /// True if the group is the first one of its name: all labels share that of a side.
-bool begins_name(const std::vector<FacetGroup>& groups, std::size_t g) {
+bool begins_name(const FacetGroups& groups, std::size_t g) {
   return g == 0 || groups[g].side == Side::kInterface || groups[g].side != groups[g - 1].side;
 }
 
@@ -36,7 +37,8 @@ std::string name_line(std::int32_t dimension, std::int64_t tag, const std::strin
 void write_wedge_names(MshEncoder& out, const GroupedMesh& mesh, const LabelNumbers& labels) {
   const PlainNames names(mesh);
   for (std::size_t g = 0; g < mesh.wedge_groups().size(); ++g) {
-    out.add_line(name_line(kMshVolume, wedge_volume(labels, mesh, g), names.wedges(g)));
+    out.add_line(
+        name_line(kMshVolume, wedge_volume(labels, mesh, g), names.wedges(mesh.wedge_groups()[g])));
   }
 }
 
@@ -94,7 +96,7 @@ void write_record(MshEncoder& out, const GroupedMesh& mesh) {
 
 void write_physical_names(MshEncoder& out, const GroupedMesh& mesh, const LabelNumbers& labels) {
   const GroupNames names(mesh, without_quotes, kMaxNameBytesOfGmsh);
-  const std::vector<FacetGroup>& groups = mesh.facet_groups();
+  const FacetGroups& groups = mesh.facet_groups();
   std::size_t count = mesh.table().size() + mesh.wedge_groups().size();
   for (std::size_t g = 0; g < groups.size(); ++g) count += begins_name(groups, g) ? 1U : 0U;
   out.begin_section("PhysicalNames");

@@ -9,8 +9,8 @@
 #include "io/mesh/field_names.h"
 #include "io/mesh/gmsh/msh_groups.h"
 #include "io/mesh/gmsh/msh_sections.h"
-#include "io/mesh/grouped/group_names.h"
 #include "io/mesh/grouped/label_numbers.h"
+#include "io/mesh/grouped/plain_names.h"
 
 namespace mw::io {
 namespace {

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 
+#include "io/file/scratch/external_sort.h"
 #include "io/file/sink/atomic_file.h"
 #include "io/mesh/gmsh/msh_elements.h"
 #include "io/mesh/gmsh/msh_groups.h"
@@ -12,17 +13,32 @@
 namespace mw::io {
 namespace {
 
-/// Returns by label the surfaces around it, negative where their normals point into it.
-std::vector<std::vector<std::int32_t>> surfaces_of(const GroupedMesh& mesh,
-                                                   const LabelNumbers& labels) {
-  std::vector<std::vector<std::int32_t>> tags(mesh.table().size());
-  const std::vector<FacetGroup>& groups = mesh.facet_groups();
+/// Calls visit(tags) for each label in their order: the surfaces around it, negative where their
+/// normals point into it.
+template <class Visit>
+void for_each_boundary(const GroupedMesh& mesh, const LabelNumbers& labels, Visit visit) {
+  constexpr std::size_t kSortBytes = 8 << 20;
+  ExternalSort<2> uses(mesh.folder(), kSortBytes);  // rank of label, 2 * group + (1 if second)
+  const FacetGroups& groups = mesh.facet_groups();
   for (std::size_t g = 0; g < groups.size(); ++g) {
-    const std::int32_t tag = surface_tag(labels, g);
-    tags[groups[g].first].push_back(tag);
-    if (groups[g].second != kExterior) tags[groups[g].second].push_back(-tag);
+    const FacetGroup group = groups[g];
+    uses.add({group.first, 2 * g});
+    if (group.second != kExterior) uses.add({group.second, 2 * g + 1});
   }
-  return tags;
+  Label rank = 0;
+  std::vector<std::int32_t> tags;
+  uses.each([&](const std::array<std::uint64_t, 2>& use) {
+    for (; rank < use[0]; ++rank) {
+      visit(tags);
+      tags.clear();
+    }
+    const std::int32_t tag = surface_tag(labels, use[1] / 2);
+    tags.push_back(use[1] % 2 == 0 ? tag : -tag);
+  });
+  for (; rank < mesh.table().size(); ++rank) {
+    visit(tags);
+    tags.clear();
+  }
 }
 
 }  // namespace
@@ -31,7 +47,7 @@ void MshWriter::write(GroupedMesh& mesh) {
   if (!mesh.header().values.empty()) {
     check_element_data(out_, mesh.facet_count() + mesh.tet_count() + mesh.wedge_count());
   }
-  Contents contents{mesh, msh_numbers(mesh), NodeClasses(mesh, folder_)};
+  Contents contents{mesh, msh_numbers(mesh), NodeClasses(mesh)};
   write_format();
   write_record(out_, mesh);
   write_physical_names(out_, mesh, contents.numbers);
@@ -66,9 +82,9 @@ void MshWriter::write_format() {
   out_.end_section("MeshFormat");
 }
 
-void MshWriter::write_entities(const Contents& contents) {
+void MshWriter::write_entities(Contents& contents) {
   GroupedMesh& mesh = contents.mesh;
-  const std::vector<FacetGroup>& groups = mesh.facet_groups();
+  const FacetGroups& groups = mesh.facet_groups();
   out_.begin_section("Entities");
   for (const std::uint64_t count : {std::uint64_t{0}, std::uint64_t{0}, groups.size(),
                                     mesh.table().size() + mesh.wedge_groups().size()}) {
@@ -80,27 +96,31 @@ void MshWriter::write_entities(const Contents& contents) {
     out_.put(std::uint64_t{0});  // no curves
     out_.end_row();
   }
-  const std::vector<std::vector<std::int32_t>> surfaces = surfaces_of(mesh, contents.numbers);
-  for (Label rank = 0; rank < mesh.table().size(); ++rank) {
-    const std::size_t entity = groups.size() + rank;
+  put_volumes(contents);
+  out_.end_section("Entities");
+}
+
+void MshWriter::put_volumes(Contents& contents) {
+  const GroupedMesh& mesh = contents.mesh;
+  std::size_t entity = mesh.facet_groups().size();
+  for_each_boundary(mesh, contents.numbers, [&](std::span<const std::int32_t> surfaces) {
     put_entity(contents, entity, tag_of(contents, entity).tag);
-    out_.put(std::uint64_t{surfaces[rank].size()});
-    for (const std::int32_t tag : surfaces[rank]) out_.put(tag);
+    ++entity;
+    out_.put(std::uint64_t{surfaces.size()});
+    for (const std::int32_t tag : surfaces) out_.put(tag);
     out_.end_row();
-  }
-  for (std::size_t g = 0; g < mesh.wedge_groups().size(); ++g) {
-    const std::size_t entity = groups.size() + mesh.table().size() + g;
+  });
+  for (std::size_t g = 0; g < mesh.wedge_groups().size(); ++g, ++entity) {
     put_entity(contents, entity, tag_of(contents, entity).tag);
     out_.put(std::uint64_t{0});  // no surfaces
     out_.end_row();
   }
-  out_.end_section("Entities");
 }
 
 /// Puts the tag, box and physical group of an entity; what bounds it comes behind.
-void MshWriter::put_entity(const Contents& contents, std::size_t entity, std::int32_t physical) {
+void MshWriter::put_entity(Contents& contents, std::size_t entity, std::int32_t physical) {
   out_.put(tag_of(contents, entity).tag);
-  const EntityBox& box = contents.classes.box(entity);
+  const EntityBox box = contents.classes.box(entity);
   for (const double x : box.lo) out_.put(x);
   for (const double x : box.hi) out_.put(x);
   out_.put(std::uint64_t{1});

@@ -46,6 +46,11 @@ void add_wedge_uses(GroupedMesh& mesh, Pairs& uses) {
   }
 }
 
+std::size_t entity_count(const GroupedMesh& mesh) {
+  return mesh.facet_groups().size() + std::max<std::size_t>(mesh.table().size(), 1) +
+         mesh.wedge_groups().size();
+}
+
 /// Extends a box by a point, which is its first one when `first`.
 void extend(EntityBox& box, const Position& p, bool first) {
   if (first) box = {p, p};
@@ -57,22 +62,23 @@ void extend(EntityBox& box, const Position& p, bool first) {
 
 }  // namespace
 
-NodeClasses::NodeClasses(GroupedMesh& mesh, const std::filesystem::path& folder) : rows_(folder) {
-  boxes_.resize(mesh.facet_groups().size() + std::max<std::size_t>(mesh.table().size(), 1) +
-                mesh.wedge_groups().size());
-  nodes_.resize(boxes_.size());
-  Pairs indices(folder, kSortBytes);  // entity, row
+NodeClasses::NodeClasses(GroupedMesh& mesh)
+    : boxes_(mesh.folder(), entity_count(mesh)),
+      nodes_(mesh.folder(), boxes_.size()),
+      rows_(mesh.folder()) {
+  Pairs indices(mesh.folder(), kSortBytes);  // entity, row
   {
-    Pairs uses(folder, kSortBytes);
+    Pairs uses(mesh.folder(), kSortBytes);
     add_facet_uses(mesh, uses);
     add_tet_uses(mesh, uses);
     add_wedge_uses(mesh, uses);
     place_rows(mesh, uses, indices);
   }
   indices.each([&](const std::array<std::uint64_t, 2>& index) {
-    RowRange& range = nodes_[index[0]];
-    if (range.size() == 0) range = {rows_.size(), rows_.size()};
-    ++range.end;
+    nodes_.change(index[0], [&](RowRange& range) {
+      if (range.size() == 0) range = {rows_.size(), rows_.size()};
+      ++range.end;
+    });
     rows_.append(index[1]);
   });
 }
@@ -87,7 +93,7 @@ void NodeClasses::place_rows(GroupedMesh& mesh, Pairs& uses, Pairs& indices) {
     if (use == last) return;
     last = use;
     const auto [row, entity] = use;
-    extend(boxes_[entity], mesh.node(row), !has_box[entity]);
+    boxes_.change(entity, [&](EntityBox& box) { extend(box, mesh.node(row), !has_box[entity]); });
     has_box[entity] = true;
     for (; next < row; ++next) indices.add({unused, next});
     if (next == row) indices.add({entity, next++});

@@ -4,6 +4,7 @@
 #pragma once
 
 #include "io/file/scratch/external_sort.h"
+#include "io/file/scratch/paged_array.h"
 #include "io/mesh/grouped/grouped_mesh.h"
 
 namespace mw::io {
@@ -17,17 +18,17 @@ struct EntityBox {
 /// Entities are the groups of facets by their number, behind them the labels by rank, and then the
 /// groups of wedges.  Each node is on the first entity that has it.  A node in no tet is on the
 /// first label's entity; where there is no label, and so no group, it is on an entity of its own.
-/// Memory: 24 MiB and 64 bytes an entity; the rest waits in temporary files in `folder`, some
-/// 16 bytes a node of a tet.  ERRORS: see ScratchFile.
+/// Memory: 40 MiB; the rest waits in temporary files, some 16 bytes a node of a tet and 64 bytes an
+/// entity.  ERRORS: see ScratchFile.
 class NodeClasses {
  public:
-  NodeClasses(GroupedMesh& mesh, const std::filesystem::path& folder);
+  explicit NodeClasses(GroupedMesh& mesh);
 
   [[nodiscard]] std::size_t entities() const { return boxes_.size(); }
   /// Returns the box of all nodes of the entity, on it or on its edge; zeros when there are none.
-  [[nodiscard]] const EntityBox& box(std::size_t entity) const { return boxes_[entity]; }
+  [[nodiscard]] EntityBox box(std::size_t entity) { return boxes_.get(entity); }
   /// Returns the indices for row() of the nodes on the entity.
-  [[nodiscard]] const RowRange& nodes(std::size_t entity) const { return nodes_[entity]; }
+  [[nodiscard]] RowRange nodes(std::size_t entity) { return nodes_.get(entity); }
   /// Returns a row from those of all nodes by entity, ascending in each.
   [[nodiscard]] std::uint64_t row(std::uint64_t index) { return rows_[index]; }
 
@@ -36,8 +37,8 @@ class NodeClasses {
 
   void place_rows(GroupedMesh& mesh, Pairs& uses, Pairs& indices);
 
-  std::vector<EntityBox> boxes_;
-  std::vector<RowRange> nodes_;
+  PagedArray<EntityBox> boxes_;
+  PagedArray<RowRange> nodes_;
   PagedFile<std::uint64_t> rows_;
 };
 

@@ -9,9 +9,8 @@ namespace mw::io {
 namespace {
 
 bool has_side(const GroupedMesh& mesh, Side side) {
-  const std::vector<FacetGroup>& groups = mesh.facet_groups();
-  return std::any_of(groups.begin(), groups.end(),
-                     [side](const FacetGroup& group) { return group.side == side; });
+  return std::ranges::any_of(mesh.facet_groups(),
+                             [side](const FacetGroup& group) { return group.side == side; });
 }
 
 }  // namespace

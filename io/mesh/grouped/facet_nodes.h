@@ -4,19 +4,18 @@
 #pragma once
 
 #include "io/file/scratch/external_sort.h"
-#include "io/mesh/grouped/group_names.h"
 #include "io/mesh/grouped/grouped_mesh.h"
+#include "io/mesh/grouped/plain_names.h"
 
 namespace mw::io {
 
 /// Calls visit(row) once for each node of the facets, ascending; with of_second, the facets are
 /// those of an interface as GroupedMesh::of_second() has them.  Memory: 8 MiB; what is more goes to
-/// a temporary file in `folder`.  ERRORS: see ScratchFile.
+/// a temporary file.  ERRORS: see ScratchFile.
 template <class Visit>
-void for_each_facet_node(GroupedMesh& mesh, RowRange facets, const std::filesystem::path& folder,
-                         Visit visit, bool of_second = false) {
+void for_each_facet_node(GroupedMesh& mesh, RowRange facets, Visit visit, bool of_second = false) {
   constexpr std::size_t kSortBytes = 8 << 20;
-  ExternalSort<1> rows(folder, kSortBytes);
+  ExternalSort<1> rows(mesh.folder(), kSortBytes);
   for (std::uint64_t f = facets.begin; f < facets.end; ++f) {
     const Facet facet = of_second ? mesh.of_second(mesh.facet(f)) : mesh.facet(f);
     for (const std::uint64_t row : mesh.facet_nodes(facet)) rows.add({row});
@@ -37,8 +36,15 @@ struct NamedFacets {
   bool is_split = false;  ///< an interface whose two sides have nodes of their own
 };
 
-/// Returns the sets in the order of their facets; each facet of the mesh is in one set.
-[[nodiscard]] std::vector<NamedFacets> named_facets(const GroupedMesh& mesh,
-                                                    const PlainNames& names);
+/// Calls visit(NamedFacets) on the sets in the order of their facets; each facet of the mesh is in
+/// one set.
+template <class Visit>
+void for_each_named(const GroupedMesh& mesh, const PlainNames& names, Visit visit) {
+  for_each_facet_run(mesh, [&](const FacetGroup& run) {
+    const bool is_interface = run.side == Side::kInterface;
+    visit(NamedFacets{run, names.facets(run), is_interface ? names.facets(run, true) : "",
+                      is_interface && mesh.header().record.has_doubles});
+  });
+}
 
 }  // namespace mw::io

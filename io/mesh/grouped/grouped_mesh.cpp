@@ -11,10 +11,12 @@
 namespace mw::io {
 
 GroupedMesh::GroupedMesh(const std::filesystem::path& folder)
-    : vertices_(folder),
+    : folder_(folder),
+      vertices_(folder),
       tets_(folder),
       values_(folder),
       facets_(folder),
+      facet_groups_(folder),
       wedges_(folder),
       edges_(folder),
       middles_(folder) {}

@@ -6,6 +6,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
+#include <filesystem>
 #include <limits>
 #include <memory>
 #include <optional>
@@ -86,6 +88,43 @@ class NodeRows {
   std::size_t size_ = 0;
 };
 
+/// The groups of a mesh, ascending by side, first, second.  Like the rest of the mesh they wait in
+/// a temporary file.  ERRORS: see ScratchFile.
+class FacetGroups {
+ public:
+  class Iterator {
+   public:
+    using value_type = FacetGroup;
+    using difference_type = std::ptrdiff_t;
+
+    Iterator() = default;
+    Iterator(const FacetGroups* groups, std::size_t at) : groups_(groups), at_(at) {}
+    [[nodiscard]] FacetGroup operator*() const { return (*groups_)[at_]; }
+    Iterator& operator++() {
+      ++at_;
+      return *this;
+    }
+    Iterator operator++(int) { return {groups_, at_++}; }
+    [[nodiscard]] bool operator==(const Iterator& other) const { return at_ == other.at_; }
+
+   private:
+    const FacetGroups* groups_ = nullptr;
+    std::size_t at_ = 0;
+  };
+
+  explicit FacetGroups(const std::filesystem::path& folder) : groups_(folder) {}
+
+  void add(const FacetGroup& group) { groups_.append(group); }
+  [[nodiscard]] std::size_t size() const { return groups_.size(); }
+  /// REQUIRES: number < size().
+  [[nodiscard]] FacetGroup operator[](std::size_t number) const { return groups_[number]; }
+  [[nodiscard]] Iterator begin() const { return {this, 0}; }
+  [[nodiscard]] Iterator end() const { return {this, size()}; }
+
+ private:
+  mutable PagedFile<FacetGroup> groups_;  ///< reading fills its pages
+};
+
 /// Everything waits in temporary files, so memory (8 MiB for each list that is looked into) does
 /// not grow with the mesh.  The first rows of nodes are the vertices as they came, the next ones
 /// the middles of edges, which ascend by their ends.  GroupedSink makes the mesh, which can be
@@ -101,6 +140,8 @@ class GroupedMesh {
   /// Returns the box of the record; if it has none, that of the vertices along the world's axes.
   [[nodiscard]] const MeshBox& box() const { return box_; }
   [[nodiscard]] Element element() const { return element_; }
+  /// Returns the folder of the temporary files.
+  [[nodiscard]] const std::filesystem::path& folder() const { return folder_; }
   /// Returns the largest coordinate of a vertex, without its sign.
   [[nodiscard]] double largest_coordinate() const { return largest_coordinate_; }
   /// Returns the length of the shortest edge of a tet, infinity if there is no tet.
@@ -129,8 +170,7 @@ class GroupedMesh {
     return values_[tet * header_.values.size() + column];
   }
 
-  /// Returns the groups, ascending by side, first, second.
-  [[nodiscard]] const std::vector<FacetGroup>& facet_groups() const { return facet_groups_; }
+  [[nodiscard]] const FacetGroups& facet_groups() const { return facet_groups_; }
   [[nodiscard]] std::uint64_t facet_count() const { return facets_.size(); }
   /// Facets are numbered by group, and in a group by tet.
   [[nodiscard]] Facet facet(std::uint64_t number) { return facets_[number]; }
@@ -155,6 +195,7 @@ class GroupedMesh {
 
   explicit GroupedMesh(const std::filesystem::path& folder);
 
+  std::filesystem::path folder_;
   MeshHeader header_;
   LabelTable table_;
   MeshBox box_;
@@ -167,13 +208,29 @@ class GroupedMesh {
   PagedFile<double> values_;  ///< by tet, one for each name
   std::vector<RowRange> label_tets_;
   PagedFile<Facet> facets_;
-  std::vector<FacetGroup> facet_groups_;
+  FacetGroups facet_groups_;
   PagedFile<Wedge> wedges_;
   std::vector<WedgeGroup> wedge_groups_;
   PagedFile<std::array<std::uint64_t, 2>> edges_;    ///< corners of each edge, with middles only
   PagedFile<std::array<std::uint64_t, 6>> middles_;  ///< by tet, with middles only
   std::optional<PagedArray<Position>> curved_;       ///< all nodes, with curves only
 };
+
+/// Calls visit(run) on the interfaces and on each side of the box, in the order of their facets: a
+/// run is a group, or all groups of a side in one, with the first of their labels.
+template <class Visit>
+void for_each_facet_run(const GroupedMesh& mesh, Visit visit) {
+  std::optional<FacetGroup> run;
+  for (const FacetGroup& group : mesh.facet_groups()) {
+    if (run && run->side == group.side && group.side != Side::kInterface) {
+      run->facets.end = group.facets.end;
+      continue;
+    }
+    if (run) visit(*run);
+    run = group;
+  }
+  if (run) visit(*run);
+}
 
 /// Writes a grouped mesh into the file that its constructor has opened.
 class GroupedWriter {

@@ -203,18 +203,17 @@ void GroupedSink::add_facet(std::span<const FaceRecord> sharing, Facets& facets)
 }
 
 void GroupedSink::number_facets(Facets& facets) {
-  std::vector<FacetGroup>& groups = mesh_.facet_groups_;
+  FacetGroup group;
   facets.each([&](const Facets::Record& record) {
-    const FacetGroup group{.side = static_cast<Side>(record[0] >> 32),
-                           .first = static_cast<Label>(record[0] & 0xffffffffU),
-                           .second = static_cast<Label>(record[1])};
+    const auto side = static_cast<Side>(record[0] >> 32);
+    const auto first = static_cast<Label>(record[0] & 0xffffffffU);
+    const auto second = static_cast<Label>(record[1]);
     const std::uint64_t number = mesh_.facets_.size();
-    if (groups.empty() || groups.back().side != group.side || groups.back().first != group.first ||
-        groups.back().second != group.second) {
-      groups.push_back(group);
-      groups.back().facets = {number, number};
+    if (number == 0 || side != group.side || first != group.first || second != group.second) {
+      if (number > 0) mesh_.facet_groups_.add(group);
+      group = {.side = side, .first = first, .second = second, .facets = {number, number}};
     }
-    ++groups.back().facets.end;
+    ++group.facets.end;
     const std::uint64_t tet = record[2] >> 2;
     const std::uint64_t opposite = record[2] & 3;
     mesh_.facets_.append({.rows = facet_rows(mesh_.tets_[tet], opposite),
@@ -223,6 +222,7 @@ void GroupedSink::number_facets(Facets& facets) {
                           .second_tet = record[3] >> 2,
                           .second_opposite = record[3] & 3});
   });
+  if (mesh_.facets_.size() > 0) mesh_.facet_groups_.add(group);
 }
 
 void GroupedSink::find_wedges() {

@@ -51,9 +51,9 @@ class MaterialSets {
   }
   /// Calls visit(material, tet) by material, then by tet.  Memory: 8 MiB.  ERRORS: see ScratchFile.
   template <class Visit>
-  void for_each(const std::filesystem::path& folder, Visit visit) {
+  void for_each(Visit visit) {
     constexpr std::size_t kSortBytes = 8 << 20;
-    ExternalSort<2> rows(folder, kSortBytes);
+    ExternalSort<2> rows(mesh_.folder(), kSortBytes);
     for (std::uint64_t t = 0; t < mesh_.tet_count(); ++t) {
       if (const std::uint32_t material = material_of(t); material > 0) rows.add({material, t});
     }

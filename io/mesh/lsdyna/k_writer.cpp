@@ -45,12 +45,12 @@ void LsdynaWriter::write(GroupedMesh& mesh) {
   for (Label rank = 0; rank < mesh.table().size(); ++rank) {
     write_part(mesh, mesh.label_tets()[rank], numbers[rank], names.volume(rank));
   }
-  for (const NamedFacets& set : named_facets(mesh, names)) {
+  for_each_named(mesh, names, [&](const NamedFacets& set) {
     write_node_set(mesh, set, false);
     if (set.is_split) write_node_set(mesh, set, true);
     write_segments(mesh, set, false);
     if (!set.other.empty()) write_segments(mesh, set, true);
-  }
+  });
   line("*END");
   append_label_table(labels_, mesh.table(), mesh.names(), numbers);
   commit_together({labels_, file_});
@@ -111,7 +111,7 @@ void LsdynaWriter::write_node_set(GroupedMesh& mesh, const NamedFacets& set, boo
     line(row);
     row.clear();
   };
-  for_each_facet_node(mesh, set.group.facets, folder_, add, of_second);
+  for_each_facet_node(mesh, set.group.facets, add, of_second);
   if (!row.empty()) line(row);
 }
 

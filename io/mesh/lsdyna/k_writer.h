@@ -24,10 +24,7 @@ namespace mw::io {
 class LsdynaWriter : public GroupedWriter {
  public:
   explicit LsdynaWriter(const std::filesystem::path& path)
-      : folder_(path.parent_path()),
-        name_(path.string()),
-        file_(path),
-        labels_(label_table_path(path)) {}
+      : name_(path.string()), file_(path), labels_(label_table_path(path)) {}
 
   void write(GroupedMesh& mesh) override;
 
@@ -39,7 +36,6 @@ class LsdynaWriter : public GroupedWriter {
   void begin_set(const char* keyword, const std::string& title, std::uint64_t number);
   void line(std::string_view line) { file_.append_line(line); }
 
-  std::filesystem::path folder_;
   std::string name_;
   AtomicFile file_;
   AtomicFile labels_;

@@ -36,8 +36,8 @@ void BdfWriter::write(GroupedMesh& mesh) {
   line(text("$ mwmesh: tetrahedra of ", mesh.table().size(),
             " labels; materials are placeholders."));
   line("CEND");
-  const std::vector<NamedFacets> sets = named_facets(mesh, names);
-  for (std::size_t s = 0; s < sets.size(); ++s) write_set(mesh, s + 1, sets[s]);
+  std::size_t number = 0;
+  for_each_named(mesh, names, [&](const NamedFacets& set) { write_set(mesh, ++number, set); });
   line("BEGIN BULK");
   write_nodes(mesh);
   for (Label rank = 0; rank < mesh.table().size(); ++rank) {
@@ -52,7 +52,7 @@ void BdfWriter::write_set(GroupedMesh& mesh, std::size_t number, const NamedFace
   line(text("$ SET ", number, ": nodes of ", set.name));
   std::string row = text("SET ", number, " = ");
   bool is_first = true;
-  for_each_facet_node(mesh, set.group.facets, folder_, [&](std::uint64_t node) {
+  for_each_facet_node(mesh, set.group.facets, [&](std::uint64_t node) {
     const std::string item = std::to_string(node + 1);
     if (!is_first) row += ',';
     if (row.size() + item.size() + 1 > kColumns) {

@@ -19,10 +19,7 @@ namespace mw::io {
 class BdfWriter : public GroupedWriter {
  public:
   explicit BdfWriter(const std::filesystem::path& path)
-      : folder_(path.parent_path()),
-        name_(path.string()),
-        file_(path),
-        labels_(label_table_path(path)) {}
+      : name_(path.string()), file_(path), labels_(label_table_path(path)) {}
 
   void write(GroupedMesh& mesh) override;
 
@@ -32,7 +29,6 @@ class BdfWriter : public GroupedWriter {
   void write_part(GroupedMesh& mesh, RowRange tets, std::int64_t number, const std::string& name);
   void line(std::string_view line) { file_.append_line(line); }
 
-  std::filesystem::path folder_;
   std::string name_;
   AtomicFile file_;
   AtomicFile labels_;

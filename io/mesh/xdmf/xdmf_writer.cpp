@@ -12,12 +12,6 @@
 namespace mw::io {
 namespace {
 
-/// The name and the number of a group of cells.
-struct XdmfTag {
-  std::string name;
-  std::int64_t number = 0;
-};
-
 /// What the file says of a mesh.
 struct XdmfFacts {
   std::string numbers;  ///< the name of the HDF5 file
@@ -26,9 +20,7 @@ struct XdmfFacts {
   std::uint64_t nodes = 0;
   std::uint64_t tets = 0;
   std::uint64_t facets = 0;
-  std::vector<XdmfTag> labels{};
-  std::string record{};          ///< the record as a line (mesh_record.h); may be empty
-  std::vector<XdmfTag> sides{};  ///< groups of facets
+  std::string record{};  ///< the record as a line (mesh_record.h); may be empty
   std::vector<std::string> values{};
 };
 
@@ -82,18 +74,15 @@ std::string attribute_text(const XdmfFacts& facts, const std::string& name, cons
               item_text(facts, item), "      </Attribute>\n");
 }
 
-std::string tags_text(const std::vector<XdmfTag>& tags) {
-  std::string out;
-  for (const XdmfTag& tag : tags) {
-    out += text("      <Information Name=\"", xml_escaped(tag.name), "\" Value=\"", tag.number,
-                "\"/>\n");
-  }
-  return out;
+std::string tag_text(const std::string& name, std::int64_t number) {
+  return text("      <Information Name=\"", xml_escaped(name), "\" Value=\"", number, "\"/>\n");
 }
 
-std::string grid_text(const char* name, const std::string& content) {
-  return text("    <Grid Name=\"", name, "\" GridType=\"Uniform\">\n", content, "    </Grid>\n");
+std::string grid_begin(const char* name) {
+  return text("    <Grid Name=\"", name, "\" GridType=\"Uniform\">\n");
 }
+
+constexpr const char* kGridEnd = "    </Grid>\n";
 
 std::string values_text(const XdmfFacts& facts) {
   std::string out;
@@ -105,29 +94,26 @@ std::string values_text(const XdmfFacts& facts) {
 }
 
 std::string mesh_text(const XdmfFacts& facts) {
-  return grid_text("mesh", tets_text(facts) + geometry_text(facts) +
-                               attribute_text(facts, "label",
-                                              {.path = "/Mesh/mesh/label",
-                                               .rows = facts.tets,
-                                               .type = facts.labels_signed ? "Int" : "UInt"}) +
-                               values_text(facts));
+  return grid_begin("mesh") + tets_text(facts) + geometry_text(facts) +
+         attribute_text(facts, "label",
+                        {.path = "/Mesh/mesh/label",
+                         .rows = facts.tets,
+                         .type = facts.labels_signed ? "Int" : "UInt"}) +
+         values_text(facts) + kGridEnd;
 }
 
-std::string cell_tags_text(const XdmfFacts& facts) {
-  return grid_text(
-      "cell_tags",
-      tags_text(facts.labels) + tets_text(facts) + geometry_text(facts) +
-          attribute_text(facts, "cell_tags",
-                         {.path = "/MeshTags/cell_tags/Values", .rows = facts.tets, .bytes = 4}));
+/// Return what follows the tags in a grid.
+std::string tagged_cells_text(const XdmfFacts& facts) {
+  return tets_text(facts) + geometry_text(facts) +
+         attribute_text(facts, "cell_tags",
+                        {.path = "/MeshTags/cell_tags/Values", .rows = facts.tets, .bytes = 4}) +
+         kGridEnd;
 }
-
-std::string facet_tags_text(const XdmfFacts& facts) {
-  return grid_text(
-      "facet_tags",
-      tags_text(facts.sides) + facets_text(facts) + geometry_text(facts) +
-          attribute_text(
-              facts, "facet_tags",
-              {.path = "/MeshTags/facet_tags/Values", .rows = facts.facets, .bytes = 4}));
+std::string tagged_facets_text(const XdmfFacts& facts) {
+  return facets_text(facts) + geometry_text(facts) +
+         attribute_text(facts, "facet_tags",
+                        {.path = "/MeshTags/facet_tags/Values", .rows = facts.facets, .bytes = 4}) +
+         kGridEnd;
 }
 
 std::string record_line(const XdmfFacts& facts) {
@@ -136,10 +122,9 @@ std::string record_line(const XdmfFacts& facts) {
               "\"/>\n");
 }
 
-std::string document_text(const std::string& grids) {
-  return text("<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<Xdmf Version=\"3.0\">\n  <Domain>\n",
-              grids, "  </Domain>\n</Xdmf>\n");
-}
+constexpr const char* kDocumentBegin =
+    "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<Xdmf Version=\"3.0\">\n  <Domain>\n";
+constexpr const char* kDocumentEnd = "  </Domain>\n</Xdmf>\n";
 
 /// Returns a column with room for all of its numbers.
 template <class T>
@@ -152,40 +137,21 @@ void add_row(FileColumn<T>& column, const Row& row) {
   for (const auto number : row) column.add(number);
 }
 
-std::uint64_t facets_of(const std::vector<NumberedFacets>& runs) {
-  std::uint64_t count = 0;
-  for (const NumberedFacets& run : runs) count += run.facets.size();
-  return count;
-}
-
-XdmfFacts facts_of(const GroupedMesh& mesh, const LabelNumbers& numbers,
-                   const std::vector<NumberedFacets>& runs, const std::filesystem::path& path) {
-  XdmfFacts facts{.numbers = xdmf_numbers_path(path).filename().string(),
-                  .element = mesh.element(),
-                  .labels_signed = mesh.table().is_signed(),
-                  .nodes = mesh.node_count(),
-                  .tets = mesh.tet_count(),
-                  .facets = mesh.facet_count(),
-                  .record = record_text(mesh.header().record),
-                  .values = mesh.header().values};
-  const GroupNames names(mesh);
-  for (Label rank = 0; rank < mesh.table().size(); ++rank) {
-    facts.labels.push_back({names.volume(rank), numbers[rank]});
-  }
-  for (const NumberedFacets& run : runs) facts.sides.push_back({run.name, run.number});
-  return facts;
-}
-
-/// Returns the document with all grids.
-std::string xdmf_text(const XdmfFacts& facts) {
-  return document_text(record_line(facts) + mesh_text(facts) + cell_tags_text(facts) +
-                       facet_tags_text(facts));
+XdmfFacts facts_of(const GroupedMesh& mesh, const std::filesystem::path& path) {
+  return {.numbers = xdmf_numbers_path(path).filename().string(),
+          .element = mesh.element(),
+          .labels_signed = mesh.table().is_signed(),
+          .nodes = mesh.node_count(),
+          .tets = mesh.tet_count(),
+          .facets = mesh.facet_count(),
+          .record = record_text(mesh.header().record),
+          .values = mesh.header().values};
 }
 
 /// Returns the document with the first grid alone.  A comment says who wrote it, as some readers
 /// take nothing but a grid in the domain.
 std::string xdmf_cells_text(const XdmfFacts& facts) {
-  return document_text(mesh_text(facts)) + text("<!-- ", kRecordName, " -->\n");
+  return text(kDocumentBegin, mesh_text(facts), kDocumentEnd, "<!-- ", kRecordName, " -->\n");
 }
 
 /// ERRORS: mw::Error(kUsage) for a name that readers would not find the HDF5 file by, since they
@@ -218,24 +184,23 @@ XdmfWriter::XdmfWriter(const std::filesystem::path& path)
 
 void XdmfWriter::write(GroupedMesh& mesh) {
   const LabelNumbers numbers(mesh.table(), {.min = 0});
-  const std::vector<NumberedFacets> runs = number_facets(mesh);
+  const GroupNames names(mesh);
   const Hdf5Group meshes{
       .name = "Mesh",
       .groups = {{.name = "mesh", .sets = {nodes(mesh), topology(mesh), labels(mesh)}}}};
   const Hdf5Group tags{
       .name = "MeshTags",
       .groups = {{.name = "cell_tags", .sets = {cell_tags(mesh, numbers)}},
-                 {.name = "facet_tags", .sets = {facets(mesh, runs), facet_tags(runs)}}}};
+                 {.name = "facet_tags", .sets = {facets(mesh), facet_tags(mesh, names)}}}};
   Hdf5Group root{.attributes = {{"writer", std::string(kRecordName)}}, .groups = {meshes, tags}};
   if (!mesh.header().values.empty()) root.groups.push_back({.name = "Values"});
   for (std::size_t i = 0; i < mesh.header().values.size(); ++i) {
     root.groups.back().sets.push_back(value(mesh, i));
   }
-  const XdmfFacts facts = facts_of(mesh, numbers, runs, path_);
-  cells_.append(xdmf_cells_text(facts));
-  file_.append(xdmf_text(facts));
+  cells_.append(xdmf_cells_text(facts_of(mesh, path_)));
+  write_grids(mesh, names, numbers);
   append_label_table(labels_, mesh.table(), mesh.names(), numbers);
-  append_facet_table(facets_, mesh.table(), runs);
+  append_facet_table(facets_, mesh, names);
   AtomicFile& data = numbers_.finish(root);
   commit_together({data, labels_, facets_, cells_, file_});
 }
@@ -285,26 +250,37 @@ Hdf5DataSet XdmfWriter::cell_tags(const GroupedMesh& mesh, const LabelNumbers& n
   return finish_column(column, "Values", Hdf5Kind::kInt32, {mesh.tet_count()});
 }
 
-Hdf5DataSet XdmfWriter::facets(GroupedMesh& mesh, const std::vector<NumberedFacets>& runs) {
-  const std::uint64_t nodes = has_middles(mesh.element()) ? 6 : 3, count = facets_of(runs);
+Hdf5DataSet XdmfWriter::facets(GroupedMesh& mesh) {
+  const std::uint64_t nodes = has_middles(mesh.element()) ? 6 : 3, count = mesh.facet_count();
   auto column = column_of<std::uint64_t>(numbers_, nodes * count);
-  for (const NumberedFacets& run : runs) {
-    for (std::uint64_t i = run.facets.begin; i < run.facets.end; ++i) {
-      add_row(column, mesh.facet_nodes(mesh.facet(i)));
-    }
-  }
+  for (std::uint64_t i = 0; i < count; ++i) add_row(column, mesh.facet_nodes(mesh.facet(i)));
   return finish_column(column, "topology", Hdf5Kind::kInt64, {count, nodes});
 }
 
-Hdf5DataSet XdmfWriter::facet_tags(const std::vector<NumberedFacets>& runs) {
-  const std::uint64_t count = facets_of(runs);
+Hdf5DataSet XdmfWriter::facet_tags(const GroupedMesh& mesh, const GroupNames& names) {
+  const std::uint64_t count = mesh.facet_count();
   auto column = column_of<std::int32_t>(numbers_, count);
-  for (const NumberedFacets& run : runs) {
+  for_each_numbered(mesh, names, [&](const NumberedFacets& run) {
     for (std::uint64_t i = 0; i < run.facets.size(); ++i) {
       column.add(static_cast<std::int32_t>(run.number));
     }
-  }
+  });
   return finish_column(column, "Values", Hdf5Kind::kInt32, {count});
+}
+
+/// Writes the document with all grids.
+void XdmfWriter::write_grids(const GroupedMesh& mesh, const GroupNames& names,
+                             const LabelNumbers& numbers) {
+  const XdmfFacts facts = facts_of(mesh, path_);
+  file_.append(text(kDocumentBegin, record_line(facts), mesh_text(facts), grid_begin("cell_tags")));
+  for (Label rank = 0; rank < mesh.table().size(); ++rank) {
+    file_.append(tag_text(names.volume(rank), numbers[rank]));
+  }
+  file_.append(tagged_cells_text(facts) + grid_begin("facet_tags"));
+  for_each_numbered(mesh, names, [&](const NumberedFacets& run) {
+    file_.append(tag_text(run.name, run.number));
+  });
+  file_.append(tagged_facets_text(facts) + kDocumentEnd);
 }
 
 }  // namespace mw::io

@@ -46,8 +46,10 @@ class XdmfWriter : public GroupedWriter {
   [[nodiscard]] Hdf5DataSet labels(const GroupedMesh& mesh);
   [[nodiscard]] Hdf5DataSet value(GroupedMesh& mesh, std::size_t column);
   [[nodiscard]] Hdf5DataSet cell_tags(const GroupedMesh& mesh, const LabelNumbers& numbers);
-  [[nodiscard]] Hdf5DataSet facets(GroupedMesh& mesh, const std::vector<NumberedFacets>& runs);
-  [[nodiscard]] Hdf5DataSet facet_tags(const std::vector<NumberedFacets>& runs);
+  [[nodiscard]] Hdf5DataSet facets(GroupedMesh& mesh);
+  [[nodiscard]] Hdf5DataSet facet_tags(const GroupedMesh& mesh, const GroupNames& names);
+
+  void write_grids(const GroupedMesh& mesh, const GroupNames& names, const LabelNumbers& numbers);
 
   std::filesystem::path path_;
   AtomicFile file_;

@@ -314,7 +314,7 @@ class NodeClassesOfGrids : public testing::TestWithParam<std::tuple<unsigned, El
 
 TEST_P(NodeClassesOfGrids, EveryNodeIsOnTheFirstEntityThatHasIt) {
   GroupedMesh& mesh = sink_.mesh();
-  NodeClasses classes(mesh, dir_.path());
+  NodeClasses classes(mesh);
   const std::vector<std::set<std::uint64_t>> rows = rows_by_entity(mesh);
   ASSERT_EQ(classes.entities(), rows.size());
   std::uint64_t next = 0;
@@ -342,7 +342,7 @@ TEST_P(NodeClassesOfGrids, EveryNodeIsOnTheFirstEntityThatHasIt) {
 
 TEST_P(NodeClassesOfGrids, BoxesAreThoseOfAllNodes) {
   GroupedMesh& mesh = sink_.mesh();
-  const NodeClasses classes(mesh, dir_.path());
+  NodeClasses classes(mesh);
   const std::vector<std::set<std::uint64_t>> rows = rows_by_entity(mesh);
   for (std::size_t e = 0; e < rows.size(); ++e) {
     for (std::size_t k = 0; k < 3; ++k) {

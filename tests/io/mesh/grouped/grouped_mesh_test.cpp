@@ -3,13 +3,12 @@
 // Groups of a mesh against sets and maps.
 #include <gmock/gmock.h>
 
-#include <cctype>
-
 #include "io/mesh/grouped/group_names.h"
 #include "io/mesh/grouped/grouped_sink.h"
 #include "io/mesh/grouped/label_numbers.h"
 #include "io/names/read_names.h"
 #include "tests/io/mesh/grid_mesh.h"
+#include "tests/io/mesh/grouped/grouped.h"
 #include "tests/io/test_files.h"
 
 namespace mw::io {
@@ -62,11 +61,6 @@ Side side_of(const MeshData& mesh, const Triangle& rows, const Position& extent)
     }
   }
   return Side::kOuter;
-}
-
-GroupedMesh& grouped(GroupedSink& sink, const MeshData& mesh) {
-  write_mesh(mesh, sink);
-  return sink.mesh();
 }
 
 class RandomGrids : public testing::TestWithParam<unsigned> {
@@ -228,9 +222,6 @@ TEST(GroupNames, NamesOfLabelsAreUniqueAndSidesShareOne) {
   EXPECT_EQ(names.volume(2), "cyst (2)");
   EXPECT_EQ(names.facets({.first = 1, .second = 3}), "liver|cyst (3)");
   EXPECT_EQ(names.facets({.side = Side::kYMax, .first = 1}), "y_max");
-  EXPECT_EQ(plain_facet_name(found.table(), {.first = 1, .second = 3}), "FACE_1_3");
-  EXPECT_EQ(plain_facet_name(found.table(), {.side = Side::kZMin}), "Z_MIN");
-  EXPECT_EQ(plain_volume_name(LabelTable({static_cast<RawLabel>(-5)}, true), 0), "LABEL_M5");
 }
 
 TEST(GroupNames, DifferWhateverLabelsAreCalled) {
@@ -250,76 +241,6 @@ TEST(GroupNames, DifferWhateverLabelsAreCalled) {
   EXPECT_EQ(names.facets({.first = 1, .second = 4}), "label_1|x (3) (2|5)");
   EXPECT_EQ(names.facets({.first = 1, .second = 3}), "label_1|x (4)");
   EXPECT_EQ(names.facets({.first = 4, .second = 5}), "x (3)|label_1|x (3) (5|6)");
-}
-
-/// Every name by the rules of Abaqus, and no two the same by them.
-void expect_plain(const GroupedMesh& mesh) {
-  const PlainNames names(mesh);
-  std::vector<std::string> all;
-  for (Label rank = 0; rank < mesh.table().size(); ++rank) all.push_back(names.volume(rank));
-  std::set<std::string> sides;
-  for (const FacetGroup& group : mesh.facet_groups()) {
-    if (group.side != Side::kInterface) {
-      sides.insert(names.facets(group));
-      continue;
-    }
-    all.push_back(names.facets(group));
-    all.push_back(names.facets(group, true));
-  }
-  all.insert(all.end(), sides.begin(), sides.end());
-  std::set<std::string> capitals;
-  for (std::string name : all) {
-    EXPECT_LE(name.size(), 80U);
-    EXPECT_EQ(
-        name.find_first_not_of("ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789"
-                               "_-"),
-        name.npos)
-        << name;
-    EXPECT_NE(std::isalpha(static_cast<unsigned char>(name.at(0))), 0) << name;
-    for (char& c : name) c = static_cast<char>(std::toupper(static_cast<unsigned char>(c)));
-    EXPECT_TRUE(capitals.insert(name).second) << name;
-  }
-}
-
-TEST(PlainNames, AreAllowedAndUniqueWhateverLabelsAreCalled) {
-  const std::string longest(200, 'x');
-  const std::vector<std::string> known{"",      "L",           "l",   "L_3",      "L_3_3",
-                                       "x min", "OUTER",       "1_2", "FACE_1_2", "label 2",
-                                       longest, longest + "y", "(((", "Größe",    "LABEL_3"};
-  const TempDir dir;
-  std::mt19937 random(17);
-  for (unsigned seed = 0; seed < 40; ++seed) {
-    MeshData mesh = grid_mesh({2, 2, 2}, seed);
-    for (std::size_t t = 0; t < mesh.tets.size(); ++t) mesh.labels[t] = random() % 7;
-    std::vector<LabelName> rows;
-    for (RawLabel label = 0; label < 7; ++label) {
-      rows.push_back({label, known[random() % known.size()], {}});
-    }
-    mesh.names = LabelNames(std::move(rows));
-    GroupedSink sink(dir.path(), nullptr);
-    expect_plain(grouped(sink, mesh));
-  }
-}
-
-TEST(PlainNames, SayWhatLabelsAreCalled) {
-  MeshData mesh = grid_mesh({2, 2, 2}, 5);
-  for (std::size_t t = 0; t < mesh.tets.size(); ++t) mesh.labels[t] = t % 6;
-  mesh.names = LabelNames({{1, "Matrix (epoxy)", {}},
-                           {2, "cyst", {}},
-                           {3, "CYST", {}},
-                           {4, "3rd ventricle", {}},
-                           {5, "漢字", {}}});
-  const TempDir dir;
-  GroupedSink sink(dir.path(), nullptr);
-  const GroupedMesh& found = grouped(sink, mesh);
-  const PlainNames names(found);
-  const std::vector<std::string> expected{"LABEL_0", "Matrix_epoxy",    "cyst_2",
-                                          "CYST_3",  "L_3rd_ventricle", "LABEL_5"};
-  for (Label rank = 0; rank < 6; ++rank) EXPECT_EQ(names.volume(rank), expected[rank]);
-  EXPECT_EQ(names.facets({.first = 0, .second = 1}), "FACE_0_Matrix_epoxy");
-  EXPECT_EQ(names.facets({.first = 0, .second = 1}, true), "FACE_Matrix_epoxy_0");
-  EXPECT_EQ(names.facets({.first = 0, .second = 5}, true), "FACE_5_0");
-  EXPECT_EQ(names.facets({.side = Side::kYMax, .first = 1}), "Y_MAX");
 }
 
 void write_label_table(const std::filesystem::path& mesh, const LabelTable& table,
