@@ -277,6 +277,15 @@ ReadingRoom reading_room(const MeshJob& job, bool has_scores = false) {
                         ? MemoryBudget::kUnlimited
                         : shares * job.run.store.memory,
           .shares = shares,
+/// Returns how many voxels of an image, whose smallest size is `smallest`, ask for less than can be
+/// had.
+report::RaisedSizes raised_sizes(const SizeImage& image, double smallest,
+                                 const io::VolumeInfo& labels, int halvings) {
+  const double least = std::ldexp(least_size(labels), -halvings);
+  if (smallest >= least) return {};
+  return {.voxels = image.voxels_below(least), .least = told_size(least)};
+}
+
           .beside = program + preparation_bytes(job.settings, has_scores)};
 }
 
@@ -357,9 +366,9 @@ report::FinishedRun mesh(const io::LabelVolume& opened, const MeshJob& asked, io
   const CertificatePlan plan = plan_certificate(job);
   const report::ResourceMeter meter;
   std::optional<SizeImage> sizes = size_image(opened.info(), job);
-  const int halvings =
-      halvings_of(opened.info(), asked,
-                  sizes ? least_size_of(*sizes, job) : std::numeric_limits<double>::infinity());
+  const double smallest =
+      sizes ? least_size_of(*sizes, job) : std::numeric_limits<double>::infinity();
+  const int halvings = halvings_of(opened.info(), asked, smallest);
   job.settings = before_halvings(asked.settings, halvings);
   check(opened.info(), job.settings);
   check_keep(job.run, job.settings);
@@ -377,6 +386,10 @@ report::FinishedRun mesh(const io::LabelVolume& opened, const MeshJob& asked, io
   FingerprintVolume volume(input.volume());
   Processes& processes = job.run.processes == nullptr ? one_process() : *job.run.processes;
   report::FinishedRun run{.volume = volume.info(),
+  report::RaisedSizes raised;
+  if (sizes && asked.settings.sizes.count == 0) {
+    raised = raised_sizes(*sizes, smallest, opened.info(), halvings);
+  }
                           .labels = processes.collect_labels(volume, job.run.threads),
                           .sizes = asked.settings.sizes,
                           .specks = input.specks(),
@@ -389,6 +402,7 @@ report::FinishedRun mesh(const io::LabelVolume& opened, const MeshJob& asked, io
   const io::DenseVolume labels(input.volume(), run.labels);
   const std::uint64_t memory = job.run.store.memory - input.held_bytes();
   if (asked.settings.sizes.count > 0) {
+                          .raised = raised,
     run.count = count_facts(
         {.labels = labels, .job = asked, .image = sizes ? &*sizes : nullptr, .memory = memory},
         run);

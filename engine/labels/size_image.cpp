@@ -82,6 +82,12 @@ double SizeImage::least() const {
   return least;
 }
 
+std::uint64_t SizeImage::voxels_below(double size) const {
+  std::uint64_t count = 0;
+  each_size([&](double asked) { count += asked < size ? 1U : 0U; });
+  return count;
+}
+
 /// Reads whole rows, as many as fit into a piece, or pieces of one row where it does not fit.
 template <typename Visit>
 void SizeImage::each_size(Visit visit) const {

@@ -30,6 +30,8 @@ class SizeImage {
   [[nodiscard]] std::uint64_t fingerprint() const;
   /// Returns the smallest size; infinity when there is none.  Cost: that of fingerprint().
   [[nodiscard]] double least() const;
+  /// Returns how many voxels ask for less than this size.  Cost: that of fingerprint().
+  [[nodiscard]] std::uint64_t voxels_below(double size) const;
 
  private:
   template <typename Visit>

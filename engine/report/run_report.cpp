@@ -206,6 +206,7 @@ Json size_json(const FinishedRun& run) {
            {"inner_vertices_added", run.engine.inner_vertices},
            {"count", count_json(run)},
            {"across", across_json(run)},
+           {"image_voxels_raised", run.raised.voxels},
            {"labels_that_do_not_meet", unmet_json(run)}};
   // Edges are compared with the sizes of labels only.
   if (run.sizes.rules.labels.empty() && !run.sizes.rules.others) return out;

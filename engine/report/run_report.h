@@ -35,12 +35,19 @@ struct CountFacts {
   double seconds = 0.0;     ///< on the clock
 };
 
+/// Voxels of an image of sizes that ask for less than can be had, and got the least instead.
+struct RaisedSizes {
+  std::uint64_t voxels = 0;
+  double least = 0.0;
+};
+
 /// What a run knows when its mesh has been written.
 struct FinishedRun {
   io::VolumeInfo volume;
   io::LabelTable labels;
   engine::SizeSettings sizes;  ///< those that the run kept to, after scaling
   std::optional<CountFacts> count;
+  RaisedSizes raised;
   std::optional<io::SpeckFacts> specks;
   std::optional<io::WeldFacts> welds;
   std::vector<engine::SampleFacts> samples;

@@ -127,6 +127,14 @@ void print_unmet(const report::FinishedRun& run) {
               ": these labels do not meet: they share no face in the mesh");
 }
 
+/// Warns of an image that asks for smaller sizes than can be had.
+void print_raised(const report::FinishedRun& run) {
+  if (run.raised.voxels == 0) return;
+  log_warning(io::text("--size ", run.sizes.rules.image, ": ", run.raised.voxels,
+                       run.raised.voxels == 1 ? " voxel asks" : " voxels ask", " for less than ",
+                       run.raised.least, ", the least size that can be had here, and got that"));
+}
+
 void print_halvings(const report::FinishedRun& run) {
   const int times = run.engine.halvings;
   if (times == 0) return;
@@ -262,6 +270,7 @@ void print_summary(const report::FinishedRun& run, const MeshRequest& request,
   print_space(run.volume.space);
   print_count(run);
   print_halvings(run);
+  print_raised(run);
   print_sizes(run);
   print_count_missed(run);
   print_unmet(run);

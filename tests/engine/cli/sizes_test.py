@@ -192,7 +192,13 @@ class Sizes(unittest.TestCase):
         tiny = sizes.astype(np.float64)  # as a file that tells the wrong type would have it
         tiny[3, 4, 5] = 5e-324
         np.save("h.npy", tiny)
-        start("mesh", "l.npy", "-o", "l.vtu", "--size", "h.npy", "--force")  # it comes to an end
+        tiny[3, 4, 6:8] = 0.1
+        np.save("h.npy", tiny)
+        done = start("mesh", "l.npy", "-o", "l.vtu", "--size", "h.npy", "--force", "--report",
+                     "h.json")
+        self.assertIn("h.npy: 3 voxels ask for less than 0.347, the least", done.stderr)
+        with open("h.json", encoding="utf-8") as file:
+            self.assertEqual(json.load(file)["size"]["image_voxels_raised"], 3)
         np.save("h.npy", sizes[:-1])
         done = start("mesh", "l.npy", "-o", "l.vtu", "--size", "h.npy")
         self.assertEqual(done.returncode, 3)
