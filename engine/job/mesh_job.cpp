@@ -91,12 +91,17 @@ class KeptInput {
     check_changed(options.changed);
     folder_ = std::make_shared<KeepFolder>(options.folder, options.use);
     open_before(job);
-    std::vector<Box3> changed{{{0, 0, 0}, opened.info().shape}};
+    changed_ = {{{0, 0, 0}, opened.info().shape}};
     const bool reads_all = job.certify == Certify::kOn;  // it vouches for the whole input
     const bool is_patched = before_ && !options.changed.empty() && !reads_all;
-    if (is_patched) changed = options.changed;
-    changed = folder_->begin_change(changed);
-    if (is_patched) patched_.emplace(counted_, *before_, std::move(changed));
+    if (is_patched) changed_ = options.changed;
+    if (is_patched) patched_.emplace(counted_, *before_, folder_->with_incomplete(changed_));
+  }
+
+  /// Must be called before the run keeps anything: from here on its labels may be in the folder.
+  void begin() {
+    if (folder_ == nullptr) return;
+    folder_->begin_change(changed_);
     after_ = std::make_unique<io::AtomicFile>(folder_->path() / kLabelsFile);
     write_kept_labels(volume(), *after_);
     folder_->expect_labels(after_->appended());
@@ -174,6 +179,7 @@ class KeptInput {
   CountedVolume counted_;
   std::shared_ptr<KeepFolder> folder_;
   std::optional<KeptLabels> before_;
+  std::vector<Box3> changed_;
   std::optional<PatchedVolume> patched_;
   std::unique_ptr<io::AtomicFile> after_;
 };
@@ -443,6 +449,7 @@ report::FinishedRun mesh(const io::LabelVolume& opened, const MeshJob& asked, io
   }
   if (connected) run.connected = connected->facts();
   if (run.connected) {
+    hooks.keep.begin = [&kept] { kept.begin(); };
     run.engine.vertices = run.connected->vertices;
     run.engine.tets = run.connected->tets;
   }

@@ -4,6 +4,7 @@
 #include "engine/keep/keep_folder.h"
 
 #include <sys/stat.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <array>
@@ -104,13 +105,34 @@ KeepFolder::KeepFolder(const fs::path& path, KeepUse use) : path_(whole(path)) {
   if (!holds_something && use == KeepUse::kUpdate) {
     refuse(path_, "holds nothing that a run has kept; begin it by --keep");
   }
+  stays_ = holds_something;
 }
 
-void KeepFolder::make(KeepUse use) const {
+/// A run that was refused leaves nothing in the way of the next one.
+KeepFolder::~KeepFolder() {
+  try {
+    if (!stays_ && parts().empty()) remove_files();
+  } catch (const Error&) {
+    // The folder cannot be listed, so nothing is known to be superfluous.
+  }
+}
+
+/// The lock goes last: files without it would look like somebody else's.
+void KeepFolder::remove_files() const {
+  std::error_code ignored;
+  for (const char* name : kFiles) {
+    if (name != std::string_view(kLockFile)) fs::remove(path_ / name, ignored);
+  }
+  fs::remove(path_ / kLockFile, ignored);
+  if (is_made_) ::rmdir(path_.c_str());
+}
+
+void KeepFolder::make(KeepUse use) {
   if (use == KeepUse::kUpdate && !is_folder(path_)) {
     refuse(path_, "is no folder; begin it by --keep");
   }
-  if (::mkdir(path_.c_str(), 0777) == 0) return;
+  is_made_ = ::mkdir(path_.c_str(), 0777) == 0;
+  if (is_made_) return;
   if (errno != EEXIST) io::fail_output(path_.string(), "create the folder", errno);
   if (!is_folder(path_)) refuse(path_, "is not a folder; give --keep another name");
   const bool may_be_ours = is_of_runs(path_);
@@ -176,18 +198,21 @@ void KeepFolder::put_text(const char* name, const std::string& text) const {
   file.commit();
 }
 
-std::vector<Box3> KeepFolder::begin_change(const std::vector<Box3>& boxes) const {
+std::vector<Box3> KeepFolder::with_incomplete(const std::vector<Box3>& boxes) const {
   std::vector<Box3> all = boxes;
   const std::vector<Box3> before = boxes_in(path_ / kChangingFile);
   all.insert(all.end(), before.begin(), before.end());
   if (all.size() > kMostBoxes) all = {std::reduce(all.begin(), all.end(), all[0], hull)};
+  return all;
+}
+
+void KeepFolder::begin_change(const std::vector<Box3>& boxes) const {
   io::AtomicFile file(path_ / kChangingFile);
-  for (const Box3& b : all) {
+  for (const Box3& b : with_incomplete(boxes)) {
     file.append(
         io::text(b.lo.x, " ", b.lo.y, " ", b.lo.z, " ", b.hi.x, " ", b.hi.y, " ", b.hi.z, "\n"));
   }
   file.commit();
-  return all;
 }
 
 void KeepFolder::end_change() const {

@@ -26,13 +26,21 @@ namespace mw::engine {
 ///     changing      boxes in which incomplete runs may have seen other labels, a line each
 ///     part-N        the folder of process N (kept_part()), with the same files; the first process
 ///                   takes it over when the run ends, or when the next one begins
-/// and, while a run goes on, files without a name; nothing else.  It stays when the run ends.
+/// and, while a run goes on, files without a name; nothing else.  It stays when the run ends,
+/// unless it held nothing before and stay() was not called: then these files go, and the folder,
+/// too, if this object made it.
 class KeepFolder : public WorkFiles {
  public:
   /// ERRORS: mw::Error(kUsage) when the folder holds something and the use is kBegin, when it holds
   /// nothing and the use is kUpdate, when another process is at work here, when it has files of
   /// others, or cannot be made.
   KeepFolder(const std::filesystem::path& path, KeepUse use);
+  ~KeepFolder() override;
+  KeepFolder(const KeepFolder&) = delete;
+  KeepFolder& operator=(const KeepFolder&) = delete;
+
+  /// Says that a later run can use what is here.
+  void stay() { stays_ = true; }
 
   /// Saves the settings that the facts here depend on, or checks that they are the saved ones.
   /// ERRORS: mw::Error(kUsage) when they are not; each difference is named.
@@ -54,19 +62,25 @@ class KeepFolder : public WorkFiles {
   [[nodiscard]] std::string text(const char* name) const;
   void put_text(const char* name, const std::string& text) const;
 
+  /// Returns these boxes, and those in which incomplete runs may have seen other labels than the
+  /// run that was complete last.
+  [[nodiscard]] std::vector<Box3> with_incomplete(const std::vector<Box3>& boxes) const;
   /// Begins a run that may see other labels than the run that was complete last, but only inside
-  /// `boxes`.  Returns these boxes and those of incomplete runs in between, which are durable then.
-  [[nodiscard]] std::vector<Box3> begin_change(const std::vector<Box3>& boxes) const;
+  /// with_incomplete(boxes), which is durable then.
+  void begin_change(const std::vector<Box3>& boxes) const;
   /// Ends a run that is complete, once its labels have replaced those of the last complete one.
   void end_change() const;
 
  private:
-  void make(KeepUse use) const;
+  void make(KeepUse use);
   void lock();
+  void remove_files() const;
 
   std::filesystem::path path_;
   std::optional<std::uint64_t> coming_labels_;
   io::FileDescriptor lock_;
+  bool is_made_ = false;  ///< there was no folder before
+  bool stays_ = true;
 };
 
 /// The version of what is in the files.  It is one of the settings, so a folder of another version

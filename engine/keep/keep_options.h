@@ -35,6 +35,8 @@ struct KeepOptions {
   std::string identity;
   /// The folder if it is open already; if null, it is opened.
   std::shared_ptr<KeepFolder> opened;
+  /// Optional; called once it is known that settings and budget fit, before anything is kept.
+  std::function<void()> begin;
   /// Optional; called with each line that a user should read.
   std::function<void(const std::string&)> say;
 };

@@ -144,6 +144,7 @@ void KeptFacts::write_group() {
   std::vector<std::uint64_t> places;
   if (!group.empty()) {
     bytes_.sync();
+    folder_.stay();
     for (const WindowRecord& record : group) {
       places.push_back(log_->append(encode(record).written()));
     }

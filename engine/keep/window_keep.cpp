@@ -35,6 +35,7 @@ std::shared_ptr<KeepFolder> opened(const KeepOptions& options, const std::string
   std::shared_ptr<KeepFolder> folder = options.opened;
   if (folder == nullptr) folder = std::make_shared<KeepFolder>(options.folder, options.use);
   folder->settle(settings);
+  if (options.begin) options.begin();
   return folder;
 }
 

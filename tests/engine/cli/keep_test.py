@@ -314,6 +314,20 @@ class Keep(unittest.TestCase):
         self.refused(2, "shape was 30,26,22 and is 30,26,21", "mesh", "v.npy", "-o", "m.vtu",
                      *SETTINGS, "--from", "k")
 
+    def test_a_refused_run_leaves_nothing(self):
+        rng = np.random.default_rng(1)
+        np.save("n.npy", rng.integers(0, 200, (32, 32, 32)).astype(np.uint8))
+        for code, *options in ((2, "--labels", "7777"), (2, "--size", "7777=3"),
+                               (4, "--memory", "10MiB"), (4, "--memory", "50MiB")):
+            self.refused(code, "", "mesh", "n.npy", "-o", "n.vtu", "--keep", "n", *options)
+            self.assertFalse(os.path.exists("n"), options)
+        self.mesh("--keep", "kept")
+        for code, *options in ((2, "--max-distance", "1"), (2, "--labels", "7777"),
+                               (4, "--memory", "10MiB")):
+            self.refused(code, "", "mesh", "v.npy", "-o", "m.vtu", "--from", "kept", *SETTINGS,
+                         *options)
+            self.assertFalse(os.path.exists("kept/changing"), options)
+
     def test_damage_is_told(self):
         self.mesh("--keep", "k")
         with open("k/versions", "r+b") as file:

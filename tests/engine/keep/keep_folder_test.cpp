@@ -26,13 +26,15 @@ Box3 box_at(std::int64_t x) {
 TEST(KeepFolder, RemembersTheBoxesOfIncompleteRuns) {
   const TempFolder temp;
   const KeepFolder folder(temp.path() / "kept", KeepUse::kBegin);
-  EXPECT_EQ(folder.begin_change({box_at(1)}).size(), 1U);
-  const std::vector<Box3> both = folder.begin_change({box_at(5)});
+  EXPECT_EQ(folder.with_incomplete({box_at(1)}).size(), 1U);
+  folder.begin_change({box_at(1)});
+  folder.begin_change({box_at(5)});
+  const std::vector<Box3> both = folder.with_incomplete({box_at(5)});
   EXPECT_TRUE(covers(both, box_at(1)));
   EXPECT_TRUE(covers(both, box_at(5)));
   EXPECT_FALSE(covers(both, box_at(3)));
   folder.end_change();
-  EXPECT_EQ(folder.begin_change({box_at(2)}).size(), 1U);
+  EXPECT_EQ(folder.with_incomplete({box_at(2)}).size(), 1U);
 }
 
 TEST(KeepFolder, NeverForgetsABoxHoweverManyThereAre) {
@@ -41,8 +43,8 @@ TEST(KeepFolder, NeverForgetsABoxHoweverManyThereAre) {
   std::vector<Box3> boxes;
   constexpr std::int64_t kFar = std::int64_t{1} << 50;
   for (std::int64_t i = 0; i < 1'000'000; ++i) boxes.push_back(box_at(kFar + i));
-  static_cast<void>(folder.begin_change(boxes));
-  const std::vector<Box3> all = folder.begin_change({box_at(7)});
+  folder.begin_change(boxes);
+  const std::vector<Box3> all = folder.with_incomplete({box_at(7)});
   EXPECT_TRUE(covers(all, boxes.front()));
   EXPECT_TRUE(covers(all, boxes.back()));
   EXPECT_TRUE(covers(all, box_at(7)));
@@ -53,8 +55,29 @@ TEST(KeepFolder, RefusesBoxesThatItCannotRead) {
   const KeepFolder folder(temp.path() / "kept", KeepUse::kBegin);
   for (const char* text : {"", "1 2 3 4 5 6\nx"}) {
     std::ofstream(folder.path() / "changing") << text;
-    EXPECT_THROW(static_cast<void>(folder.begin_change({box_at(0)})), DamagedWork) << text;
+    EXPECT_THROW(folder.begin_change({box_at(0)}), DamagedWork) << text;
   }
+}
+
+TEST(KeepFolder, GoesWithARunThatKeptNothing) {
+  const TempFolder temp;
+  const std::filesystem::path path = temp.path() / "kept", own = temp.path() / "own";
+  std::filesystem::create_directory(own);
+  for (const auto& folder : {path, own}) {
+    const KeepFolder kept(folder, KeepUse::kBegin);
+    kept.settle("window = 8\n");
+    kept.begin_change({box_at(1)});
+    kept.put_text(kChosenFile, "x");
+  }
+  EXPECT_FALSE(std::filesystem::exists(path));
+  EXPECT_TRUE(std::filesystem::is_empty(own)) << "a folder that somebody else made stays";
+  {
+    KeepFolder kept(path, KeepUse::kBegin);
+    kept.settle("window = 8\n");
+    kept.stay();
+  }
+  { const KeepFolder kept(path, KeepUse::kUpdate); }
+  EXPECT_TRUE(std::filesystem::exists(path / "settings.txt"));
 }
 
 }  // namespace
