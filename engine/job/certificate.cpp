@@ -60,6 +60,19 @@ CertificatePlan plan_certificate(const MeshJob& job) {
   return {.threads = static_cast<int>(threads), .memory_bytes = kShared + threads * kPerThread};
 }
 
+CertificatePlan beside_others(const CertificatePlan& plan, const MeshJob& job,
+                              std::uint64_t others) {
+  if (!plan.why_not.empty()) return plan;
+  const std::uint64_t memory = job.run.store.memory;
+  const std::uint64_t least = kShared + kPerThread;
+  CertificatePlan out = plan;
+  while (out.threads > 1 && (out.memory_bytes > memory || others > memory - out.memory_bytes)) {
+    out.memory_bytes = kShared + static_cast<std::uint64_t>(--out.threads) * kPerThread;
+  }
+  if (job.certify == Certify::kOn || others + least <= memory) return out;
+  return {.why_not = "needs --memory " + io::mebibytes(others + least) + " or more here"};
+}
+
 Certifier::Certifier(const CertificatePlan& plan, const MeshJob& job, const io::DenseVolume& volume,
                      io::MeshSink& sink, std::function<void()> stop)
     : volume_(volume),

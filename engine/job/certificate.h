@@ -44,6 +44,12 @@ class CertifiedSink : public io::TeeSink {
   std::function<void()> certify_;
 };
 
+/// Returns the plan with as many threads as fit beside what the rest of the run takes while the
+/// mesh is written.  With Certify::kAuto there is none where not even one does: more memory must
+/// not make a run impossible.
+[[nodiscard]] CertificatePlan beside_others(const CertificatePlan& plan, const MeshJob& job,
+                                            std::uint64_t others);
+
 /// Checks a mesh on its way into a sink: P1 to P4 and P8, as the run promises them.
 class Certifier {
  public:

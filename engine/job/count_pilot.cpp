@@ -262,6 +262,7 @@ class Pilot {
     hooks.output.wanted = wanted_labels(job.choice, labels.table());
     hooks.output.within = within;
     hooks.store.memory = task_.memory;
+    hooks.store.memory_beside = task_.memory_beside;
     hooks.owns_process = job.run.owns_process;
     hooks.store.is_scratch = true;
     // Several processes, which all do the same, would meet in one folder.

@@ -20,6 +20,7 @@ struct PilotTask {
   const MeshJob& job;  ///< its settings, labels that are written, threads, and who may stop it
   const SizeImage* image = nullptr;
   std::uint64_t memory = 0;                 ///< bytes that it may take
+  std::uint64_t memory_beside = 0;          ///< see StoreOptions
   std::int64_t max_whole = kMaxWholePilot;  ///< voxels
 };
 

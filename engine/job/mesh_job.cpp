@@ -193,6 +193,10 @@ std::vector<double> edge_sizes(const SizeRules& rules, const io::LabelTable& tab
   return out;
 }
 
+/// What sorts for parts and digest may take of the memory, and what a certificate may.
+constexpr double kSortsShare = 3.0 / 64;
+constexpr double kCertificateShare = 0.25;
+
 constexpr const char* kCountScale = "count scale";
 
 /// Returns what a run shares with the one that it goes on from, beside what the engine adds.
@@ -273,6 +277,15 @@ double least_size_of(const SizeImage& image, const MeshJob& job) {
                  "give edge lengths where they matter, and 0 elsewhere");
 }
 
+/// Returns how many voxels of an image, whose smallest size is `smallest`, ask for less than can be
+/// had.
+report::RaisedSizes raised_sizes(const SizeImage& image, double smallest,
+                                 const io::VolumeInfo& labels, int halvings) {
+  const double least = std::ldexp(least_size(labels), -halvings);
+  if (smallest >= least) return {};
+  return {.voxels = image.voxels_below(least), .least = told_size(least)};
+}
+
 /// Returns the room to read the volume, beside the program and the preparation of labels.
 ReadingRoom reading_room(const MeshJob& job, bool has_scores = false) {
   const Processes* const processes = job.run.processes;
@@ -283,15 +296,6 @@ ReadingRoom reading_room(const MeshJob& job, bool has_scores = false) {
                         ? MemoryBudget::kUnlimited
                         : shares * job.run.store.memory,
           .shares = shares,
-/// Returns how many voxels of an image, whose smallest size is `smallest`, ask for less than can be
-/// had.
-report::RaisedSizes raised_sizes(const SizeImage& image, double smallest,
-                                 const io::VolumeInfo& labels, int halvings) {
-  const double least = std::ldexp(least_size(labels), -halvings);
-  if (smallest >= least) return {};
-  return {.voxels = image.voxels_below(least), .least = told_size(least)};
-}
-
           .beside = program + preparation_bytes(job.settings, has_scores)};
 }
 
@@ -369,7 +373,7 @@ std::vector<LabelPair> sized_interfaces(const MeshJob& job, const io::LabelTable
 
 report::FinishedRun mesh(const io::LabelVolume& opened, const MeshJob& asked, io::MeshSink& sink) {
   MeshJob job = asked;
-  const CertificatePlan plan = plan_certificate(job);
+  CertificatePlan plan = plan_certificate(job);
   const report::ResourceMeter meter;
   std::optional<SizeImage> sizes = size_image(opened.info(), job);
   const double smallest =
@@ -382,6 +386,10 @@ report::FinishedRun mesh(const io::LabelVolume& opened, const MeshJob& asked, io
   if (scores != nullptr) check_scored(job);
   check_unpacking(opened, reading_room(job, scores != nullptr));
   for (const SampleImage& sample : job.samples) check_unpacking(*sample.image, reading_room(job));
+  report::RaisedSizes raised;
+  if (sizes && asked.settings.sizes.count == 0) {
+    raised = raised_sizes(*sizes, smallest, opened.info(), halvings);
+  }
   if (sizes) sizes.emplace(sizes->scaled(std::ldexp(1.0, halvings)));
   const StoppableVolume from_file(opened, job.stop);
   KeptInput kept(from_file, job);
@@ -392,12 +400,9 @@ report::FinishedRun mesh(const io::LabelVolume& opened, const MeshJob& asked, io
   FingerprintVolume volume(input.volume());
   Processes& processes = job.run.processes == nullptr ? one_process() : *job.run.processes;
   report::FinishedRun run{.volume = volume.info(),
-  report::RaisedSizes raised;
-  if (sizes && asked.settings.sizes.count == 0) {
-    raised = raised_sizes(*sizes, smallest, opened.info(), halvings);
-  }
                           .labels = processes.collect_labels(volume, job.run.threads),
                           .sizes = asked.settings.sizes,
+                          .raised = raised,
                           .specks = input.specks(),
                           .welds = input.welds()};
   run.labels_seconds = meter.read().wall_seconds;
@@ -406,12 +411,16 @@ report::FinishedRun mesh(const io::LabelVolume& opened, const MeshJob& asked, io
   if (scores != nullptr) run.fingerprint += io::text(", scores ", fingerprint(*scores));
   if (job.labels_known) job.labels_known(run.labels.size());
   const io::DenseVolume labels(input.volume(), run.labels);
-  const std::uint64_t memory = job.run.store.memory - input.held_bytes();
+  const std::uint64_t beside = std::min(input.held_bytes(), job.run.store.memory);
+  const std::uint64_t memory = job.run.store.memory - beside;
+  job.run.store.memory_beside = beside;
   if (asked.settings.sizes.count > 0) {
-                          .raised = raised,
-    run.count = count_facts(
-        {.labels = labels, .job = asked, .image = sizes ? &*sizes : nullptr, .memory = memory},
-        run);
+    run.count = count_facts({.labels = labels,
+                             .job = asked,
+                             .image = sizes ? &*sizes : nullptr,
+                             .memory = memory,
+                             .memory_beside = beside},
+                            run);
     job.settings = with_scale(asked.settings, run.count->scale);
     run.sizes = job.settings.sizes;
     if (sizes) sizes.emplace(sizes->scaled(run.count->scale));
@@ -423,6 +432,9 @@ report::FinishedRun mesh(const io::LabelVolume& opened, const MeshJob& asked, io
     connected.emplace(sink, connect_task(job, run.labels));
   }
   io::MeshSink& target = connected ? static_cast<io::MeshSink&>(*connected) : sink;
+  const std::uint64_t standing = standing_bytes(labels, job.settings, job.run);
+  plan = beside_others(plan, job, beside + standing + target.buffer_bytes());
+  job.run.store.buffers_grow = kSortsShare + (plan.why_not.empty() ? kCertificateShare : 0);
   std::optional<Certifier> certifier;
   if (plan.why_not.empty()) certifier.emplace(plan, job, labels, target, job.stop);
   const bool has_edges = job.is_measured && run.sizes.rules.any();
@@ -437,6 +449,7 @@ report::FinishedRun mesh(const io::LabelVolume& opened, const MeshJob& asked, io
     hooks.output.values = sampler ? &*sampler : nullptr;
     hooks.sizes = sizes ? &*sizes : nullptr;
     hooks.keep.opened = kept.folder();
+    hooks.keep.begin = [&kept] { kept.begin(); };
     // The figures of tets that are cut are those of what is written.
     if (halvings > 0) hooks.output.measure_quality = hooks.output.measure_edges = false;
     run.engine = march(labels, job, halving.sink(), std::move(hooks));
@@ -449,7 +462,6 @@ report::FinishedRun mesh(const io::LabelVolume& opened, const MeshJob& asked, io
   }
   if (connected) run.connected = connected->facts();
   if (run.connected) {
-    hooks.keep.begin = [&kept] { kept.begin(); };
     run.engine.vertices = run.connected->vertices;
     run.engine.tets = run.connected->tets;
   }

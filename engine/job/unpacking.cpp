@@ -11,6 +11,7 @@ namespace mw::engine {
 void check_unpacking(const io::LabelVolume& volume, const ReadingRoom& room) {
   constexpr std::uint64_t kLittle = 4;  // a chunk is little if this many fit into a share
   const std::uint64_t unpacked = volume.buffer_bytes(1);
+  if (unpacked == 0) return;  // as of an array, which has no chunks
   if (unpacked < room.memory / room.shares / kLittle) return;
   const std::uint64_t now = room.shares * (room.beside + unpacked);
   if (now <= room.memory) return;

@@ -2,11 +2,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "engine/run/marches.h"
 
+#include <array>
 #include <atomic>
+#include <map>
 
 #include "engine/march/march.h"
 #include "engine/system/memory.h"
-#include "engine/window/window_memory.h"
 
 namespace mw::engine {
 namespace {
@@ -40,6 +41,27 @@ bool Marches::adopt(const WindowKey& key) const {
   return true;
 }
 
+std::uint64_t Marches::most_to_come(const WindowOrder& order, BlockStore& store,
+                                    const WindowNeeds& needs) const {
+  constexpr std::uint64_t kMostSeen = 1 << 14;  // so that a huge volume is refused in seconds, too
+  std::map<std::array<std::int64_t, 3>, StartSize> sizes;
+  WindowNeeds cached = needs;
+  cached.start_size = [&](Index3 block) {
+    const auto [at, is_new] = sizes.try_emplace({block.x, block.y, block.z});
+    if (is_new) at->second = needs.start_size(block);
+    return at->second;
+  };
+  std::uint64_t seen = 0, most = 0;
+  for_each_index(order.grid().windows(), [&](Index3 window) {
+    if (seen >= kMostSeen || store.is_done(window)) return;
+    ++seen;
+    most = std::max(most, window_bytes(order.grid(), window, store, cached));
+  });
+  // Final blocks are a part of what windows begin with, and what is stored takes a little, too.
+  constexpr std::uint64_t kPartWritten = 8, kStored = 1U << 20U;
+  return std::max(most, run_.output_buffer_bytes() + most / kPartWritten) + kStored;
+}
+
 AdmitWindow Marches::admission(const WindowOrder& order, BlockStore& store,
                                const WindowVisitor& visitor) const {
   const std::uint64_t budget = run_.hooks.store.memory;
@@ -52,10 +74,11 @@ AdmitWindow Marches::admission(const WindowOrder& order, BlockStore& store,
                               },
                           .max_distance = visitor.max_distance(),
                           .has_source = visitor.has_source()};
-  return [&order, &store, needs, is_ample, budget](Index3 window) -> Admission {
+  return [this, &order, &store, needs, is_ample, budget](Index3 window) -> Admission {
     const std::uint64_t bytes = window_bytes(order.grid(), window, store, needs);
     if (!is_ample && bytes < budget) return_free_memory_above(budget - bytes);
-    if (!store.admit(window, bytes)) return nullptr;
+    const auto most = [&] { return most_to_come(order, store, needs); };
+    if (!store.admit(window, bytes, most)) return nullptr;
     return std::make_shared<Index3>(window);
   };
 }

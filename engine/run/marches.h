@@ -7,6 +7,7 @@
 
 #include "engine/forecast/run_forecast.h"
 #include "engine/run/run_context.h"
+#include "engine/window/window_memory.h"
 
 namespace mw::engine {
 
@@ -27,6 +28,10 @@ class Marches {
   [[nodiscard]] std::uint64_t own_windows() const;
   [[nodiscard]] AdmitWindow admission(const WindowOrder& order, BlockStore& store,
                                       const WindowVisitor& visitor) const;
+  /// Returns what the largest of the windows that are not done would take at present, and then the
+  /// output.
+  [[nodiscard]] std::uint64_t most_to_come(const WindowOrder& order, BlockStore& store,
+                                           const WindowNeeds& needs) const;
   [[nodiscard]] bool recalls(const WindowKey& key) const;
   /// Returns true when the window is done by what an earlier run has left.
   [[nodiscard]] bool adopt(const WindowKey& key) const;

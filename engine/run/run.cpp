@@ -134,7 +134,8 @@ OutputRoom reserve_output(RunContext& run, const BlockStore& blocks, const Windo
                                                        threads > 1 ? out.work.at_once - 1 : 0);
   out.work.at_once = 1 + static_cast<std::size_t>(others);
   out.reserved =
-      run.store.reserve(Purpose::kOutput, run.output_buffer_bytes() + out.work.at_once * each);
+      run.store.reserve(Purpose::kOutput, run.output_buffer_bytes() + out.work.at_once * each,
+                        run.hooks.store.buffers_grow);
   return out;
 }
 

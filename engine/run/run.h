@@ -116,6 +116,11 @@ struct RunHooks {
 /// Says where a run that ended early left its work, and how to go on with it.
 [[nodiscard]] std::string way_on(const RunHooks& hooks);
 
+/// Returns what a run takes from its beginning to its end, as far as that is known before any work:
+/// the program, names, the table of blocks, prepared labels.
+[[nodiscard]] std::uint64_t standing_bytes(const io::DenseVolume& volume,
+                                           const MeshSettings& settings, const RunHooks& hooks);
+
 /// Checks before any work that a run can keep what KeepOptions ask for.
 /// ERRORS: mw::Error(kUsage) where it cannot.
 void check_keep(const RunHooks& hooks, const MeshSettings& settings);

@@ -9,6 +9,7 @@
 #include "engine/settings/promises.h"
 #include "engine/store/journal/workdir.h"
 #include "engine/window/window_memory.h"
+#include "io/file/text_numbers.h"
 
 namespace mw::engine {
 namespace {
@@ -55,18 +56,43 @@ std::uint64_t always_bytes(const io::DenseVolume& volume, int threads) {
   return program_bytes(volume.table().size(), threads) + kCopies * volume.info().names.bytes();
 }
 
-/// Reserves what the program takes.  Fails before any work if the budget is below what the parts of
-/// known size take.  What windows take depends on the labels and on earlier windows.
+/// Returns what reading, and then writing, take at least beside what is there all the time.
+struct KnownStages {
+  explicit KnownStages(const RunContext& run)
+      : buffers(run.lattice.labels().raw().buffer_bytes(1)),
+        reading(buffers +
+                preparation_bytes(run.settings, run.lattice.labels().raw().scores() != nullptr)),
+        writing(run.output_buffer_bytes()) {}
+
+  std::uint64_t buffers;
+  std::uint64_t reading;
+  std::uint64_t writing;
+};
+
+/// Refuses a budget that is below what the parts of known size take.  What windows take depends on
+/// the labels, which are not known yet, so a budget is named that usual ones get along with.
+[[noreturn]] void refuse_budget(const RunContext& run, std::uint64_t always,
+                                const KnownStages& stages) {
+  constexpr double kCacheShare = 0.25;              // of --memory, for chunks that were unpacked
+  constexpr std::uint64_t kUsualBlock = 2U << 20U;  // to write it
+  const MemoryBudget& budget = run.budget;
+  const std::uint64_t enough = std::max(
+      {budget.memory_with(always + stages.reading, stages.buffers > 0 ? kCacheShare : 0),
+       budget.memory_with(always + stages.writing + kUsualBlock, run.hooks.store.buffers_grow),
+       budget.memory_with(
+           always + usual_window_bytes(run.layout.grid(0), run.settings.sizes.limits_edges()))});
+  budget.refuse("--memory " + io::mebibytes(enough) + " is enough for most labels");
+}
+
+/// Reserves what the program takes.
 MemoryBudget::Reservation reserve_program(RunContext& run) {
   const io::DenseVolume& labels = run.lattice.labels();
   const std::uint64_t program = always_bytes(labels, run.hooks.threads);
   const std::uint64_t always =
       program + run.hooks.processes->least_bytes(run.layout, labels, run.settings);
-  const bool has_scores = labels.raw().scores() != nullptr;
-  const std::uint64_t reading =
-      preparation_bytes(run.settings, has_scores) + labels.raw().buffer_bytes(1);
-  const std::uint64_t min = always + std::max(reading, run.output_buffer_bytes());
-  if (min > run.budget.limit()) run.budget.fail(min);
+  const KnownStages stages(run);
+  const std::uint64_t min = always + std::max(stages.reading, stages.writing);
+  if (min > run.budget.limit()) refuse_budget(run, always, stages);
   return run.budget.reserve(Purpose::kProgram, program);
 }
 
@@ -103,6 +129,15 @@ RunReport begun_report(const RunContext& run) {
 }
 
 }  // namespace
+
+std::uint64_t standing_bytes(const io::DenseVolume& volume, const MeshSettings& settings,
+                             const RunHooks& hooks) {
+  const VoxelLattice lattice(volume);
+  const RunLayout layout(march_grids(lattice.info().shape, settings), settings.order);
+  const Processes& processes = hooks.processes == nullptr ? one_process() : *hooks.processes;
+  return always_bytes(lattice.labels(), thread_count(hooks.threads)) +
+         processes.least_bytes(layout, lattice.labels(), settings);
+}
 
 std::string way_on(const RunHooks& hooks) {
   const bool is_kept = !hooks.keep.folder.empty();
@@ -169,7 +204,7 @@ RunContext::RunContext(const io::DenseVolume& volume, const MeshSettings& wanted
       lattice(volume),
       hooks(settled(asked, settings, lattice.layers())),
       layout(march_grids(lattice.info().shape, settings), settings.order),
-      budget(hooks.store.memory, hooks.processes->count_here()),
+      budget(hooks.store.memory, hooks.processes->count_here(), hooks.store.memory_beside),
       program_room(reserve_program(*this)),
       workers(start_workers(*this)),
       part(take_part(*this, volume.info())),

@@ -78,12 +78,23 @@ std::uint64_t MemoryBudget::min_with(std::uint64_t bytes) const {
   return total_.used - accounts_[position(Purpose::kBlocks)].used + bytes;
 }
 
-void MemoryBudget::fail(std::uint64_t bytes) const {
-  const auto all = static_cast<std::uint64_t>(sharers_);
+std::uint64_t MemoryBudget::memory_with(std::uint64_t bytes, double grows) const {
+  std::uint64_t least = min_with(bytes);
+  if (least > limit_) {
+    least = limit_ + static_cast<std::uint64_t>(static_cast<double>(least - limit_) / (1 - grows));
+  }
+  return static_cast<std::uint64_t>(sharers_) * (least + beside_);
+}
+
+void MemoryBudget::fail(std::uint64_t bytes, double grows) const {
+  refuse(io::min_memory(memory_with(bytes, grows)));
+}
+
+void MemoryBudget::refuse(const std::string& way_out) const {
   const std::string share =
       sharers_ > 1 ? ", one of " + std::to_string(sharers_) + " shares of --memory," : "";
-  throw Error(ErrorKind::kResource, "a memory budget of " + io::size_words(limit_) + share +
-                                        " is too small; " + io::min_memory(all * min_with(bytes)));
+  throw Error(ErrorKind::kResource, "a memory budget of " + io::size_words(limit_ + beside_) +
+                                        share + " is too small; " + way_out);
 }
 
 std::uint64_t MemoryBudget::used() const {

@@ -50,9 +50,10 @@ class MemoryBudget {
     std::uint64_t bytes_ = 0;
   };
 
-  /// sharers is the number of processes that --memory was divided by.
-  explicit MemoryBudget(std::uint64_t limit = kUnlimited, int sharers = 1)
-      : limit_(limit), sharers_(sharers) {}
+  /// sharers is the number of processes that --memory was divided by; beside are the bytes of the
+  /// share of one of them that were taken off before it became the limit.
+  explicit MemoryBudget(std::uint64_t limit = kUnlimited, int sharers = 1, std::uint64_t beside = 0)
+      : limit_(limit), sharers_(sharers), beside_(beside) {}
   MemoryBudget(const MemoryBudget&) = delete;
   MemoryBudget& operator=(const MemoryBudget&) = delete;
 
@@ -67,8 +68,13 @@ class MemoryBudget {
 
   /// Returns the least limit under which `bytes` could be reserved now, with all blocks spilled.
   [[nodiscard]] std::uint64_t min_with(std::uint64_t bytes) const;
-  /// ERRORS: mw::Error(kResource) with the limit, and the --memory that gives each min_with(bytes).
-  [[noreturn]] void fail(std::uint64_t bytes) const;
+  /// Returns the --memory that gives each process min_with(bytes), when buffers among these bytes
+  /// take the part `grows` of whatever is added to the limit.  REQUIRES: 0 <= grows < 1.
+  [[nodiscard]] std::uint64_t memory_with(std::uint64_t bytes, double grows = 0) const;
+  /// ERRORS: mw::Error(kResource) with the limit, and memory_with().
+  [[noreturn]] void fail(std::uint64_t bytes, double grows = 0) const;
+  /// ERRORS: mw::Error(kResource) with the limit and this way out.
+  [[noreturn]] void refuse(const std::string& way_out) const;
 
   [[nodiscard]] std::uint64_t limit() const { return limit_; }
   [[nodiscard]] std::uint64_t used() const;
@@ -88,6 +94,7 @@ class MemoryBudget {
 
   const std::uint64_t limit_;
   const int sharers_;
+  const std::uint64_t beside_;
   mutable std::mutex mutex_;
   Account total_;
   std::array<Account, kPurposes> accounts_;

@@ -64,8 +64,8 @@ class RunStore::March : public BlockStore {
  public:
   March(RunStore& run, std::uint32_t march) : run_(run), march_(march) {}
 
-  [[nodiscard]] bool admit(Index3 window, std::uint64_t bytes) override {
-    return run_.admit({march_, window}, bytes);
+  [[nodiscard]] bool admit(Index3 window, std::uint64_t bytes, const MostBytes& most) override {
+    return run_.admit({march_, window}, bytes, most);
   }
   [[nodiscard]] std::vector<std::optional<BlockMesh>> take(Index3 window) override {
     // The next window of its row cannot start before this one ends, and may start right then.
@@ -237,9 +237,9 @@ std::optional<MemoryBudget::Reservation> RunStore::try_reserve(Purpose purpose,
   }
 }
 
-MemoryBudget::Reservation RunStore::reserve(Purpose purpose, std::uint64_t bytes) {
+MemoryBudget::Reservation RunStore::reserve(Purpose purpose, std::uint64_t bytes, double grows) {
   auto reserved = try_reserve(purpose, bytes);
-  if (!reserved) budget_.fail(bytes);
+  if (!reserved) budget_.fail(bytes, grows);
   return std::move(*reserved);
 }
 
@@ -277,7 +277,7 @@ bool RunStore::will_give_back() const {
   return router_ != nullptr && router_->is_carrying();
 }
 
-bool RunStore::admit(const WindowKey& key, std::uint64_t bytes) {
+bool RunStore::admit(const WindowKey& key, std::uint64_t bytes, const MostBytes& most) {
   // This is asked first, since what is given back while room is sought may come too late for it.
   const bool may_ask_again = will_give_back();
   auto room = try_reserve(Purpose::kWindows, bytes);
@@ -290,7 +290,7 @@ bool RunStore::admit(const WindowKey& key, std::uint64_t bytes) {
       return true;
     }
   }
-  if (!may_ask_again && !will_give_back()) budget_.fail(bytes);
+  if (!may_ask_again && !will_give_back()) budget_.fail(most ? std::max(bytes, most()) : bytes);
   return false;
 }
 

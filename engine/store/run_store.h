@@ -78,8 +78,9 @@ class RunStore {
   /// Spills blocks until the reservation fits; returns nothing when it does not fit then.
   [[nodiscard]] std::optional<MemoryBudget::Reservation> try_reserve(Purpose purpose,
                                                                      std::uint64_t bytes);
-  /// Reserves as try_reserve() does.  ERRORS: mw::Error(kResource) with the least that works.
-  [[nodiscard]] MemoryBudget::Reservation reserve(Purpose purpose, std::uint64_t bytes);
+  /// Reserves as try_reserve() does.  ERRORS: those of MemoryBudget::fail().
+  [[nodiscard]] MemoryBudget::Reservation reserve(Purpose purpose, std::uint64_t bytes,
+                                                  double grows = 0);
 
   /// Returns what a block of this encoded size takes of the budget.
   [[nodiscard]] static std::uint64_t cost_of(std::uint64_t encoded_bytes);
@@ -122,7 +123,8 @@ class RunStore {
     std::vector<std::uint64_t> slots;
   };
 
-  [[nodiscard]] bool admit(const WindowKey& key, std::uint64_t bytes);
+  [[nodiscard]] bool admit(const WindowKey& key, std::uint64_t bytes,
+                           const MostBytes& most = nullptr);
   [[nodiscard]] bool will_give_back() const;
   [[nodiscard]] std::vector<std::optional<BlockMesh>> take(const WindowKey& key) const;
   void commit(const WindowKey& key, std::vector<BlockMesh> blocks);
@@ -187,8 +189,10 @@ class RunStore {
 
 struct StoreOptions {
   std::uint64_t memory = MemoryBudget::kUnlimited;  ///< bytes, for the whole process
-  std::filesystem::path workdir;                    ///< if empty, everything stays in memory
-  bool resume = false;                              ///< go on from what workdir holds
+  std::uint64_t memory_beside = 0;  ///< bytes of --memory that were taken off for something else
+  double buffers_grow = 0;  ///< the part of --memory that buffers of the output may take of it
+  std::filesystem::path workdir;  ///< if empty, everything stays in memory
+  bool resume = false;            ///< go on from what workdir holds
   /// The folder stays when the mesh is complete, for a caller that has more to write.
   bool stays = false;
   bool is_scratch = false;  ///< nothing stays when the run ends early

@@ -3,6 +3,8 @@
 // Where blocks rest between the visits of windows (Sec 4.2).
 #pragma once
 
+#include <cstdint>
+#include <functional>
 #include <optional>
 #include <vector>
 
@@ -10,6 +12,9 @@
 #include "kernels/mesh/block_mesh.h"
 
 namespace mw::engine {
+
+/// Returns the most that any of the windows to come may take; asked only where one does not fit.
+using MostBytes = std::function<std::uint64_t()>;
 
 /// Holds the blocks that the windows of one march have written.  The store knows nothing of what a
 /// window does.
@@ -24,8 +29,12 @@ class BlockStore {
 
   /// Sets memory aside for a window in flight, until it commits; blocks are spilled to make room.
   /// ENSURES: false when that does not suffice before other windows have committed.
-  /// ERRORS: mw::Error(kResource) with the least that works when there are no others.
-  [[nodiscard]] virtual bool admit(Index3 window, std::uint64_t bytes) = 0;
+  /// ERRORS: mw::Error(kResource) when there are no others, with the budget that has room for this
+  /// window, and for most() if that is given.
+  [[nodiscard]] virtual bool admit(Index3 window, std::uint64_t bytes, const MostBytes& most) = 0;
+  [[nodiscard]] bool admit(Index3 window, std::uint64_t bytes) {
+    return admit(window, bytes, nullptr);
+  }
   /// Returns the blocks of a window, in the order of grid.blocks_of(window), as the last window
   /// that committed them or the march before left them.  A block that none has left is empty; it is
   /// made from voxels.

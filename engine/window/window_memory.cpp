@@ -18,6 +18,10 @@ constexpr std::uint64_t kMebibyte = 1 << 20;
 // The most that any visit took, from decoding to encoding, was 6.2 times the bytes of the content
 // it began with (a checkerboard whose only block has eight parts); most take 4.
 constexpr double kBytesPerContentByte = 6.5;
+// Which part of the most that any labels give windows of usual ones take.  Dense EM takes 0.28;
+// with limits on edges, which keep large cells away, grains took 0.45.
+constexpr double kUsualShare = 0.3;
+constexpr double kUsualShareSized = 0.5;
 // For labels around blocks that are made from voxels, before and after coarsening.
 constexpr std::uint64_t kBytesPerStartVoxel = 2 * sizeof(Label);
 constexpr std::int64_t kStartLabelHalo = 6;
@@ -54,6 +58,15 @@ constexpr std::uint64_t kBytesPerWrittenByte = 4;
 std::uint64_t content_bytes(const StartSize& size) {
   return size.vertices * sizeof(BlockVertex) + size.tets * sizeof(BlockTet) +
          size.samples * sizeof(BlockSample);
+}
+
+/// Returns what the content of a window takes whatever its labels are.
+double max_window_bytes(const WindowGrid& grid) {
+  std::uint64_t content = 0;
+  for (Index3 block : grid.blocks_of({0, 0, 0})) {
+    content += content_bytes(max_start_size(grid, block));
+  }
+  return kBytesPerContentByte * static_cast<double>(content);
 }
 
 /// Returns the bytes of the labels that the distance guard looks at; 0 without a bound.
@@ -102,12 +115,12 @@ std::int64_t content_halo(const WindowGrid& grid, double max_distance) {
 }
 
 bool budget_is_ample(std::uint64_t memory, const WindowGrid& grid, int threads) {
-  std::uint64_t content = 0;
-  for (Index3 block : grid.blocks_of({0, 0, 0})) {
-    content += content_bytes(max_start_size(grid, block));
-  }
-  const double bytes = kBytesPerContentByte * static_cast<double>(content);
-  return static_cast<double>(memory) > 2.0 * (threads + 1) * bytes;
+  return static_cast<double>(memory) > 2.0 * (threads + 1) * max_window_bytes(grid);
+}
+
+std::uint64_t usual_window_bytes(const WindowGrid& grid, bool sized) {
+  return static_cast<std::uint64_t>((sized ? kUsualShareSized : kUsualShare) *
+                                    max_window_bytes(grid));
 }
 
 std::uint64_t program_bytes(std::size_t labels, int threads) {

@@ -37,6 +37,10 @@ struct WindowNeeds {
 /// in rare cases they are read farther out.
 [[nodiscard]] std::int64_t content_halo(const WindowGrid& grid, double max_distance);
 
+/// Returns what windows of usual labels take at most; noise takes more.  sized says that edges have
+/// limits.
+[[nodiscard]] std::uint64_t usual_window_bytes(const WindowGrid& grid, bool sized);
+
 /// True if twice as many windows as run at a time fit, whatever the labels are.  Then sizes need
 /// not be exact, and freed memory may stay with the allocator.  (Exact sizes and giving memory back
 /// cost 10 % of the time on EM 128^3: 28 instead of 25 s.)

@@ -119,6 +119,21 @@ TEST_F(CertificateTest, SaysWhyThereIsNone) {
   expect_failure(2, "mesh v.npy -o v.vtu --certify on --memory 128MiB", "--certify on: needs");
 }
 
+/// More memory must not make a run impossible.
+TEST(CertificatePlan, IsDroppedWhereTheRunWouldNotFitBesideIt) {
+  engine::MeshJob job;
+  job.run.threads = 2;
+  job.run.store.memory = kGibibyte;
+  const engine::CertificatePlan plan = engine::plan_certificate(job);
+  EXPECT_EQ(engine::beside_others(plan, job, kGibibyte / 4).threads, 2);
+  const std::uint64_t most = kGibibyte - plan.memory_bytes;
+  EXPECT_EQ(engine::beside_others(plan, job, most + 1).threads, 1);
+  EXPECT_NE(engine::beside_others(plan, job, kGibibyte).why_not.find("needs --memory 1112MiB"),
+            std::string::npos);
+  job.certify = Certify::kOn;
+  EXPECT_EQ(engine::beside_others(plan, job, kGibibyte).why_not, "");
+}
+
 TEST_F(CertificateTest, IsMadeWhereLabelsAreLeftOut) {
   const json made = certificate("--memory 1GiB --background 1");
   EXPECT_EQ(made["made"], true);

@@ -85,6 +85,16 @@ TEST(RunStore, SaysTheLeastBudgetThatWorks) {
                [&] { (void)store.reserve(Purpose::kWindows, 5 << 20); });
 }
 
+TEST(MemoryBudget, NamesWhatTheUserHasToGive) {
+  constexpr std::uint64_t kMebibyte = 1 << 20;
+  MemoryBudget shared(10 * kMebibyte, 2, 3 * kMebibyte);
+  expect_error(ErrorKind::kResource, {"of 13MiB, one of 2 shares", "--memory 30MiB"},
+               [&] { (void)shared.reserve(Purpose::kWindows, 12 * kMebibyte); });
+  const MemoryBudget budget(10 * kMebibyte);
+  EXPECT_EQ(budget.memory_with(13 * kMebibyte, 0.25), 14 * kMebibyte);
+  EXPECT_EQ(budget.memory_with(8 * kMebibyte, 0.25), 8 * kMebibyte);
+}
+
 /// A window in flight keeps others out; alone, what it cannot have is an error.
 TEST(RunStore, AdmitsWhatFits) {
   const RunLayout layout = fake_layout({20, 20, 20}, 1);
@@ -94,6 +104,9 @@ TEST(RunStore, AdmitsWhatFits) {
   BlockStore& blocks = store.march(0);
   const Index3 near{0, 0, 0}, far{4, 4, 4};
   EXPECT_THROW((void)blocks.admit(near, 3 * kTightBytes), Error);
+  expect_error(ErrorKind::kResource, {"--memory 8MiB"}, [&] {
+    (void)blocks.admit(near, 3 * kTightBytes, [] { return std::uint64_t{7} << 20U; });
+  });
   EXPECT_TRUE(blocks.admit(near, kTightBytes));
   EXPECT_FALSE(blocks.admit(far, kTightBytes + 1));
   EXPECT_TRUE(blocks.admit(far, kTightBytes));
