@@ -387,6 +387,7 @@ void translate_errors(const py::module_& module) {
 PYBIND11_MODULE(_core, module) {
   using namespace mwmesh::python;
   module.attr("__version__") = mwmesh::version();
+  module.attr("stamp") = MW_CORE_STAMP;
   add_space(module);
   add_volume(module);
   add_options(module);

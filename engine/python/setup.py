@@ -40,6 +40,7 @@ class CMakeBuild(build_ext):
         place = pathlib.Path(self.get_ext_fullpath(ext.name))
         place.parent.mkdir(parents=True, exist_ok=True)
         shutil.copy2(made, place)
+        shutil.copy2(made.parent / "_stamp.py", place.parent)
         subprocess.run(["strip", "--strip-unneeded", place], check=True)
 
 

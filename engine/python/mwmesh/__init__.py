@@ -18,6 +18,15 @@ from collections.abc import Mapping
 import numpy as np
 
 from . import _core
+
+try:
+    from ._stamp import STAMP as _stamp
+except ImportError:  # modules that no build has put beside the core say nothing of it
+    _stamp = None
+if _stamp not in (None, getattr(_core, "stamp", "")):
+    raise ImportError(f"mwmesh: {_core.__file__} and the Python modules beside it are of different "
+                      "builds: build the target mwmesh_python again, or reinstall the package")
+
 from ._errors import (CancelledError, CheckFailedError, Error, InputError, InternalError,
                       MissingPackageError, ResourceError, UsageError)
 from ._mesh import Materials, Mesh, Surface, Verdict

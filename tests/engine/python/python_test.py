@@ -13,6 +13,7 @@ import json
 import os
 import pathlib
 import pickle
+import shutil
 import signal
 import subprocess
 import sys
@@ -83,6 +84,18 @@ class Documentation(unittest.TestCase):
         self.assertEqual([name for name in dir(mwmesh) if not name.startswith("_")],
                          sorted(mwmesh.__all__))
 
+
+    def test_a_core_of_another_build_is_refused(self):
+        with tempfile.TemporaryDirectory() as folder:
+            package = pathlib.Path(folder, "mwmesh")
+            shutil.copytree(pathlib.Path(mwmesh.__file__).parent, package)
+            call = [sys.executable, "-B", "-c", "import mwmesh"]
+            environment = {**os.environ, "PYTHONPATH": folder}
+            subprocess.run(call, env=environment, check=True)
+            (package / "_stamp.py").write_text("STAMP = 'another'\n", encoding="utf-8")
+            done = subprocess.run(call, env=environment, capture_output=True, text=True)
+            self.assertIn("ImportError: mwmesh: ", done.stderr)
+            self.assertIn("build the target mwmesh_python again", done.stderr)
 
     def test_types_are_of_what_there_is(self):
         stub = pathlib.Path(mwmesh.__file__).with_suffix(".pyi")
@@ -998,6 +1011,7 @@ class Errors(InFolder):
         self.check(mwmesh.UsageError, "object, trust_paths: for files", labels, object=1,
                    trust_paths=True)
         self.check(mwmesh.ResourceError, "of 1.5MiB is too small", labels, memory=3 << 19)
+        self.check(mwmesh.ResourceError, "of 2 bytes is too small; memory 6", labels, memory=2)
         self.check(mwmesh.UsageError, "shape", labels[:0])
         self.check(mwmesh.InputError, "1.5", np.full((2, 2, 2), 1.5))
         self.check(mwmesh.InputError, "nowhere.npy", self.path("nowhere.npy"))
