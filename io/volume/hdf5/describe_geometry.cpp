@@ -153,7 +153,7 @@ bool find_geometry(const AttributeReader& reader, hid_t group, Hdf5Description& 
 
 void find_geometry(hid_t hdf5, hid_t set, std::string_view file, Hdf5Description& description) {
   const AttributeReader reader(file);
-  for (const char* name : {"resolution", "offset", "element_size_um"}) {
+  for (const char* name : {"resolution", "offset", "element_size_um", "spacing"}) {
     keep(description, name, reader.attribute_numbers(set, name));
   }
   description.axistags = reader.attribute_text(set, "axistags");

@@ -91,6 +91,12 @@ std::optional<Vector3> three(const Hdf5Description& description, const char* nam
   return Vector3{found->second[0], found->second[1], found->second[2]};
 }
 
+/// Some programs write an attribute `spacing` in the order of the array's axes and some as x, y, z,
+/// so numbers that differ say nothing.
+bool is_cube(const Vector3& edges) {
+  return edges[0] == edges[1] && edges[1] == edges[2];
+}
+
 Vector3 reversed(const Vector3& v) {
   return {v[2], v[1], v[0]};
 }
@@ -130,6 +136,9 @@ FileSpace hdf5_space(const Hdf5Description& description, const Index3& shape,
     space.steps = steps_of(reversed(*size));
     space.unit = "um";
     space.steps_field = "attribute element_size_um";
+  } else if (const auto edges = three(description, "spacing"); edges && is_cube(*edges)) {
+    space.steps = steps_of(*edges);
+    space.steps_field = "attribute spacing";
   }
   return space;
 }

@@ -110,6 +110,19 @@ TEST_F(Hdf5Conventions, IlastikAxes) {
   }
 }
 
+TEST_F(Hdf5Conventions, SpacingThatIsTheSameInEveryOrder) {
+  const auto spacing_of = [&](const std::vector<double>& told) {
+    {
+      const Hdf5Handle file = create();
+      add(file, "/labels", {});
+      write_attribute(file, "/labels", "spacing", told);
+    }
+    return open_volume(path_)->info().space.spacing;
+  };
+  EXPECT_EQ(spacing_of({0.5, 0.5, 0.5}), (Vector{0.5, 0.5, 0.5}));
+  EXPECT_EQ(spacing_of({2, 1, 1}), (Vector{1, 1, 1}));
+}
+
 TEST_F(Hdf5Conventions, Dream3dUpToVersion7) {
   Hdf5Sample ids{.shape = {1, 4, 5, 1}, .type = VoxelType::kI32};
   Hdf5Sample dimensions{.shape = {3}, .type = VoxelType::kI64};
