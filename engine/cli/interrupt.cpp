@@ -4,8 +4,12 @@
 #include "engine/cli/interrupt.h"
 
 #include <signal.h>
+#include <unistd.h>
 
 #include <atomic>
+#include <string_view>
+
+#include "engine/cli/exit_code.h"
 
 namespace mw::cli {
 namespace {
@@ -19,17 +23,32 @@ void note_signal(int /*signal*/) {
   interrupted = true;
 }
 
-}  // namespace
-
-void watch_interrupts() {
+/// Handles the signals that end a run, except those that whoever started the program has ignored.
+void handle(void (*handler)(int)) {
   for (const int signal : {SIGINT, SIGTERM, SIGHUP}) {
     struct sigaction before {};
     if (sigaction(signal, nullptr, &before) == 0 && before.sa_handler == SIG_IGN) continue;
     struct sigaction action {};
-    action.sa_handler = note_signal;
+    action.sa_handler = handler;
     action.sa_flags = static_cast<int>(SA_RESTART | SA_RESETHAND);
     sigaction(signal, &action, nullptr);
   }
+}
+
+void end_now(int /*signal*/) {
+  constexpr std::string_view kMessage = "mwmesh: error: interrupted; nothing was written\n";
+  [[maybe_unused]] const auto written = ::write(STDERR_FILENO, kMessage.data(), kMessage.size());
+  ::_exit(kExitInterrupted);
+}
+
+}  // namespace
+
+void watch_interrupts() {
+  handle(note_signal);
+}
+
+void end_if_interrupted() {
+  handle(end_now);
 }
 
 void watch_save_requests() {

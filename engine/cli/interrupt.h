@@ -16,6 +16,10 @@ struct Interrupted {
 /// kills.  A signal that was ignored at the start (nohup) stays ignored.
 void watch_interrupts();
 
+/// Makes these signals end the program at once with kExitInterrupted, and say so, until
+/// watch_interrupts() is called: before that there is nothing to be left in order.
+void end_if_interrupted();
+
 /// ERRORS: Interrupted when a signal has been noted.  Thread-safe.
 void stop_if_interrupted();
 

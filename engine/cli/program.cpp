@@ -5,13 +5,16 @@
 #include "engine/version.h"
 
 #include <fcntl.h>
+#include <sys/resource.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <csignal>
 #include <iostream>
 
 #include "engine/cli/command.h"
 #include "engine/cli/exit_code.h"
+#include "engine/cli/interrupt.h"
 #include "engine/cli/log.h"
 #include "engine/cli/mesh/run_processes.h"
 
@@ -33,7 +36,22 @@ std::string answer(const CommandLine& line, const std::vector<Command>& commands
   return help_of_command(*line.command, line.asked == Asked::kHelpAll);
 }
 
+/// Windows, and what else has a frame, need some 100 KiB of stack.  A limit below kLeast is raised
+/// where that is allowed: the main thread's stack grows up to what the limit is at the time.
+void require_stack() {
+  constexpr rlim_t kWanted = 1U << 20U, kLeast = 1U << 18U;
+  struct rlimit limit {};
+  if (::getrlimit(RLIMIT_STACK, &limit) != 0 || limit.rlim_cur >= kWanted) return;
+  const rlim_t had = limit.rlim_cur;
+  limit.rlim_cur = std::min(kWanted, limit.rlim_max);
+  if (::setrlimit(RLIMIT_STACK, &limit) != 0) limit.rlim_cur = had;
+  if (limit.rlim_cur >= kLeast) return;
+  throw Error(ErrorKind::kResource, "a stack of " + std::to_string(limit.rlim_cur >> 10U) +
+                                        " KiB is too small; raise the limit with ulimit -s 8192");
+}
+
 int run_command(const CommandLine& line, const std::vector<Command>& commands) {
+  require_stack();
   if (line.command == nullptr) {
     throw Error(ErrorKind::kUsage, "a command is needed; see mwmesh --help");
   }
@@ -78,6 +96,10 @@ void hold_standard_streams() {
   }
 }
 
+bool is_mesh(int argc, char** argv) {
+  return argc > 1 && std::string_view(argv[1]) == "mesh";
+}
+
 void begin() {
   hold_standard_streams();
   // Beyond a file size limit a write then fails, with a message, instead of killing the program.
@@ -87,6 +109,7 @@ void begin() {
 }  // namespace
 
 int run_program(int argc, char** argv) noexcept {
+  if (is_mesh(argc, argv)) end_if_interrupted();
   begin();
   return guarded([&] { return parse_and_run(argc, argv); });
 }

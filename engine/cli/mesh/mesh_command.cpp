@@ -314,6 +314,11 @@ int mesh(const MeshRequest& request, const OptionSet& options) {
   std::cout << "file        " << request.output.string() << std::endl;
   log_processes(run.engine);
   deliver_rest(request, run, files, options);
+  if (!std::cout.flush()) {
+    throw Error(ErrorKind::kResource, "cannot write the summary to standard output; " +
+                                          request.output.string() +
+                                          " is complete, and so is every other file of the run");
+  }
   return kExitDone;
 }
 

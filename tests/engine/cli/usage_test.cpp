@@ -224,6 +224,37 @@ TEST_F(UsageTest, EndsWithFourWhenTheDiskIsFull) {
   expect_failure(4, "info v.npy", "standard output", "sh -c '\"$0\" \"$@\" >/dev/full'");
 }
 
+/// The mesh is whole all the same, and the message says so.
+TEST_F(UsageTest, SaysThatTheMeshIsCompleteWhereTheSummaryIsLost) {
+  make_volume();
+  const ProgramRun result =
+      run("mesh v.npy -o v.vtu --report r.json", "sh -c '\"$0\" \"$@\" >/dev/full'");
+  EXPECT_EQ(result.code, 4);
+  EXPECT_NE(result.err.find("standard output; v.vtu is complete"), std::string::npos) << result.err;
+  EXPECT_NE(read("r.json").find("\"digest\""), std::string::npos);
+  expect_done("verify v.npy v.vtu");
+}
+
+TEST_F(UsageTest, NeedsSomeStack) {
+  make_volume();
+  expect_failure(4, "mesh v.npy -o v.vtu", "ulimit -s", "sh -c 'ulimit -s 64; exec \"$0\" \"$@\"'");
+  expect_done("mesh v.npy -o v.vtu", "sh -c 'ulimit -S -s 64; exec \"$0\" \"$@\"'");
+}
+
+/// What the search for specks holds counts, too; the budget of a user who does as told is enough.
+TEST_F(UsageTest, NamesABudgetThatIsEnough) {
+  expect_done("synth noise --shape 24,24,24 --count 50 --seed 1 -o n.npy");
+  const std::string mesh = "mesh n.npy -o n.vtu --drop-specks 3 --memory ";
+  const ProgramRun refused = run(mesh + "45MiB");
+  ASSERT_EQ(refused.code, 4) << refused.err;
+  const std::string::size_type at = refused.err.find("--memory ");
+  ASSERT_NE(at, std::string::npos) << refused.err;
+  std::istringstream named(refused.err.substr(at + 9));
+  std::string memory;
+  std::getline(named, memory, 'B');
+  expect_done(mesh + memory + "B");
+}
+
 /// The first file that is opened would get the number of a closed stream, and the messages with it.
 TEST_F(UsageTest, WritesNoMessagesIntoAMeshWhenStreamsAreClosed) {
   make_volume();
