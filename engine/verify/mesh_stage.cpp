@@ -64,7 +64,6 @@ class MeshStage {
         links_(task.folder, task.memory_bytes / 8),
         regions_(label_count, task.folder, task.memory_bytes / 8),
         crossings_(task.folder, task.memory_bytes / 8) {
-    found_.validity.label_volumes.resize(label_count + 1);
     found_.validity.in_mesh.resize(label_count + 1);
     found_.volumes = {std::vector<Int128>(label_count),
                       std::vector<audit::CompensatedSum>(label_count)};

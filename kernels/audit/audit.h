@@ -28,7 +28,7 @@ struct AuditOptions {
   unsigned periodic = 0;   ///< axes along which P2 wants opposite sides alike, a bit for each
   Index3 layers{1, 1, 1};  ///< distances are in voxels cut into these layers along each axis
   /// The labels that the mesh is to hold; empty for all.  If some are left out, P1, P4 and P8 are
-  /// about the others, and P2 as check_validity() says.  REQUIRES: empty, or !count_junctions.
+  /// about the others, and P2 as judge_validity() says.  REQUIRES: empty, or !count_junctions.
   KeptLabels kept = {};
   /// Kept labels of which parts were left out; empty for none.  For these P1 says that the open
   /// region has no more components, tunnels and cavities than that of the voxels, P4 is one-sided,

@@ -3,13 +3,11 @@
 // Sizes end to end: limits on edges, gradation and inner vertices of whole runs, all promises kept.
 #include "engine/labels/voxel_lattice.h"
 #include "engine/store/journal/workdir.h"
-#include "kernels/audit/partition/validity.h"
-#include "kernels/audit/shape/quality.h"
-#include "kernels/audit/topology/betti.h"
 #include "kernels/core/index.h"
 #include "kernels/core/layers.h"
 #include "tests/engine/memory_run.h"
 #include "tests/expect_error.h"
+#include "tests/oracle/whole_audit.h"
 
 namespace mw::engine {
 namespace {

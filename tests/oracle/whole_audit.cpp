@@ -3,8 +3,16 @@
 // One check after the other.
 #include "tests/oracle/whole_audit.h"
 
+#include <cmath>
+#include <limits>
+#include <optional>
+
+#include "kernels/audit/distance/mesh.h"
+#include "kernels/audit/distance/tile.h"
+#include "kernels/audit/partition/overlap.h"
 #include "kernels/audit/regions/regions.h"
-#include "kernels/audit/shape/volumes.h"
+#include "kernels/audit/topology/parts_union.h"
+#include "kernels/core/error.h"
 #include "tests/oracle/whole_junctions.h"
 
 namespace mw::audit::test {
@@ -24,7 +32,94 @@ DistanceReport measure_in_lattice(const VoxelLabels& volume, std::size_t label_c
                           options.kept, limit);
 }
 
+/// Returns nothing when the input is no mesh; the check tells why.
+std::optional<MeshStars> check_input(const AuditMesh& mesh, Check& check) {
+  check.name = "P2 input";
+  std::optional<MeshStars> stars;
+  try {
+    stars.emplace(mesh);
+  } catch (const Error& error) {
+    if (error.kind() != ErrorKind::kInput) throw;
+    check.detail = error.what();
+    return std::nullopt;
+  }
+  Offenders endless("vertices that are not finite");
+  for (std::size_t v = 0; v < mesh.vertices.size(); ++v) {
+    const Position& p = mesh.vertices[v];
+    if (std::isfinite(p[0]) && std::isfinite(p[1]) && std::isfinite(p[2])) continue;
+    endless.add([v] { return std::to_string(v); });
+  }
+  check = input_check(mesh.vertices.size(), mesh.tets.size(), endless);
+  return check.passed ? std::move(stars) : std::nullopt;
+}
+
+ValidityTask task_of(const VoxelLabels& volume, const Frame& frame, std::size_t label_count,
+                     const KeptLabels& kept) {
+  ValidityTask task{frame, volume.shape, std::vector<bool>(label_count), !kept.empty()};
+  for (const Label l : volume.labels) {
+    if (l < label_count && keeps(kept, l)) task.wanted[l] = true;
+  }
+  return task;
+}
+
 }  // namespace
+
+std::vector<RegionBetti> voxel_betti(const VoxelLabels& volume, std::size_t label_count) {
+  PartsUnion parts(label_count);
+  parts.add(voxel_parts(whole(volume), label_count).piece);
+  return parts.betti_of_volume();
+}
+
+ValidityReport check_validity(const AuditMesh& mesh, const VoxelLabels& volume, const Frame& frame,
+                              std::size_t label_count, const KeptLabels& kept) {
+  Check input;
+  const std::optional<MeshStars> stars = check_input(mesh, input);
+  ValidityReport report;
+  if (stars) {
+    const ValidityTask task = task_of(volume, frame, label_count, kept);
+    report = judge_validity(tally_validity(*stars, task), task);
+    if (task.has_gaps) report.checks.push_back(check_overlap(*stars, frame, volume.shape));
+  }
+  report.checks.insert(report.checks.begin(), std::move(input));
+  return report;
+}
+
+QualityReport measure_quality(const AuditMesh& mesh) {
+  return tally_quality({.mesh = mesh}).report();
+}
+
+DistanceReport measure_distance(const VoxelLabels& volume, std::size_t label_count,
+                                const AuditMesh& mesh, const Frame& frame, const KeptLabels& kept,
+                                double limit) {
+  const auto triangles =
+      interface_triangles(MeshStars(mesh), label_count, frame, volume.shape, !kept.empty());
+  const double max = piece_radius(total_estimates(triangles));
+  std::vector<InterfaceTriangle> pieces;
+  for (const InterfaceTriangle& t : triangles) {
+    for_each_piece(t.corners, max, [&](const VoxelTriangle& piece) {
+      pieces.push_back({piece, t.labels});
+    });
+  }
+  const auto rows = measure_distances({.voxels = whole(volume),
+                                       .pieces = pieces,
+                                       .label_count = label_count,
+                                       .kept = kept,
+                                       .samples = {{0, 0, 0}, volume.shape},
+                                       .limit = limit});
+  return conclude_distances(rows, limit, std::numeric_limits<double>::infinity());
+}
+
+VolumeReport measure_volumes(const VoxelLabels& volume, std::size_t label_count,
+                             const AuditMesh& mesh, const Frame& frame, Index3 layers) {
+  const Box3 all{{0, 0, 0}, volume.shape};
+  return compare_volumes(count_voxels(volume, all, all, label_count, layers),
+                         tally_volumes({.mesh = mesh}, label_count, layered_frame(frame, layers)),
+                         layers.product());
+}
+
+ShapeReport measure_shape(const AuditMesh& mesh) {
+  return audit::measure_shape(MeshStars(mesh)).report();
+}
 
 AuditReport audit(const VoxelLabels& volume, std::size_t label_count, const AuditMesh& mesh,
                   const Frame& frame, const AuditOptions& options) {

@@ -1,10 +1,9 @@
 // SPDX-FileCopyrightText: The mwmesh authors
 // SPDX-License-Identifier: Apache-2.0
 // Promise 8 end to end: the volumes that a run reports are exact.
-#include "kernels/audit/shape/volumes.h"
-
 #include "kernels/core/lattice.h"
 #include "tests/engine/memory_run.h"
+#include "tests/oracle/whole_audit.h"
 
 namespace mw::engine {
 namespace {
@@ -32,8 +31,8 @@ TEST(Promise8Volumes, OfARunAddUpToTheBoxAndAreThoseOfItsMesh) {
     const Int128 total = std::accumulate(sums.begin(), sums.end(), Int128{0});
     EXPECT_TRUE(total == Int128{kVoxelVolume6} * (x * y * z));
     const audit::VolumeReport expected =
-        audit::measure_volumes(trial.volume.view(), trial.volume.label_count,
-                               test::small_mesh(sink.mesh()).view(), trial.frame);
+        measure_volumes(trial.volume.view(), trial.volume.label_count,
+                        test::small_mesh(sink.mesh()).view(), trial.frame);
     EXPECT_TRUE(expected.exact);
     ASSERT_EQ(expected.per_label.size(), sums.size());
     for (Label rank = 0; rank < sums.size(); ++rank) {

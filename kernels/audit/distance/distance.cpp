@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The mwmesh authors
 // SPDX-License-Identifier: Apache-2.0
-// The report on distances, and a whole volume as one tile.
+// The report on distances.
 #include "kernels/audit/distance/distance.h"
 
 #include <algorithm>
@@ -82,27 +82,6 @@ const DistanceReport::PerLabel* DistanceReport::farthest() const {
 DistanceReport conclude_distances(std::span<const LabelDistances> rows, double limit,
                                   double reach) {
   return Conclusion(rows, limit, reach).run();
-}
-
-DistanceReport measure_distance(const VoxelLabels& volume, std::size_t label_count,
-                                const AuditMesh& mesh, const Frame& frame, const KeptLabels& kept,
-                                double limit) {
-  const auto triangles =
-      interface_triangles(MeshStars(mesh), label_count, frame, volume.shape, !kept.empty());
-  const double max = piece_radius(total_estimates(triangles));
-  std::vector<InterfaceTriangle> pieces;
-  for (const InterfaceTriangle& t : triangles) {
-    for_each_piece(t.corners, max, [&](const VoxelTriangle& piece) {
-      pieces.push_back({piece, t.labels});
-    });
-  }
-  const auto rows = measure_distances({.voxels = whole(volume),
-                                       .pieces = pieces,
-                                       .label_count = label_count,
-                                       .kept = kept,
-                                       .samples = {{0, 0, 0}, volume.shape},
-                                       .limit = limit});
-  return conclude_distances(rows, limit, kEndless);
 }
 
 std::string sampling_text(const DistanceReport& report) {

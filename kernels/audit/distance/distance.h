@@ -58,21 +58,6 @@ struct DistanceReport {
   [[nodiscard]] const PerLabel* farthest() const;
 };
 
-/// Measures P4.  A label's boundary consists of the voxel faces, or the triangles, between it and
-/// another label of the volume; the sides of the box are no part of it.  Lengths are in voxels
-/// along each axis: (p - origin) / spacing.  Means are by area, over the centres of every fourth
-/// voxel face and of pieces of triangles.
-/// In a mesh from which labels were left out, triangles of one tet that are not on the box are part
-/// of the boundaries of kept labels too.  They are also samples of kLeftOut, whose distances to the
-/// faces of labels that were left out are measured.  In the other direction nothing is measured.
-/// REQUIRES: as voxel_betti and mesh_betti; finite vertices; positive spacing.
-/// Errors: kInput when the mesh is none, kResource for more than 2^20 voxels along an axis.
-/// Cost: see measure_distances().  Deterministic, one thread.
-[[nodiscard]] DistanceReport measure_distance(const VoxelLabels& volume, std::size_t label_count,
-                                              const AuditMesh& mesh, const Frame& frame,
-                                              const KeptLabels& kept = {},
-                                              double limit = kDistanceLimit);
-
 /// Says in words what the figures mean.
 [[nodiscard]] std::string sampling_text(const DistanceReport& report);
 

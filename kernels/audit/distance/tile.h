@@ -53,13 +53,18 @@ struct DistanceTask {
   double limit = kDistanceLimit;
 };
 
-/// Returns a row for each label, then one for all labels that the volume does not have, then one
-/// for what was left out.  It measures the centre of each voxel face and of each piece, then of
-/// quarters of the face or halves of the piece, as long as these are larger than kCoveringRadius
-/// and may have distances above the limit and above the largest so far.  So the largest distance,
-/// if above the limit, is the same however the volume is cut into tiles.
-/// Cost: O(log) a sample, mostly one a face and a piece; some 40 bytes a face in the tile, 150 a
-/// piece.  Deterministic.
+/// Measures P4.  A label's boundary consists of the voxel faces, or the triangles, between it and
+/// another label of the volume; the sides of the box are no part of it.  Means are by area, over
+/// the centres of every fourth voxel face and of pieces of triangles. In a mesh from which labels
+/// were left out, triangles of one tet that are not on the box are part of the boundaries of kept
+/// labels too.  They are also samples of kLeftOut, whose distances to the faces of labels that were
+/// left out are measured.  In the other direction nothing is measured. Returns a row for each
+/// label, then one for all labels that the volume does not have, then one for what was left out. It
+/// measures the centre of each voxel face and of each piece, then of quarters of the face or halves
+/// of the piece, as long as these are larger than kCoveringRadius and may have distances above the
+/// limit and above the largest so far.  So the largest distance, if above the limit, is the same
+/// however the volume is cut into tiles. Cost: O(log) a sample, mostly one a face and a piece; some
+/// 40 bytes a face in the tile, 150 a piece.  Deterministic.
 [[nodiscard]] std::vector<LabelDistances> measure_distances(const DistanceTask& task);
 
 /// The report on all tiles.

@@ -10,8 +10,6 @@
 
 #include "kernels/audit/partition/box_planes.h"
 #include "kernels/audit/partition/orientation.h"
-#include "kernels/audit/partition/overlap.h"
-#include "kernels/core/error.h"
 #include "kernels/core/vector3.h"
 
 namespace mw::audit {
@@ -23,7 +21,6 @@ class TileAudit {
  public:
   TileAudit(const MeshStars& stars, const ValidityTask& task)
       : stars_(stars), task_(task), box_(task.frame, task.shape) {
-    tally_.label_volumes.resize(task.wanted.size() + 1);
     tally_.in_mesh.resize(task.wanted.size() + 1);
   }
 
@@ -54,11 +51,9 @@ class TileAudit {
       const TetRow& row = mesh().tets[t];
       const auto corner = [&](std::size_t i) -> const Position& { return mesh().vertices[row[i]]; };
       std::optional<int> sign = filtered_orientation(corner(0), corner(1), corner(2), corner(3));
-      const bool is_exact = !sign;
-      if (is_exact) sign = exact_orientation(corner(0), corner(1), corner(2), corner(3));
+      if (!sign) sign = exact_orientation(corner(0), corner(1), corner(2), corner(3));
       sign_.push_back(static_cast<std::int8_t>(*sign));
       if (!tile().owns_tet(t)) continue;
-      if (is_exact) ++tally_.exact_decisions;
       ++count_of(*sign);
       if (*sign != 1) tally_.turned.add([&] { return tet_name(t); });
     }
@@ -150,10 +145,8 @@ class TileAudit {
     for (std::size_t t = 0; t < mesh().tets.size(); ++t) {
       if (!tile().owns_tet(t)) continue;
       const auto& [a, b, c, d] = mesh().tets[t];
-      const double volume = std::abs(volume6(at[a], at[b], at[c], at[d]) / 6);
       const std::size_t label = std::min<std::size_t>(mesh().labels[t], unknown);
-      tally_.volume.add(volume);
-      tally_.label_volumes[label].add(volume);
+      tally_.volume.add(std::abs(volume6(at[a], at[b], at[c], at[d]) / 6));
       tally_.in_mesh[label] = true;
       if (label == unknown || !task_.wanted[label]) tally_.strange.add([&] { return tet_name(t); });
     }
@@ -173,7 +166,8 @@ class Judgement {
       : tally_(tally), task_(task), box_(task.frame, task.shape) {}
 
   ValidityReport run() {
-    take_numbers();
+    report_.volume = tally_.volume.value();
+    report_.box_volume = box_.volume();
     judge_orientation();
     conclude("vertices", {&tally_.same, &tally_.unused}, "", "; ");
     conclude("tets", {&tally_.twice}, "", "");
@@ -202,25 +196,7 @@ class Judgement {
     add(name, passed, std::move(detail));
   }
 
-  void take_numbers() {
-    report_.positive_tets = tally_.positive_tets;
-    report_.negative_tets = tally_.negative_tets;
-    report_.flat_tets = tally_.flat_tets;
-    report_.exact_decisions = tally_.exact_decisions;
-    report_.unused_vertices = tally_.unused.count();
-    report_.faces = tally_.faces;
-    report_.box_faces = tally_.box_faces;
-    report_.volume = tally_.volume.value();
-    report_.box_volume = box_.volume();
-    for (const CompensatedSum& sum : tally_.label_volumes) {
-      report_.label_volumes.push_back(sum.value());
-    }
-  }
-
   void judge_orientation() {
-    const std::uint64_t tets = tally_.positive_tets + tally_.negative_tets + tally_.flat_tets;
-    if (tally_.positive_tets == tets && tets > 0) report_.orientation = 1;
-    if (tally_.negative_tets == tets && tets > 0) report_.orientation = -1;
     conclude("orientation", {&tally_.turned},
              std::to_string(tally_.positive_tets) + " positive, " +
                  std::to_string(tally_.negative_tets) + " negative, " +
@@ -262,36 +238,6 @@ class Judgement {
   ValidityReport report_;
 };
 
-/// Returns nothing when the input is no mesh; the check tells why.
-std::optional<MeshStars> check_input(const AuditMesh& mesh, Check& check) {
-  check.name = "P2 input";
-  std::optional<MeshStars> stars;
-  try {
-    stars.emplace(mesh);
-  } catch (const Error& error) {
-    if (error.kind() != ErrorKind::kInput) throw;
-    check.detail = error.what();
-    return std::nullopt;
-  }
-  Offenders endless("vertices that are not finite");
-  for (std::size_t v = 0; v < mesh.vertices.size(); ++v) {
-    const Position& p = mesh.vertices[v];
-    if (std::isfinite(p[0]) && std::isfinite(p[1]) && std::isfinite(p[2])) continue;
-    endless.add([v] { return std::to_string(v); });
-  }
-  check = input_check(mesh.vertices.size(), mesh.tets.size(), endless);
-  return check.passed ? std::move(stars) : std::nullopt;
-}
-
-ValidityTask task_of(const VoxelLabels& volume, const Frame& frame, std::size_t label_count,
-                     const KeptLabels& kept) {
-  ValidityTask task{frame, volume.shape, std::vector<bool>(label_count), !kept.empty()};
-  for (const Label l : volume.labels) {
-    if (l < label_count && keeps(kept, l)) task.wanted[l] = true;
-  }
-  return task;
-}
-
 }  // namespace
 
 void ValidityTally::add(const ValidityTally& other, std::span<const Label> labels) {
@@ -304,13 +250,11 @@ void ValidityTally::add(const ValidityTally& other, std::span<const Label> label
   positive_tets += other.positive_tets;
   negative_tets += other.negative_tets;
   flat_tets += other.flat_tets;
-  exact_decisions += other.exact_decisions;
   faces += other.faces;
   box_faces += other.box_faces;
   volume.add(other.volume);
   for (std::size_t l = 0; l < other.in_mesh.size(); ++l) {
     const std::size_t row = l < labels.size() ? labels[l] : in_mesh.size() - 1;
-    label_volumes[row].add(other.label_volumes[l]);
     in_mesh[row] = in_mesh[row] || other.in_mesh[l];
   }
 }
@@ -331,20 +275,6 @@ Check input_check(std::uint64_t vertices, std::uint64_t tets, const Offenders& e
 
 bool ValidityReport::passed() const {
   return std::all_of(checks.begin(), checks.end(), [](const Check& c) { return c.passed; });
-}
-
-ValidityReport check_validity(const AuditMesh& mesh, const VoxelLabels& volume, const Frame& frame,
-                              std::size_t label_count, const KeptLabels& kept) {
-  Check input;
-  const std::optional<MeshStars> stars = check_input(mesh, input);
-  ValidityReport report;
-  if (stars) {
-    const ValidityTask task = task_of(volume, frame, label_count, kept);
-    report = judge_validity(tally_validity(*stars, task), task);
-    if (task.has_gaps) report.checks.push_back(check_overlap(*stars, frame, volume.shape));
-  }
-  report.checks.insert(report.checks.begin(), std::move(input));
-  return report;
 }
 
 }  // namespace mw::audit

@@ -16,22 +16,11 @@
 
 namespace mw::audit {
 
-/// What check_validity found.  The counts are those that the checks' details name.
+/// What judge_validity() found.
 struct ValidityReport {
   std::vector<Check> checks;
-  /// The sign that all tets share, which should be 1; it is 0 when they do not share one, or when
-  /// the input could not be read as a mesh.
-  int orientation = 0;
-  std::uint64_t positive_tets = 0;
-  std::uint64_t negative_tets = 0;
-  std::uint64_t flat_tets = 0;        ///< exact volume 0, repeated vertices included
-  std::uint64_t exact_decisions = 0;  ///< tets that the floating point filter left undecided
-  std::uint64_t unused_vertices = 0;
-  std::uint64_t faces = 0;
-  std::uint64_t box_faces = 0;
   double volume = 0;  ///< sum over all tets, cubic physical units
   double box_volume = 0;
-  std::vector<double> label_volumes;  ///< label_count values, then all tets of unknown label
 
   [[nodiscard]] bool passed() const;
 };
@@ -50,13 +39,12 @@ struct ValidityTally {
   std::uint64_t positive_tets = 0;
   std::uint64_t negative_tets = 0;
   std::uint64_t flat_tets = 0;
-  std::uint64_t exact_decisions = 0;
   std::uint64_t faces = 0;
   std::uint64_t box_faces = 0;
   CompensatedSum volume;
   Offenders strange{"tets whose label is not wanted"};
-  std::vector<CompensatedSum> label_volumes;  ///< by label, then all tets of unknown label
-  std::vector<bool> in_mesh;                  ///< in the same order: some tet has the label
+  /// By label, then for all unknown ones: whether some tet has it.
+  std::vector<bool> in_mesh;
 
   /// Adds another tally, whose label l is labels[l] here; unknown ones are the last of both.
   void add(const ValidityTally& other, std::span<const Label> labels);
@@ -80,25 +68,18 @@ struct ValidityTask {
 [[nodiscard]] Check input_check(std::uint64_t vertices, std::uint64_t tets,
                                 const Offenders& endless);
 
-/// Judges all tiles.  The caller puts "P2 input" before these checks and "P2 overlap" after them.
-[[nodiscard]] ValidityReport judge_validity(const ValidityTally& tally, const ValidityTask& task);
-
-/// Checks P2.  The checks, in order: "P2 input" (rows in range, finite numbers; if it fails,
-/// nothing else is looked at), "P2 orientation" (all strictly positive, exactly), "P2 vertices" (no
-/// two at one position, each in a tet), "P2 tets" (none twice), "P2 faces" (two tets on opposite
-/// sides, or one and on a plane of the box), "P2 box" (all vertices inside, all corners there), "P2
-/// volume" (sum equals the box's to 1e-9, and the rounding of coordinates), "P2 labels" (the mesh's
-/// are the volume's).  Together they prove a partition: faces that pair up on opposite sides cover
-/// the inside of the box equally often everywhere, and the volume says once.
+/// Judges all tiles.  The checks, in order: "P2 orientation" (all strictly positive, exactly), "P2
+/// vertices" (no two at one position, each in a tet), "P2 tets" (none twice), "P2 faces" (two tets
+/// on opposite sides, or one and on a plane of the box), "P2 box" (all vertices inside, all corners
+/// there), "P2 volume" (sum equals the box's to 1e-9, and the rounding of coordinates), "P2 labels"
+/// (the mesh's are the volume's).  Together they prove a partition: faces that pair up on opposite
+/// sides cover the inside of the box equally often everywhere, and the volume says once.
 /// In a mesh from which labels were left out, triangles of one tet may be anywhere, corners may be
 /// missing, the volume is at most the box's, and the labels are those that are kept.  What the
 /// volume proves is then sampled: "P2 overlap" (check_overlap).
 /// Planes and corners are those of the frame in double, to 1e-9 of the box's extent, since other
 /// tools round (box_planes.h).
-/// REQUIRES: labels of the volume < label_count.  Memory: 17 bytes a tet, 50 a vertex.
-/// Deterministic.
-[[nodiscard]] ValidityReport check_validity(const AuditMesh& mesh, const VoxelLabels& volume,
-                                            const Frame& frame, std::size_t label_count,
-                                            const KeptLabels& kept = {});
+/// The caller puts "P2 input" before these checks and "P2 overlap" after them.
+[[nodiscard]] ValidityReport judge_validity(const ValidityTally& tally, const ValidityTask& task);
 
 }  // namespace mw::audit

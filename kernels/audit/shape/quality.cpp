@@ -177,8 +177,4 @@ QualityMeter tally_quality(const MeshTile& tile) {
   return meter;
 }
 
-QualityReport measure_quality(const AuditMesh& mesh) {
-  return tally_quality({.mesh = mesh}).report();
-}
-
 }  // namespace mw::audit

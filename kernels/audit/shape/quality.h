@@ -62,12 +62,9 @@ class QualityMeter {
   double smallest_cosine_ = 2;  ///< cosine of the bluntest
 };
 
-/// Measures the tets that a tile owns, by their numbers in the whole mesh.
+/// Measures the tets that a tile owns, by their numbers in the whole mesh.  An empty mesh gives
+/// zeros.  Flat tets count as radius ratio 0; faces without area are left out of the dihedral
+/// angles.  REQUIRES: vertex rows in range, finite coordinates.  Cost: O(tets), no allocation.
 [[nodiscard]] QualityMeter tally_quality(const MeshTile& tile);
-
-/// Measures P3.  An empty mesh gives zeros.  Flat tets count as radius ratio 0; faces without area
-/// are left out of the dihedral angles.
-/// REQUIRES: vertex rows in range, finite coordinates.  Cost: O(tets), no allocation.
-[[nodiscard]] QualityReport measure_quality(const AuditMesh& mesh);
 
 }  // namespace mw::audit

@@ -151,8 +151,4 @@ ShapeMeter measure_shape(const MeshStars& stars) {
   return ShapeAudit(stars).run();
 }
 
-ShapeReport measure_shape(const AuditMesh& mesh) {
-  return measure_shape(MeshStars(mesh)).report();
-}
-
 }  // namespace mw::audit

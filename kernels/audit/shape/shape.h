@@ -66,13 +66,9 @@ class ShapeMeter {
   double largest_ = 0;
 };
 
-/// Triangles with three tets or more, and those between labels that are not the volume's (which all
-/// count as one), are no interfaces.
-/// REQUIRES: as MeshStars, and finite vertices.  Errors: as MeshStars.
-/// Memory: 16 bytes a tet, 72 an interface triangle.  Deterministic.
-[[nodiscard]] ShapeReport measure_shape(const AuditMesh& mesh);
-
-/// Measures the triangles and edges that a tile owns.
+/// Measures the triangles and edges that a tile owns.  Triangles with three tets or more, and those
+/// between labels that are not the volume's (which all count as one), are no interfaces.
+/// REQUIRES: finite vertices.  Memory: 72 bytes an interface triangle.  Deterministic.
 [[nodiscard]] ShapeMeter measure_shape(const MeshStars& stars);
 
 }  // namespace mw::audit

@@ -165,14 +165,6 @@ VolumeReport compare_volumes(std::span<const VoxelCount> counts, const VolumeTal
   return report;
 }
 
-VolumeReport measure_volumes(const VoxelLabels& volume, std::size_t label_count,
-                             const AuditMesh& mesh, const Frame& frame, Index3 layers) {
-  const Box3 all{{0, 0, 0}, volume.shape};
-  return compare_volumes(count_voxels(volume, all, all, label_count, layers),
-                         tally_volumes({.mesh = mesh}, label_count, layered_frame(frame, layers)),
-                         layers.product());
-}
-
 LayeredLabels layered_labels(const VoxelLabels& volume, Index3 layers) {
   LayeredLabels out{layered_shape(volume.shape, layers), {}};
   check_shape(out.shape);

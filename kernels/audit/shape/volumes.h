@@ -85,25 +85,18 @@ struct VolumeTally {
   void add(const VolumeTally& other, std::span<const Label> labels);
 };
 
-/// Measures the tets that a tile owns.  frame is that of the layers.
-/// REQUIRES: as measure_volumes.
+/// Measures the tets that a tile owns.  frame is that of the layers.  A tet counts with its
+/// absolute volume, unless its label is none of the volume's.  The result is exact when every
+/// vertex lies, up to the rounding of `origin + spacing * corner` in double, on the 1/1024-voxel
+/// lattice of the frame: volumes are then sums of integers.  Other meshes are summed in double as
+/// they are, which is right to some 1e-12 of a volume. REQUIRES: vertex rows in range, finite
+/// coordinates, positive spacing. Memory: 24 bytes a vertex.  Deterministic.
 [[nodiscard]] VolumeTally tally_volumes(const MeshTile& tile, std::size_t label_count,
                                         const Frame& frame);
 
 /// Compares with the voxels of each label; `parts` is the number of layers in a voxel.
 [[nodiscard]] VolumeReport compare_volumes(std::span<const VoxelCount> voxels,
                                            const VolumeTally& mesh, std::int64_t parts);
-
-/// Measures P8.  A tet counts with its absolute volume, unless its label is none of the volume's.
-/// The result is exact when every vertex lies, up to the rounding of `origin + spacing * corner` in
-/// double, on the 1/1024-voxel lattice of the frame with its voxels cut into layers: volumes are
-/// then sums of integers.  Other meshes are summed in double as they are, which is right to some
-/// 1e-12 of a volume.
-/// REQUIRES: vertex rows in range, finite coordinates, positive spacing; labels of the volume <
-/// label_count.  Memory: 24 bytes a vertex.  Deterministic.
-[[nodiscard]] VolumeReport measure_volumes(const VoxelLabels& volume, std::size_t label_count,
-                                           const AuditMesh& mesh, const Frame& frame,
-                                           Index3 layers = {1, 1, 1});
 
 /// A volume as one solid with its voxels cut into layers, on a finer lattice.
 struct LayeredLabels {

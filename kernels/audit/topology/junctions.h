@@ -18,7 +18,7 @@ namespace mw::audit {
 inline constexpr std::size_t kMaxLabelsOfJunction = 4;
 
 /// Labels of a junction, ascending; unused entries are kNoLabel.  Label label_count is the
-/// exterior, which is one more label as in voxel_betti, and label_count + 1 stands for all labels
+/// exterior, which is one more label as in mesh_betti, and label_count + 1 stands for all labels
 /// that are not the volume's.
 using JunctionLabels = std::array<Label, kMaxLabelsOfJunction>;
 inline constexpr Label kNoLabel = 0xffffffffU;
@@ -52,7 +52,7 @@ struct JunctionsPiece {
   std::vector<Node> shared;
 };
 
-/// REQUIRES and errors: as voxel_betti; kResource also from 2^32 - 1 pairs of a junction
+/// REQUIRES and errors: as voxel_parts; kResource also from 2^32 - 1 pairs of a junction
 /// and a vertex on.
 /// Cost: one pass over the voxels, then sorts of the vertices and edges on interfaces, 8 and 16
 /// bytes each and junction.  Deterministic.

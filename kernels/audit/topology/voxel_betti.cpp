@@ -210,10 +210,4 @@ VoxelParts voxel_parts(const VoxelTile& tile, std::size_t label_count) {
   return out;
 }
 
-std::vector<RegionBetti> voxel_betti(const VoxelLabels& volume, std::size_t label_count) {
-  PartsUnion parts(label_count);
-  parts.add(voxel_parts(whole(volume), label_count).piece);
-  return parts.betti_of_volume();
-}
-
 }  // namespace mw::audit

@@ -23,7 +23,7 @@ struct RunRow {
 /// Memory: 8 bytes a run and 8 a row.
 class VoxelRuns {
  public:
-  /// REQUIRES and errors: as voxel_betti.
+  /// REQUIRES and errors: as voxel_parts.
   VoxelRuns(const VoxelLabels& volume, std::size_t label_count);
 
   [[nodiscard]] Index3 shape() const { return shape_; }

@@ -3,10 +3,10 @@
 // mwmesh surface as its user runs it: what it refuses, and what it leaves behind.
 #include "engine/cli/info/shape_sink.h"
 #include "io/file/scratch/scratch_file.h"
-#include "kernels/audit/shape/volumes.h"
 #include "kernels/core/error.h"
 #include "tests/engine/cli/run_program.h"
 #include "tests/oracle/small_volumes.h"
+#include "tests/oracle/whole_audit.h"
 
 namespace mw::cli {
 namespace {
@@ -174,7 +174,7 @@ TEST(ShapeSink, MeasuresWhatTheAuditDoes) {
     ShapeSink sink(io::scratch_folder());
     stream(mesh, 1 + audit::test::below(random, 40), sink);
     const audit::ShapeReport actual = sink.shape();
-    const audit::ShapeReport expected = audit::measure_shape(mesh.view());
+    const audit::ShapeReport expected = audit::test::measure_shape(mesh.view());
     EXPECT_EQ(actual.triangles, expected.triangles);
     EXPECT_NEAR(actual.area, expected.area, 1e-12 * expected.area);
     EXPECT_NEAR(actual.bend_max_deg, expected.bend_max_deg, 1e-6);

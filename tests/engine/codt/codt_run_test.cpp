@@ -2,11 +2,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // Whole runs with constrained ODT: the promises, for any number of threads and whatever befalls the
 // workers.
-#include "kernels/audit/partition/validity.h"
-#include "kernels/audit/shape/quality.h"
-#include "kernels/audit/topology/betti.h"
 #include "tests/engine/codt/random_plcs.h"
 #include "tests/engine/memory_run.h"
+#include "tests/oracle/whole_audit.h"
 #include "tests/temp_folder.h"
 
 namespace mw::engine {
@@ -47,7 +45,7 @@ Trial codt_trial(std::mt19937& random, int number, std::int64_t edge) {
 /// P1 and P2; P3 where the start mesh reaches the floor.
 void expect_promises(const Trial& trial, const SmallMesh& mesh) {
   const std::size_t n = trial.volume.label_count;
-  const auto expected = audit::voxel_betti(trial.volume.view(), n);
+  const auto expected = voxel_betti(trial.volume.view(), n);
   const auto actual = audit::mesh_betti(mesh.view(), n);
   for (std::size_t l = 0; l <= n; ++l) EXPECT_TRUE(actual[l] == expected[l]) << "label " << l;
   const auto report = check_validity(mesh.view(), trial.volume.view(), trial.frame, n);

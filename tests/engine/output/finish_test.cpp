@@ -4,10 +4,10 @@
 #include "engine/output/finish.h"
 
 #include "engine/output/interface_shape.h"
-#include "kernels/audit/shape/volumes.h"
 #include "tests/engine/output/marched_blocks.h"
 #include "tests/io/mesh/mesh_digest.h"
 #include "tests/kernels/mesh/dense_mesh.h"
+#include "tests/oracle/whole_audit.h"
 
 namespace mw::engine {
 namespace {
@@ -66,7 +66,7 @@ double volume6_of(const io::MeshData& mesh, const io::TetRows& t) {
 void expect_same_shape(const FinishedMesh& finished, const io::MeshData& mesh, const Trial& trial,
                        const WantedLabel& wanted) {
   const test::SmallMesh small = test::small_mesh(mesh);
-  const audit::ShapeReport expected = audit::measure_shape(small.view());
+  const audit::ShapeReport expected = measure_shape(small.view());
   const audit::ShapeReport& actual = finished.shape.value();
   EXPECT_EQ(actual.triangles, expected.triangles);
   EXPECT_NEAR(actual.area, expected.area, 1e-12 * expected.area);
@@ -76,8 +76,8 @@ void expect_same_shape(const FinishedMesh& finished, const io::MeshData& mesh, c
   EXPECT_NEAR(actual.bend_p50_deg, expected.bend_p50_deg, 0.11);
   EXPECT_NEAR(actual.bend_p95_deg, expected.bend_p95_deg, 0.11);
   EXPECT_NEAR(actual.bend_p99_deg, expected.bend_p99_deg, 0.11);
-  const audit::VolumeReport volumes = audit::measure_volumes(
-      trial.volume.view(), trial.volume.label_count, small.view(), trial.frame);
+  const audit::VolumeReport volumes =
+      measure_volumes(trial.volume.view(), trial.volume.label_count, small.view(), trial.frame);
   EXPECT_TRUE(volumes.exact);
   ASSERT_EQ(volumes.per_label.size(), finished.label_volumes6.size());
   for (std::size_t l = 0; l < volumes.per_label.size(); ++l) {
@@ -114,7 +114,7 @@ TEST(Finish, StreamsTheMeshThatAListOfEverythingGives) {
     EXPECT_EQ(finished.tets, mesh.tets.size());
     for (const io::TetRows& t : mesh.tets) EXPECT_GT(volume6_of(mesh, t), 0);
     const audit::QualityReport quality =
-        audit::measure_quality({.vertices = mesh.vertices, .tets = mesh.tets, .labels = {}});
+        measure_quality({.vertices = mesh.vertices, .tets = mesh.tets, .labels = {}});
     EXPECT_EQ(finished.quality->radius_ratio_min, quality.radius_ratio_min);
     EXPECT_EQ(finished.quality->radius_ratio_mean, quality.radius_ratio_mean);
     EXPECT_EQ(finished.quality->radius_ratio_histogram, quality.radius_ratio_histogram);

@@ -3,6 +3,8 @@
 // Verification by tiles against the audit of the whole, whatever the tiles and threads.
 #include "engine/verify/verify_mesh.h"
 
+#include <regex>
+
 #include "kernels/core/layers.h"
 #include "tests/engine/memory_run.h"
 #include "tests/oracle/whole_audit.h"
@@ -144,21 +146,29 @@ void expect_same_changes(const std::vector<audit::JunctionChange>& tiled,
   }
 }
 
+bool counts_whole_things(const std::string& check) {
+  return check == "P2 orientation" || check == "P2 vertices" || check == "P2 tets" ||
+         check == "P2 faces" || check == "P2 labels";
+}
+
+/// Tiles name other offenders first.
+std::string without_names(const std::string& detail) {
+  return std::regex_replace(detail, std::regex(R"( \([^)]*\))"), "");
+}
+
 void expect_same(const AuditReport& tiled, const AuditReport& whole) {
   ASSERT_EQ(tiled.checks.size(), whole.checks.size());
   for (std::size_t i = 0; i < whole.checks.size(); ++i) {
     EXPECT_EQ(tiled.checks[i].name, whole.checks[i].name);
     EXPECT_EQ(tiled.checks[i].passed, whole.checks[i].passed)
         << tiled.checks[i].detail << "\nwhole: " << whole.checks[i].detail;
+    if (!counts_whole_things(whole.checks[i].name)) continue;
+    EXPECT_EQ(without_names(tiled.checks[i].detail), without_names(whole.checks[i].detail));
   }
   EXPECT_EQ(tiled.voxels, whole.voxels);
   EXPECT_EQ(tiled.mesh, whole.mesh);
   EXPECT_EQ(tiled.labels_changed, whole.labels_changed);
   if (!whole.checks.front().passed) return;
-  EXPECT_EQ(tiled.validity.faces, whole.validity.faces);
-  EXPECT_EQ(tiled.validity.box_faces, whole.validity.box_faces);
-  EXPECT_EQ(tiled.validity.positive_tets, whole.validity.positive_tets);
-  EXPECT_EQ(tiled.validity.unused_vertices, whole.validity.unused_vertices);
   expect_near(tiled.validity.volume, whole.validity.volume);
   EXPECT_EQ(tiled.quality.radius_ratio_min, whole.quality.radius_ratio_min);
   EXPECT_EQ(tiled.quality.worst_tet, whole.quality.worst_tet);

@@ -7,6 +7,7 @@
 #include "tests/kernels/audit/topology/random_labels.h"
 #include "tests/oracle/cell_complex.h"
 #include "tests/oracle/small_volumes.h"
+#include "tests/oracle/whole_audit.h"
 #include "tests/testing.h"
 
 namespace mw::audit {

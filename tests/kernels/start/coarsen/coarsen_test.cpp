@@ -3,9 +3,9 @@
 // Label coarsening: what it keeps, what it guards, and that it does something.
 #include "kernels/start/coarsen/coarsen.h"
 
-#include "kernels/audit/topology/betti.h"
 #include "kernels/start/carrier_faces.h"
 #include "tests/kernels/start/coarsen/coarse_volume.h"
+#include "tests/oracle/whole_audit.h"
 
 namespace mw::test {
 namespace {
@@ -100,8 +100,8 @@ TEST(Promise1Topology, CoarseningKeepsItOnLargerVolumes) {
     const SmallVolume volume = random_of(random, 4, 15);
     SCOPED_TRACE(volume.text());
     const SmallVolume coarse = coarsened(volume, kBounds[i % 4]);
-    EXPECT_TRUE(voxel_betti(coarse.view(), volume.label_count) ==
-                voxel_betti(volume.view(), volume.label_count));
+    EXPECT_TRUE(audit::test::voxel_betti(coarse.view(), volume.label_count) ==
+                audit::test::voxel_betti(volume.view(), volume.label_count));
     changed += coarse.labels != volume.labels ? 1 : 0;
   }
   EXPECT_GT(changed, 200);
