@@ -83,7 +83,7 @@ void check_verify_request(VerifyRequest& request) {
   files.write("--report", request.report);
   files.require_apart();
   if (!request.memory) request.memory = engine::default_memory_budget();
-  request.volume.cache_bytes = cache_bytes(*request.memory);
+  request.volume.open.cache_bytes = cache_bytes(*request.memory);
 }
 
 }  // namespace mw::cli

@@ -70,7 +70,7 @@ Json scales_json(const std::vector<io::VolumeScale>& scales) {
 
 /// Returns false for a remote volume that was not narrowed down: it may be too large to be read.
 bool reads_labels(const VolumeRequest& request) {
-  return !io::is_remote_address(request.path.string()) || request.scale || request.crop;
+  return !io::is_remote_address(request.path.string()) || request.open.scale || request.open.crop;
 }
 
 }  // namespace
@@ -83,7 +83,7 @@ VolumeFacts::VolumeFacts(const VolumeRequest& request) {
   facts_ = facts_of(request, info_, regions_);
   if (input.specks()) facts_["specks"] = specks_json(input.specks());
   if (input.welds()) facts_["welds"] = welds_json(input.welds());
-  if (request.scale) return;
+  if (request.open.scale) return;
   const auto scales = io::scales_of(request.path, open_options(request));
   if (scales.size() > 1) facts_["scales"] = scales_json(scales);
 }

@@ -100,11 +100,11 @@ std::unique_ptr<io::LabelVolume> open_sizes(const MeshRequest& request) {
 void open_samples(const MeshRequest& request, std::vector<engine::SampleImage>& samples) {
   if (!run_processes().speaks()) samples.clear();
   for (engine::SampleImage& sample : samples) {
-    sample.image =
-        io::open_volume(sample.file, {.dataset = sample.dataset,
-                                      .trust_paths = request.volume.trust_paths,
-                                      .cache_bytes = request.volume.cache_bytes / samples.size()});
-    if (sample.image->info().is_placed && request.volume.frame == io::FrameChoice::kVoxel) {
+    sample.image = io::open_volume(
+        sample.file, {.dataset = sample.dataset,
+                      .trust_paths = request.volume.open.trust_paths,
+                      .cache_bytes = request.volume.open.cache_bytes / samples.size()});
+    if (sample.image->info().is_placed && request.volume.open.frame == io::FrameChoice::kVoxel) {
       throw Error(ErrorKind::kUsage, "--frame voxel: " + sample.file +
                                          " lies in the world, which the mesh then is not in");
     }
@@ -277,7 +277,7 @@ void deliver_rest(const MeshRequest& request, report::FinishedRun& run, MeshFile
 
 /// Throws if a box of --changed is outside of a whole volume, where it can only be a mistake.
 void check_changed(const MeshRequest& request, Index3 shape) {
-  if (request.volume.crop) return;
+  if (request.volume.open.crop) return;
   for (const Box3& box : request.job.run.keep.changed) {
     if (is_empty(box) || !is_empty(intersection(box, {{0, 0, 0}, shape}))) continue;
     throw Error(ErrorKind::kUsage, io::text("--changed: the box from ", box.lo.x, ",", box.lo.y,

@@ -323,14 +323,15 @@ void settle_keep(MeshRequest& request) {
     throw Error(ErrorKind::kUsage, std::string(keep.changed.empty() ? "--delta" : "--changed") +
                                        ": says what changed since a run, give --from as well");
   }
-  if (!keep.changed.empty() && !request.volume.object.empty()) {
+  if (!keep.changed.empty() && !request.volume.open.object.empty()) {
     throw Error(ErrorKind::kUsage,
                 "--changed: says nothing where --object finds the box anew, leave it out");
   }
   request.job.delta = request.delta.empty() ? engine::Delta::kNo : engine::Delta::kOn;
-  const Index3 first = request.volume.crop ? request.volume.crop->lo : Index3{};
+  const Index3 first = request.volume.open.crop ? request.volume.open.crop->lo : Index3{};
   for (Box3& box : keep.changed) box = {box.lo - first, box.hi - first};
-  if (request.volume.crop) {  // boxes that did not change are known by their place in the volume
+  if (request.volume.open
+          .crop) {  // boxes that did not change are known by their place in the volume
     keep.identity = io::text("crop begins at = ", first.x, ",", first.y, ",", first.z, "\n");
   }
   keep.folder = updates ? request.from : request.keep;
@@ -345,11 +346,11 @@ void settle_job(MeshRequest& request) {
   engine::StoreOptions& store = job.run.store;
   if (store.workdir.empty()) store.workdir = request.output.string() + ".work";
   store.memory = request.memory ? *request.memory : engine::default_memory_budget();
-  request.volume.cache_bytes = cache_bytes(store.memory);
+  request.volume.open.cache_bytes = cache_bytes(store.memory);
   job.steps = request.volume.steps;
   const bool has_choice = job.choice.labels || job.choice.background;
-  if (!request.volume.object.empty() && !has_choice) {
-    job.choice.labels = io::merged_labels(request.volume.object, job.steps.merge);
+  if (!request.volume.open.object.empty() && !has_choice) {
+    job.choice.labels = io::merged_labels(request.volume.open.object, job.steps.merge);
   }
   job.folder = request.output.parent_path();
   job.is_measured = !request.report.empty() || !request.html.empty();

@@ -100,14 +100,14 @@ void add_place_options(OptionSet& options, VolumeRequest& request) {
                .help = "spacing of voxels in physical units [the file's]",
                .group = kInputGroup,
                .kind = ValueKind::kNumbers,
-               .assign = into(request.spacing, parse_spacing)});
+               .assign = into(request.open.spacing, parse_spacing)});
   options.add({.name = "origin",
                .value = "X,Y,Z",
                .help = "where the first corner, or that of --crop, lies [the file's]",
                .group = kInputGroup,
                .kind = ValueKind::kNumbers,
                .listed = Listed::kInHelpAll,
-               .assign = into(request.origin, parse_numbers)});
+               .assign = into(request.open.origin, parse_numbers)});
   options.add({.name = "frame",
                .value = "FRAME",
                .help = "world: file: its own; ras; lps; voxel: spacing times corner",
@@ -115,7 +115,7 @@ void add_place_options(OptionSet& options, VolumeRequest& request) {
                .fallback = "file",
                .choices = {"file", "ras", "lps", "voxel"},
                .listed = Listed::kInHelpAll,
-               .assign = into(request.frame, [](const std::string& text) {
+               .assign = into(request.open.frame, [](const std::string& text) {
                  return io::parse_frame_choice(text).value();
                })});
 }
@@ -125,14 +125,14 @@ void add_array_options(OptionSet& options, VolumeRequest& request) {
                .value = "PATH",
                .help = "array of several, of " + io::formats_with_datasets(),
                .group = kInputGroup,
-               .assign = into(request.dataset)});
+               .assign = into(request.open.dataset)});
   options.add({.name = "scale",
                .value = "N",
                .help = "level, 0 the finest, of " + io::formats_with_scales(),
                .group = kInputGroup,
                .kind = ValueKind::kInteger,
                .listed = Listed::kInHelpAll,
-               .assign = into(request.scale, parse_scale)});
+               .assign = into(request.open.scale, parse_scale)});
 }
 
 }  // namespace
@@ -184,7 +184,7 @@ void add_volume_options(OptionSet& options, VolumeRequest& request) {
                .group = kInputGroup,
                .choices = {"first", "last", "all"},
                .listed = Listed::kInHelpAll,
-               .assign = into(request.overlap, [](const std::string& text) {
+               .assign = into(request.open.overlap, [](const std::string& text) {
                  return io::parse_overlap(text).value();
                })});
   options.add({.name = "values",
@@ -194,7 +194,7 @@ void add_volume_options(OptionSet& options, VolumeRequest& request) {
                .fallback = "labels",
                .choices = {"labels", "probabilities", "distances"},
                .listed = Listed::kInHelpAll,
-               .assign = into(request.values, [](const std::string& text) {
+               .assign = into(request.open.values, [](const std::string& text) {
                  return io::parse_voxel_values(text).value();
                })});
   options.add({.name = "crop",
@@ -202,27 +202,27 @@ void add_volume_options(OptionSet& options, VolumeRequest& request) {
                .help = "the box from the first voxel to before the second",
                .group = kInputGroup,
                .kind = ValueKind::kBox,
-               .assign = into(request.crop, parse_box)});
+               .assign = into(request.open.crop, parse_box)});
   options.add({.name = "object",
                .value = "LIST",
                .help = "only these labels, found by coarser scales; all others become 0",
                .group = kInputGroup,
                .kind = ValueKind::kLabels,
                .listed = Listed::kInHelpAll,
-               .assign = into(request.object, parse_labels)});
+               .assign = into(request.open.object, parse_labels)});
   options.add({.name = "cache",
                .value = "DIR[,SIZE]",
                .help = "keeps what servers send, at most 10GiB, for later runs",
                .group = kInputGroup,
                .listed = Listed::kInHelpAll,
-               .assign = into(request.cache, engine::parse_cache_folder)});
+               .assign = into(request.open.cache, engine::parse_cache_folder)});
   options.add({.name = "trust-paths",
                .help = "files that headers name may be outside of their folder",
                .group = kInputGroup,
                .kind = ValueKind::kSwitch,
                .fallback = "false",
                .listed = Listed::kInHelpAll,
-               .assign = into(request.trust_paths)});
+               .assign = into(request.open.trust_paths)});
 }
 
 std::string volume_note() {
@@ -242,18 +242,7 @@ io::RawLayout raw_layout(const VolumeRequest& request) {
 }  // namespace
 
 io::OpenOptions open_options(const VolumeRequest& request) {
-  io::OpenOptions options{.spacing = request.spacing,
-                          .origin = request.origin,
-                          .frame = request.frame,
-                          .dataset = request.dataset,
-                          .scale = request.scale,
-                          .overlap = request.overlap,
-                          .values = request.values,
-                          .crop = request.crop,
-                          .object = request.object,
-                          .cache = request.cache,
-                          .trust_paths = request.trust_paths,
-                          .cache_bytes = request.cache_bytes};
+  io::OpenOptions options = request.open;
   if (request.shape) {
     options.raw = raw_layout(request);
   } else if (request.type || request.order) {
@@ -269,7 +258,7 @@ std::uint64_t cache_bytes(std::uint64_t memory) {
 
 io::LabelNames names_of(const VolumeRequest& request) {
   VolumeRequest all = request;
-  all.object.clear();
+  all.open.object.clear();
   return open(all)->info().names;
 }
 

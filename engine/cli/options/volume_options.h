@@ -14,23 +14,11 @@ namespace mw::cli {
 /// What the user said about a volume.
 struct VolumeRequest {
   std::filesystem::path path;
-  std::optional<std::array<double, 3>> spacing;
-  std::optional<std::array<double, 3>> origin;
-  std::optional<Index3> shape;
+  io::OpenOptions open;         ///< all but `raw`, for which the next three are
+  std::optional<Index3> shape;  ///< says that the file is raw
   std::optional<io::VoxelType> type;
   std::optional<io::ByteOrder> order;
-  io::FrameChoice frame = io::FrameChoice::kFile;
-  std::string dataset;
-  std::optional<int> scale;
-  io::Overlap overlap = io::Overlap::kRefused;
-  io::VoxelValues values = io::VoxelValues::kLabels;
-  std::optional<Box3> crop;
-  std::vector<RawLabel> object;          ///< labels that alone matter; empty: all do
-  std::optional<io::CacheFolder> cache;  ///< keeps what servers send
-  bool trust_paths = false;
-  io::InputSteps steps;  ///< what is done with the labels that were opened
-  /// How many bytes of unpacked chunks a chunked volume may keep.
-  std::uint64_t cache_bytes = io::OpenOptions{}.cache_bytes;
+  io::InputSteps steps;         ///< what is done with the labels that were opened
   std::filesystem::path names;  ///< file with names of labels; if empty, the volume has them
 };
 
