@@ -3,6 +3,7 @@
 // One check after the other.
 #include "tests/oracle/whole_audit.h"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <optional>
@@ -53,6 +54,14 @@ std::optional<MeshStars> check_input(const AuditMesh& mesh, Check& check) {
   return check.passed ? std::move(stars) : std::nullopt;
 }
 
+Check check_overlap(const MeshStars& stars, const Frame& frame, Index3 shape) {
+  std::vector<LineCrossing> crossings = line_crossings(stars, frame, shape);
+  std::sort(crossings.begin(), crossings.end());
+  OverlapCheck check(shape);
+  for (const LineCrossing& crossing : crossings) check.add(crossing);
+  return check.verdict();
+}
+
 ValidityTask task_of(const VoxelLabels& volume, const Frame& frame, std::size_t label_count,
                      const KeptLabels& kept) {
   ValidityTask task{frame, volume.shape, std::vector<bool>(label_count), !kept.empty()};
@@ -93,7 +102,9 @@ DistanceReport measure_distance(const VoxelLabels& volume, std::size_t label_cou
                                 double limit) {
   const auto triangles =
       interface_triangles(MeshStars(mesh), label_count, frame, volume.shape, !kept.empty());
-  const double max = piece_radius(total_estimates(triangles));
+  PieceEstimates estimates{};
+  for (const InterfaceTriangle& t : triangles) add_estimates(t.corners, estimates);
+  const double max = piece_radius(estimates);
   std::vector<InterfaceTriangle> pieces;
   for (const InterfaceTriangle& t : triangles) {
     for_each_piece(t.corners, max, [&](const VoxelTriangle& piece) {

@@ -161,12 +161,6 @@ void add_estimates(const VoxelTriangle& t, PieceEstimates& sums) {
   }
 }
 
-PieceEstimates total_estimates(std::span<const InterfaceTriangle> triangles) {
-  PieceEstimates sums{};
-  for (const InterfaceTriangle& t : triangles) add_estimates(t.corners, sums);
-  return sums;
-}
-
 double piece_radius(const PieceEstimates& sums) {
   constexpr double kMaxPieces = 1e7, kMaxPiecesATriangle = 64;
   const double max = std::max(kMaxPieces, kMaxPiecesATriangle * sums.back());

@@ -57,7 +57,6 @@ void for_each_piece(const VoxelTriangle& t, double max, Visit&& visit) {
 /// About how many pieces triangles make, by radius: kPieceRadius, twice that, and so on.
 using PieceEstimates = std::array<double, 20>;
 void add_estimates(const VoxelTriangle& t, PieceEstimates& sums);
-[[nodiscard]] PieceEstimates total_estimates(std::span<const InterfaceTriangle> triangles);
 
 /// The smallest of these radii for which there are not too many pieces: kPieceRadius, except for
 /// meshes with more interface than any valid one.

@@ -134,12 +134,4 @@ Check OverlapCheck::verdict() {
           std::to_string(lines_) + " lines through the mesh; " + crowded_.text()};
 }
 
-Check check_overlap(const MeshStars& stars, const Frame& frame, Index3 shape) {
-  std::vector<LineCrossing> crossings = line_crossings(stars, frame, shape);
-  std::sort(crossings.begin(), crossings.end());
-  OverlapCheck check(shape);
-  for (const LineCrossing& crossing : crossings) check.add(crossing);
-  return check.verdict();
-}
-
 }  // namespace mw::audit

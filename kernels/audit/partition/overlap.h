@@ -23,11 +23,16 @@ struct LineCrossing {
   }
 };
 
-/// Finds all crossings of the triangles that a tile owns.  REQUIRES: as check_overlap().
+/// Finds all crossings of the triangles that a tile owns.
+/// REQUIRES: finite vertices, positive spacing.  Cost: some 24 bytes a crossing.
 [[nodiscard]] std::vector<LineCrossing> line_crossings(const MeshStars& stars, const Frame& frame,
                                                        Index3 shape);
 
-/// Looks along one line after the other.
+/// Makes the check "P2 overlap": on a line along z through each column of voxels, space is in no
+/// tet or in one.  As all other triangles have tets on both sides, those of one tet tell how many
+/// there are on the way; what is between two that are less than 1e-6 voxel apart is not looked at.
+/// This is a sample, no proof: tets that overlap in less than a voxel's width may go unseen.
+/// It looks along one line after the other.
 class OverlapCheck {
  public:
   explicit OverlapCheck(Index3 shape) : shape_(shape) {}
@@ -44,12 +49,5 @@ class OverlapCheck {
   std::uint64_t lines_ = 0;
   std::vector<LineCrossing> line_;
 };
-
-/// Returns the check "P2 overlap": on a line along z through each column of voxels, space is in no
-/// tet or in one.  As all other triangles have tets on both sides, those of one tet tell how many
-/// there are on the way; what is between two that are less than 1e-6 voxel apart is not looked at.
-/// This is a sample, no proof: tets that overlap in less than a voxel's width may go unseen.
-/// REQUIRES: finite vertices, positive spacing.  Cost: some 24 bytes a line and triangle that meet.
-[[nodiscard]] Check check_overlap(const MeshStars& stars, const Frame& frame, Index3 shape);
 
 }  // namespace mw::audit

@@ -76,7 +76,7 @@ struct ValidityTask {
 /// sides cover the inside of the box equally often everywhere, and the volume says once.
 /// In a mesh from which labels were left out, triangles of one tet may be anywhere, corners may be
 /// missing, the volume is at most the box's, and the labels are those that are kept.  What the
-/// volume proves is then sampled: "P2 overlap" (check_overlap).
+/// volume proves is then sampled: "P2 overlap" (OverlapCheck).
 /// Planes and corners are those of the frame in double, to 1e-9 of the box's extent, since other
 /// tools round (box_planes.h).
 /// The caller puts "P2 input" before these checks and "P2 overlap" after them.
