@@ -18,7 +18,7 @@ namespace mw::engine {
 ///     lock          held by the process that works here (folder_lock.h)
 ///     settings.txt  what the facts here depend on beside the labels: lines "name = value"
 ///     versions      bytes of blocks (window_pack.h), where the records say
-///     windows       what went into windows and came out (record_log.h, window_records.h)
+///     windows       what went into windows and came out (RecordLog, window_records.h)
 ///     labels        the run that was complete last: its labels, how large its mesh was, and what
 ///                   it did with the labels before it meshed them (kept_labels.h)
 ///     chosen.txt    what the last run chose by itself

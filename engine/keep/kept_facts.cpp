@@ -15,6 +15,9 @@
 namespace mw::engine {
 namespace {
 
+constexpr LogKind kWindowLog{.magic = 0x0200474F4C574D2EU,  // ".MWLOG", version 0 2
+                             .name = "records of windows",
+                             .expected = "they do not begin as a log of version 2"};
 /// Gaps of more than one part in kMostGaps of the file are filled when a run ends.
 constexpr std::uint64_t kMostGaps = 8;
 constexpr const char* kCompactedFile = ".windows.partial-compacted";
@@ -50,7 +53,7 @@ KeptFacts::KeptFacts(KeepFolder& folder, const RunLayout& layout, const GroupCom
       bytes_(folder.open(kVersionsFile)),
       record_at_(layout.windows(), 0),
       dropped_(layout.windows(), false),
-      log_(std::make_unique<RecordLog>(folder.open(kWindowsFile))) {
+      log_(std::make_unique<RecordLog>(folder.open(kWindowsFile), kWindowLog)) {
   replay();
 }
 
@@ -60,7 +63,7 @@ WindowRecord KeptFacts::checked(std::span<const std::byte> bytes) const {
     if (record.window >= layout_.windows()) throw BadBytes{"there is no such window"};
     return record;
   } catch (const BadBytes& bad) {
-    throw DamagedWork("records of windows", bad.reason);
+    throw DamagedWork(kWindowLog.name, bad.reason);
   }
 }
 
@@ -172,7 +175,7 @@ std::vector<std::uint64_t> KeptFacts::take_over_parts() {
 void KeptFacts::take_over(const std::filesystem::path& part, std::vector<std::uint64_t>& by_march) {
   const std::filesystem::path records = part / kWindowsFile;
   if (std::filesystem::exists(records)) {
-    RecordLog log(std::make_unique<MappedFile>(records));
+    RecordLog log(std::make_unique<MappedFile>(records), kWindowLog);
     SegmentFile from(std::make_unique<MappedFile>(part / kVersionsFile));
     log.replay([&](std::uint64_t /*at*/, std::span<const std::byte> bytes) {
       WindowRecord record = checked(bytes);
@@ -272,7 +275,7 @@ void KeptFacts::compact_log() {
   if (records_ > live_) {
     const std::filesystem::path file = folder_.path() / kCompactedFile;
     std::filesystem::remove(file);
-    auto compacted = std::make_unique<RecordLog>(folder_.open(kCompactedFile));
+    auto compacted = std::make_unique<RecordLog>(folder_.open(kCompactedFile), kWindowLog);
     for (std::uint64_t& at : record_at_) {
       if (at == 0) continue;
       log_->read(at - 1,

@@ -7,7 +7,7 @@
 #include <memory>
 #include <vector>
 
-#include "engine/store/journal/work_file.h"
+#include "engine/store/journal/record_log.h"
 #include "engine/store/table/extent_allocator.h"
 
 namespace mw::engine {
@@ -32,20 +32,14 @@ struct JournalRecord {
   friend bool operator==(const JournalRecord&, const JournalRecord&) = default;
 };
 
-/// An append-only file.  All numbers are little-endian; "var" is a varint
-/// (engine/store/codec/byte_codes.h).
+/// A RecordLog that begins with "MWJRNL" and the version of this layout, 0 1.  All numbers of a
+/// record are varints (engine/store/codec/byte_codes.h):
 ///
-///     offset  size  what
-///     0       8     "MWJRNL" and the version of this layout, 0 1
-///     8       -     records, one after the other, then zeros up to the end of the file
-///     record: 4     length of its body in bytes, more than 0
-///             4     CRC-32 of the body
-///             -     body: number of the record var (0, 1, ...)
-///                   windows var; their numbers var
-///                   blocks var; for each slot, offset, size, checksum, decoded size, all var
+///     number of the record (0, 1, ...)
+///     windows; their numbers
+///     blocks; for each slot, offset, size, checksum, decoded size
 ///
-/// A record that is cut off, or whose checksum or number is wrong, ends the journal: neither it nor
-/// what follows counts.
+/// A record with a wrong number ends the journal as one that is not whole does.
 class Journal {
  public:
   /// Opens a journal, or begins one in an empty file.
@@ -67,13 +61,10 @@ class Journal {
   [[nodiscard]] std::uint64_t records() const { return records_; }
 
  private:
-  void begin();
-  void make_room(std::uint64_t size);
-  /// Reads the record at end_ and moves end_ behind it; returns false at the end of the journal.
+  /// Returns false at the end of the journal.
   bool read_next(JournalRecord& record);
 
-  std::unique_ptr<WorkFile> file_;
-  std::uint64_t end_ = 0;
+  RecordLog log_;
   std::uint64_t records_ = 0;
 };
 

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: The mwmesh authors
 // SPDX-License-Identifier: Apache-2.0
 // A log that is cut anywhere holds the records before the cut.
-#include "engine/keep/record_log.h"
+#include "engine/store/journal/record_log.h"
 
 #include <gtest/gtest.h>
 
@@ -19,8 +19,10 @@ using audit::test::below;
 using mw::test::TempFolder;
 using Records = std::vector<std::vector<std::byte>>;
 
+constexpr LogKind kKind{.magic = 0x0807060504030201U, .name = "log", .expected = "it is none"};
+
 RecordLog open(const std::filesystem::path& path) {
-  return RecordLog(std::make_unique<MappedFile>(path));
+  return RecordLog(std::make_unique<MappedFile>(path), kKind);
 }
 
 Records replayed(RecordLog& log) {
@@ -96,13 +98,13 @@ TEST(RecordLog, WhatWasReplayedOnceSurvivesAPowerCut) {
     test::VolatileFiles files;
     const Records records = random_records(random);
     {
-      RecordLog killed(files.open("log"));
+      RecordLog killed(files.open("log"), kKind);
       for (const auto& record : records) static_cast<void>(killed.append(record));
     }
-    RecordLog log(files.open("log"));
+    RecordLog log(files.open("log"), kKind);
     EXPECT_EQ(replayed(log), records);
     files.cut_power(random);
-    RecordLog again(files.open("log"));
+    RecordLog again(files.open("log"), kKind);
     EXPECT_EQ(replayed(again), records);
   }
 }
