@@ -7,6 +7,7 @@
 
 #include "engine/settings/number_text.h"
 #include "io/file/errors.h"
+#include "io/file/text_numbers.h"
 #include "kernels/core/sort_distinct.h"
 
 namespace mw::engine {
@@ -32,14 +33,11 @@ namespace {
 /// Returns the pairs of labels in the order of the text.
 std::vector<std::array<RawLabel, 2>> parse_pairs(std::string_view text) {
   std::vector<std::array<RawLabel, 2>> out;
-  for (std::size_t begin = 0; begin <= text.size();) {
-    const std::size_t end = std::min(text.find(',', begin), text.size());
-    const std::string_view pair = text.substr(begin, end - begin);
+  for (const std::string_view pair : io::split_at(',', text)) {
     const std::size_t bar = pair.find('|');
     if (bar == pair.npos) fail_expected("pairs of labels such as 1|2,1|3, or *", pair);
     out.push_back({parse_label(pair.substr(0, bar)), parse_label(pair.substr(bar + 1))});
     if (out.back()[0] == out.back()[1]) fail_expected("two labels", pair);
-    begin = end + 1;
   }
   return out;
 }

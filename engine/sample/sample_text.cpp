@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "io/file/errors.h"
+#include "io/file/text_numbers.h"
 
 namespace mw::engine {
 namespace {
@@ -67,10 +68,8 @@ SampleImage parse_sample(std::string_view text) {
 std::vector<SampleImage> parse_samples(std::string_view text) {
   std::vector<SampleImage> out;
   std::vector<std::string> taken{"label", "cohesive"};
-  for (std::size_t begin = 0; begin <= text.size();) {
-    const std::size_t end = std::min(text.find(';', begin), text.size());
-    out.push_back(parse_sample(text.substr(begin, end - begin)));
-    begin = end + 1;
+  for (const std::string_view part : io::split_at(';', text)) {
+    out.push_back(parse_sample(part));
     const std::string name = in_small_letters(out.back().name);
     if (std::find(taken.begin(), taken.end(), name) != taken.end()) {
       throw Error(ErrorKind::kUsage, io::text("the name '", out.back().name, "' is taken"));

@@ -8,6 +8,7 @@
 #include "engine/settings/number_text.h"
 #include "io/file/errors.h"
 #include "io/file/source/inflated_source.h"
+#include "io/file/text_numbers.h"
 #include "io/names/csv_names.h"
 
 namespace mw::engine {
@@ -24,16 +25,6 @@ bool has_ending(std::string_view part, std::initializer_list<const char*> ending
 
 bool names_table(std::string_view part) {
   return part.starts_with('@') && !names_image(part);
-}
-
-std::vector<std::string_view> parts_of(std::string_view text) {
-  std::vector<std::string_view> out;
-  for (std::size_t begin = 0; begin <= text.size() && !text.empty();) {
-    const std::size_t end = std::min(text.find(',', begin), text.size());
-    out.push_back(text.substr(begin, end - begin));
-    begin = end + 1;
-  }
-  return out;
 }
 
 double parse_size(std::string_view text) {
@@ -100,7 +91,8 @@ bool names_image(std::string_view part) {
 
 SizeRules parse_sizes(std::string_view text) {
   SizeRules out;
-  for (const std::string_view part : parts_of(text)) {
+  if (text.empty()) return out;
+  for (const std::string_view part : io::split_at(',', text)) {
     const std::size_t equals = names_image(part) ? part.npos : part.find('=');
     if (names_table(part)) {
       join(out, read_size_table(part.substr(1)));
@@ -121,7 +113,7 @@ SizeRules parse_sizes(std::string_view text) {
 
 std::vector<std::string> size_tables(std::string_view text) {
   std::vector<std::string> out;
-  for (const std::string_view part : parts_of(text)) {
+  for (const std::string_view part : io::split_at(',', text)) {
     if (names_table(part)) out.emplace_back(part.substr(1));
   }
   return out;

@@ -19,6 +19,9 @@ namespace mw::io {
 /// Returns the parts of the text between blanks.
 [[nodiscard]] std::vector<std::string_view> words_of(std::string_view text);
 
+/// Returns the parts before, between and behind the separators; they may be empty.
+[[nodiscard]] std::vector<std::string_view> split_at(char separator, std::string_view text);
+
 /// Returns the decimal number that takes the whole word, with or without a + in front; nothing when
 /// the word is no number or the type cannot hold it.  Reals may be "nan" and "inf".
 [[nodiscard]] std::optional<std::int64_t> parse_integer(std::string_view word);

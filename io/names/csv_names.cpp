@@ -247,16 +247,6 @@ void check_columns(const CsvRecord& record, std::string_view file) {
   }
 }
 
-std::string_view first_row(std::string_view text) {
-  for (std::size_t at = 0; at < text.size();) {
-    const std::size_t end = std::min(text.find('\n', at), text.size());
-    const std::string_view line = text.substr(at, end - at);
-    if (!is_comment_line(line)) return line;
-    at = end + 1;
-  }
-  return {};
-}
-
 /// Returns the separator of a line; NUL when it has none.
 char separator_of(std::string_view line) {
   for (const char separator : {'\t', ';', ','}) {
@@ -271,12 +261,18 @@ char separator_of(std::string_view line) {
 
 }  // namespace
 
-char csv_separator(std::string_view text) {
-  return separator_of(first_row(text));
+std::string_view first_row(std::string_view text) {
+  for (std::size_t at = 0; at < text.size();) {
+    const std::size_t end = std::min(text.find('\n', at), text.size());
+    const std::string_view line = text.substr(at, end - at);
+    if (!is_comment_line(line)) return line;
+    at = end + 1;
+  }
+  return {};
 }
 
-bool is_csv_line(std::string_view line) {
-  return separator_of(line) != '\0';
+char csv_separator(std::string_view text) {
+  return separator_of(first_row(text));
 }
 
 LabelNames parse_csv_names(std::string_view text, std::string_view file, bool repeats) {

@@ -60,7 +60,7 @@ class CsvRecords {
 /// Returns the first of tab, semicolon and comma that the first row of the text has, or NUL.
 [[nodiscard]] char csv_separator(std::string_view text);
 
-/// Whether the line has one of the separators.
-[[nodiscard]] bool is_csv_line(std::string_view line);
+/// Returns the first line that is no comment and not empty; nothing when there is none.
+[[nodiscard]] std::string_view first_row(std::string_view text);
 
 }  // namespace mw::io

@@ -18,13 +18,7 @@ constexpr std::string_view kByteOrderMark = "\xEF\xBB\xBF";
 /// Whether the table is of separated values.  A first line of neither kind counts as one of a
 /// colour table, whose reader tells what is wrong with it.
 bool is_csv(std::string_view text) {
-  for (std::size_t at = 0; at < text.size();) {
-    const std::size_t end = std::min(text.find('\n', at), text.size());
-    const std::string_view line = text.substr(at, end - at);
-    if (!is_comment_line(line)) return !is_colour_table_line(line) && is_csv_line(line);
-    at = end + 1;
-  }
-  return false;
+  return !is_colour_table_line(first_row(text)) && csv_separator(text) != '\0';
 }
 
 }  // namespace

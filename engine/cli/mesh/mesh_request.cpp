@@ -13,6 +13,7 @@
 #include "engine/settings/size_text.h"
 #include "engine/system/memory.h"
 #include "io/file/errors.h"
+#include "io/file/text_numbers.h"
 #include "io/labels/merged_labels.h"
 #include "io/mesh/open_mesh.h"
 #include "kernels/core/error.h"
@@ -48,11 +49,7 @@ void add_size_file_option(OptionSet& options, MeshRequest& request) {
 /// Parses "X0,Y0,Z0,X1,Y1,Z1;...".
 std::vector<Box3> parse_boxes(const std::string& text) {
   std::vector<Box3> out;
-  for (std::size_t begin = 0; begin <= text.size();) {
-    const std::size_t end = std::min(text.find(';', begin), text.size());
-    out.push_back(parse_box(std::string_view(text).substr(begin, end - begin)));
-    begin = end + 1;
-  }
+  for (const std::string_view box : io::split_at(';', text)) out.push_back(parse_box(box));
   return out;
 }
 

@@ -9,6 +9,7 @@
 #include "engine/cli/options/shared_options.h"
 #include "engine/cli/options/values.h"
 #include "io/file/errors.h"
+#include "io/file/text_numbers.h"
 #include "io/names/read_names.h"
 #include "io/volume/decode.h"
 #include "io/volume/file_space.h"
@@ -35,10 +36,8 @@ io::MergeRule parse_rule(const std::string& text) {
 
 std::vector<io::MergeRule> parse_merge(const std::string& text) {
   std::vector<io::MergeRule> rules;
-  for (std::size_t begin = 0; begin <= text.size();) {
-    const std::size_t end = std::min(text.find(';', begin), text.size());
-    rules.push_back(parse_rule(text.substr(begin, end - begin)));
-    begin = end + 1;
+  for (const std::string_view rule : io::split_at(';', text)) {
+    rules.push_back(parse_rule(std::string(rule)));
   }
   return rules;
 }

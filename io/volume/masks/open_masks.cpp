@@ -9,6 +9,7 @@
 
 #include "io/file/errors.h"
 #include "io/file/lower_case.h"
+#include "io/file/text_numbers.h"
 #include "io/remote/address.h"
 #include "io/volume/masks/mask_merger.h"
 #include "io/volume/open_volume.h"
@@ -67,11 +68,7 @@ std::vector<std::filesystem::path> listed_masks(const std::filesystem::path& lis
     return {};
   }
   std::vector<std::filesystem::path> out;
-  for (std::size_t at = 0; at <= all.size();) {
-    const std::size_t end = std::min(all.find(',', at), all.size());
-    out.emplace_back(all.substr(at, end - at));
-    at = end + 1;
-  }
+  for (const std::string_view mask : split_at(',', all)) out.emplace_back(mask);
   const auto is_file = [](const std::filesystem::path& file) {
     std::error_code none;
     return std::filesystem::is_regular_file(file, none);
