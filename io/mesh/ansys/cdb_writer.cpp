@@ -58,8 +58,7 @@ void CdbWriter::write(GroupedMesh& mesh) {
     if (set.is_split) write_node_set(mesh, set.other, set.group.facets, true);
   });
   line("FINISH");
-  append_label_table(labels_, mesh.table(), mesh.names(), numbers);
-  commit_together({labels_, file_});
+  commit(mesh, numbers);
 }
 
 /// Calls visit(Faces) on the components of triangles: an interface has two.

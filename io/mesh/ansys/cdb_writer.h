@@ -3,7 +3,6 @@
 // Writes a grouped mesh as a blocked database file of Ansys Mechanical APDL.
 #pragma once
 
-#include "io/file/sink/atomic_file.h"
 #include "io/mesh/grouped/facet_nodes.h"
 #include "io/mesh/grouped/label_numbers.h"
 
@@ -19,10 +18,9 @@ namespace mw::io {
 /// F_FACE_2_1 the other way.  Nodes and elements count from 1, tets first.
 /// Memory: 9 MiB.  ERRORS: see AtomicFile; mw::Error(kUsage) above 99,999,999 nodes or elements,
 /// since fields have nine columns and one stays blank.
-class CdbWriter : public GroupedWriter {
+class CdbWriter : public TabledWriter {
  public:
-  explicit CdbWriter(const std::filesystem::path& path)
-      : name_(path.string()), file_(path), labels_(label_table_path(path)) {}
+  using TabledWriter::TabledWriter;
 
   void write(GroupedMesh& mesh) override;
 
@@ -45,11 +43,6 @@ class CdbWriter : public GroupedWriter {
   /// Writes a component of elements.  REQUIRES: there is at least one.
   void write_element_set(const std::string& name, RowRange elements);
   void write_node_set(GroupedMesh& mesh, const std::string& name, RowRange facets, bool of_second);
-  void line(std::string_view line) { file_.append_line(line); }
-
-  std::string name_;
-  AtomicFile file_;
-  AtomicFile labels_;
 };
 
 }  // namespace mw::io

@@ -70,8 +70,7 @@ void FebioWriter::write(GroupedMesh& mesh) {
   write_domains(parts);
   if (ends) write_job(*ends);
   file_.append("</febio_spec>\n");
-  append_label_table(labels_, mesh.table(), mesh.names(), numbers);
-  commit_together({labels_, file_});
+  commit(mesh, numbers);
 }
 
 /// Writes materials by number, since FEBio takes ids only in their order.

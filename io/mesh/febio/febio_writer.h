@@ -3,7 +3,6 @@
 // Writes the geometry of an FEBio model.
 #pragma once
 
-#include "io/file/sink/atomic_file.h"
 #include "io/mesh/grouped/deck_ends.h"
 #include "io/mesh/grouped/grouped_mesh.h"
 #include "io/mesh/grouped/label_numbers.h"
@@ -22,10 +21,10 @@ namespace mw::io {
 ///   Boundary, Step, LoadData, Output   only with a deck (MeshExtras::deck): a static step of ten
 ///                increments; where the mesh does not reach both sides there are node sets, too
 /// Parts and surfaces have the names of group_names.h, with _2 and so on behind taken ones.
-class FebioWriter : public GroupedWriter {
+class FebioWriter : public TabledWriter {
  public:
   explicit FebioWriter(const std::filesystem::path& path, const MeshExtras& extras = {})
-      : file_(path), labels_(label_table_path(path)), has_deck_(extras.deck) {}
+      : TabledWriter(path), has_deck_(extras.deck) {}
   void write(GroupedMesh& mesh) override;
 
  private:
@@ -39,8 +38,6 @@ class FebioWriter : public GroupedWriter {
   void write_node_sets(GroupedMesh& mesh, const DeckEnds& ends);
   void write_job(const DeckEnds& ends);
 
-  AtomicFile file_;
-  AtomicFile labels_;
   bool has_deck_;
 };
 

@@ -112,6 +112,11 @@ void append_label_table(AtomicFile& file, const LabelTable& table, const LabelNa
   }
 }
 
+void TabledWriter::commit(const GroupedMesh& mesh, const LabelNumbers& numbers) {
+  append_label_table(labels_, mesh.table(), mesh.names(), numbers);
+  commit_together({labels_, file_});
+}
+
 std::optional<LabelMap> read_label_table(const std::filesystem::path& mesh) {
   const std::filesystem::path path = label_table_path(mesh);
   // Where the table cannot be looked at, opening it says why; a name that is too long has none.

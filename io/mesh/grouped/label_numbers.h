@@ -10,12 +10,9 @@
 #include <vector>
 
 #include "io/file/sink/atomic_file.h"
-#include "io/labels/label_table.h"
-#include "io/names/label_names.h"
+#include "io/mesh/grouped/grouped_mesh.h"
 
 namespace mw::io {
-
-class GroupedMesh;
 
 /// The numbers that a format can hold, both ends included; min is 0 or 1.
 struct NumberRange {
@@ -62,6 +59,24 @@ void check_digits(std::string_view file, const GroupedMesh& mesh, int digits);
 /// mesh (commit_together()).  ERRORS: see AtomicFile.
 void append_label_table(AtomicFile& file, const LabelTable& table, const LabelNames& names,
                         const LabelNumbers& numbers);
+
+/// A writer of a text file with that table beside it.
+class TabledWriter : public GroupedWriter {
+ public:
+  explicit TabledWriter(const std::filesystem::path& path)
+      : name_(path.string()), file_(path), labels_(label_table_path(path)) {}
+
+ protected:
+  void line(std::string_view line) { file_.append_line(line); }
+  /// Writes the table and commits both files.
+  void commit(const GroupedMesh& mesh, const LabelNumbers& numbers);
+
+  std::string name_;
+  AtomicFile file_;
+
+ private:
+  AtomicFile labels_;
+};
 
 /// What such a table says.
 struct LabelMap {

@@ -52,8 +52,7 @@ void LsdynaWriter::write(GroupedMesh& mesh) {
     if (!set.other.empty()) write_segments(mesh, set, true);
   });
   line("*END");
-  append_label_table(labels_, mesh.table(), mesh.names(), numbers);
-  commit_together({labels_, file_});
+  commit(mesh, numbers);
 }
 
 void LsdynaWriter::write_nodes(GroupedMesh& mesh) {

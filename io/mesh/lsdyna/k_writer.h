@@ -3,7 +3,6 @@
 // Writes a grouped mesh as a keyword file of LS-DYNA.
 #pragma once
 
-#include "io/file/sink/atomic_file.h"
 #include "io/mesh/grouped/facet_nodes.h"
 #include "io/mesh/grouped/label_numbers.h"
 
@@ -21,10 +20,9 @@ namespace mw::io {
 /// from 1 on.  Coordinates have ten digits.  Memory: 9 MiB.  ERRORS: see AtomicFile;
 /// mw::Error(kUsage) above 99,999,999 nodes or tets, which is what eight columns hold, and for a
 /// negative coordinate with three digits of exponent.
-class LsdynaWriter : public GroupedWriter {
+class LsdynaWriter : public TabledWriter {
  public:
-  explicit LsdynaWriter(const std::filesystem::path& path)
-      : name_(path.string()), file_(path), labels_(label_table_path(path)) {}
+  using TabledWriter::TabledWriter;
 
   void write(GroupedMesh& mesh) override;
 
@@ -34,11 +32,7 @@ class LsdynaWriter : public GroupedWriter {
   void write_node_set(GroupedMesh& mesh, const NamedFacets& set, bool of_second);
   void write_segments(GroupedMesh& mesh, const NamedFacets& set, bool of_second);
   void begin_set(const char* keyword, const std::string& title, std::uint64_t number);
-  void line(std::string_view line) { file_.append_line(line); }
 
-  std::string name_;
-  AtomicFile file_;
-  AtomicFile labels_;
   std::uint64_t node_sets_ = 0;
   std::uint64_t segment_sets_ = 0;
 };

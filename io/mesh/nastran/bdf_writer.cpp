@@ -44,8 +44,7 @@ void BdfWriter::write(GroupedMesh& mesh) {
     write_part(mesh, mesh.label_tets()[rank], numbers[rank], names.volume(rank));
   }
   line("ENDDATA");
-  append_label_table(labels_, mesh.table(), mesh.names(), numbers);
-  commit_together({labels_, file_});
+  commit(mesh, numbers);
 }
 
 void BdfWriter::write_set(GroupedMesh& mesh, std::size_t number, const NamedFacets& set) {

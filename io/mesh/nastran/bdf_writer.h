@@ -3,7 +3,6 @@
 // Writes a grouped mesh as Nastran bulk data.
 #pragma once
 
-#include "io/file/sink/atomic_file.h"
 #include "io/mesh/grouped/facet_nodes.h"
 #include "io/mesh/grouped/label_numbers.h"
 
@@ -16,10 +15,9 @@ namespace mw::io {
 /// Comments tell the names (PlainNames) of parts and sets: FACE_1_2 is where labels 1 and 2 meet.
 /// Memory: 9 MiB.  ERRORS: see AtomicFile; mw::Error(kUsage) above 99,999,999 nodes, tets or
 /// labels, which is what eight columns hold.
-class BdfWriter : public GroupedWriter {
+class BdfWriter : public TabledWriter {
  public:
-  explicit BdfWriter(const std::filesystem::path& path)
-      : name_(path.string()), file_(path), labels_(label_table_path(path)) {}
+  using TabledWriter::TabledWriter;
 
   void write(GroupedMesh& mesh) override;
 
@@ -27,11 +25,6 @@ class BdfWriter : public GroupedWriter {
   void write_set(GroupedMesh& mesh, std::size_t number, const NamedFacets& set);
   void write_nodes(GroupedMesh& mesh);
   void write_part(GroupedMesh& mesh, RowRange tets, std::int64_t number, const std::string& name);
-  void line(std::string_view line) { file_.append_line(line); }
-
-  std::string name_;
-  AtomicFile file_;
-  AtomicFile labels_;
 };
 
 }  // namespace mw::io
