@@ -84,14 +84,6 @@ void WindowKeep::find_required() {
   std::fill(versions_.begin(), versions_.end(), KeptVersion{});
 }
 
-std::vector<BlockKey> WindowKeep::blocks_of(const WindowKey& key) const {
-  std::vector<BlockKey> out;
-  for (Index3 block : layout_.grid(key.march).blocks_of(key.window)) {
-    out.push_back({key.march, block});
-  }
-  return out;
-}
-
 WindowKeep::Known WindowKeep::look_up(const WindowKey& key) const {
   return look_up(key, [this](const BlockKey& block) -> const KeptVersion* {
     const KeptVersion& version = versions_[layout_.slot(block)];
@@ -111,7 +103,7 @@ WindowKeep::Known WindowKeep::look_up(const WindowKey& key, const VersionOf& ver
     out.seen.content = hull(out.seen.content, version->box());
     return true;
   };
-  for (const BlockKey& block : blocks_of(key)) {
+  for (const BlockKey& block : layout_.blocks_of(key)) {
     if (add(block)) continue;
     blocks.add(std::uint64_t{block.march > 0});
     if (block.march > 0) {
@@ -161,7 +153,7 @@ bool WindowKeep::will_recall(const WindowKey& follower) const {
     if (before.window.x >= layout_.grid(0).windows().x) continue;
     const Known known = look_up(before, [](const BlockKey&) { return nullptr; });
     if (!known.record) return false;
-    const std::vector<BlockKey> blocks = blocks_of(before);
+    const std::vector<BlockKey> blocks = layout_.blocks_of(before);
     for (std::size_t i = 0; i < blocks.size() && i < known.record->blocks.size(); ++i) {
       left.emplace(layout_.slot(blocks[i]), known.record->blocks[i].version);
     }
@@ -213,7 +205,7 @@ std::optional<std::vector<KeptPlace>> WindowKeep::recalled(const WindowKey& key)
 
 /// Makes what the window left the present versions of its blocks.
 void WindowKeep::leave(const WindowKey& key, const WindowRecord& record) {
-  const std::vector<BlockKey> blocks = blocks_of(key);
+  const std::vector<BlockKey> blocks = layout_.blocks_of(key);
   if (blocks.size() != record.blocks.size()) {
     throw DamagedWork("records of windows", "one has another number of blocks");
   }
@@ -266,7 +258,7 @@ std::vector<KeptPlace> WindowKeep::keep(const WindowKey& key, std::span<const Le
   if (record.input.labels.is_none()) record.input.labels = digests_->exact(seen);
   const bool first = is_first(key);
   std::vector<std::vector<std::byte>> kept;
-  for (const BlockKey& at : blocks_of(key)) {
+  for (const BlockKey& at : layout_.blocks_of(key)) {
     const LeftBlock& block = blocks[record.blocks.size()];
     std::vector<std::byte> bytes = to_kept(block.bytes, keys_);
     record.blocks.push_back(

@@ -90,7 +90,6 @@ class WindowKeep : public BlockKeeper {
     std::optional<WindowRecord> record;  ///< the fact with the outcome; none if it must be visited
   };
 
-  [[nodiscard]] std::vector<BlockKey> blocks_of(const WindowKey& key) const;
   /// Returns the version of a block that a window takes, or null if there is none yet.
   using VersionOf = std::function<const KeptVersion*(const BlockKey& block)>;
   [[nodiscard]] Known look_up(const WindowKey& key, const VersionOf& version_of) const;

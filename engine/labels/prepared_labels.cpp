@@ -64,12 +64,6 @@ LabelBox padded(const LabelBox& inside, const Box3& box) {
   return out;
 }
 
-LabelBox read(const io::BrickVolume& volume, const Box3& box) {
-  LabelBox out{box, std::vector<Label>(static_cast<std::size_t>(box.voxels()))};
-  volume.read(box, out.labels);
-  return out;
-}
-
 /// True when each of the bricks has one label; their labels may differ.
 bool all_uniform(const io::BrickVolume& volume, const Box3& bricks) {
   bool uniform = true;
@@ -189,7 +183,7 @@ void PreparedLabels::limit_interfaces(const SizeRules& rules, int threads) {
   }
   tbb_for_each_index(threads, original_.bricks(), [&](Index3 brick) {
     const Box3 box = original_.box_of(brick);
-    const LabelBox labels = read(original_, grown(box, 1));
+    const LabelBox labels = read_labels(original_, grown(box, 1));
     for_each_index(box, [&](Index3 v) {
       for (unsigned side = 0; side < 6; ++side) {
         const Index3 step = axis_vector(side / 2);
@@ -230,7 +224,7 @@ void PreparedLabels::limit_thin_parts(const SizeSettings& sizes, int threads) {
     if (all_one_label(original_, grown(tile, kBricksInReach))) return;
     const Box3 voxels =
         clipped({scaled(tile.lo, kBrick), scaled(tile.hi, kBrick)}, original_.shape());
-    const LabelBox labels = read(original_, grown(voxels, kThinHalo));
+    const LabelBox labels = read_labels(original_, grown(voxels, kThinHalo));
     ThinParts parts;
     for_each_thin_voxel(labels, voxels, metric, [&](Index3 v, double thickness) {
       if (!wanted[labels.at(v)]) return;
@@ -247,13 +241,14 @@ LabelBox PreparedLabels::original(const Box3& box) const {
   const Box3 place{box.lo + margin_, box.hi + margin_};
   const Box3 inside = clipped(place, original_.shape());
   const bool is_held = is_empty(inside) || is_within(bricks_over(inside), original_.held());
-  LabelBox out = is_held ? read(original_, place) : padded(read_labels(volume_, inside), place);
+  LabelBox out =
+      is_held ? read_labels(original_, place) : padded(read_labels(volume_, inside), place);
   out.box = box;
   return out;
 }
 
 LabelBox PreparedLabels::shape(const Box3& box) const {
-  LabelBox out = read(shapes(), {box.lo + margin_, box.hi + margin_});
+  LabelBox out = read_labels(shapes(), {box.lo + margin_, box.hi + margin_});
   out.box = box;
   return out;
 }
@@ -286,37 +281,24 @@ SourceSurface PreparedLabels::source(const Box3& box) const {
 void PreparedLabels::find_source(int threads) {
   tbb_for_each_index(threads, tiles_of(original_.bricks()), [&](Index3 t) {
     const Index3 lo = scaled(t, kBricksPerTile);
-    const Box3 bricks = clipped({lo, lo + scaled({1, 1, 1}, kBricksPerTile)}, original_.bricks());
-    if (has_crossings()) return find_crossings_in(bricks);
-    find_source_in(bricks);
+    find_source_in(clipped({lo, lo + scaled({1, 1, 1}, kBricksPerTile)}, original_.bricks()));
   });
-}
-
-/// Divides bricks as find_source_in() does.
-void PreparedLabels::find_crossings_in(const Box3& bricks) {
-  if (has_one_label(original_, grown(bricks, 1))) return;
-  const Box3 tile =
-      clipped({scaled(bricks.lo, kBrick), scaled(bricks.hi, kBrick)}, original_.shape());
-  const LabelBox labels = read(original_, grown(tile, 1));
-  if (bricks.voxels() > 1 && FaceGraph::count(labels) > kMostCrossings) {
-    for_each_index(bricks, [&](Index3 b) { find_crossings_in({b, b + Index3{1, 1, 1}}); });
-    return;
-  }
-  const SourceSurface surface = score_crossings(volume_, labels, tile);
-  for_each_index(bricks, [&](Index3 b) { source_->write(b, surface, original_.box_of(b)); });
 }
 
 /// Takes bricks one by one when all have too many faces for the memory that is planned.
 void PreparedLabels::find_source_in(const Box3& bricks) {
   if (has_one_label(original_, grown(bricks, 1))) return;
+  const bool crosses = has_crossings();
   const Box3 tile =
       clipped({scaled(bricks.lo, kBrick), scaled(bricks.hi, kBrick)}, original_.shape());
-  const LabelBox labels = read(original_, grown(tile, kSourceHalo));
-  if (bricks.voxels() > 1 && FaceGraph::count(labels) > kMostSourceFaces) {
+  const LabelBox labels = read_labels(original_, grown(tile, crosses ? 1 : kSourceHalo));
+  const auto most = crosses ? kMostCrossings : kMostSourceFaces;
+  if (bricks.voxels() > 1 && FaceGraph::count(labels) > most) {
     for_each_index(bricks, [&](Index3 b) { find_source_in({b, b + Index3{1, 1, 1}}); });
     return;
   }
-  const SourceSurface surface(labels, tile);
+  const SourceSurface surface =
+      crosses ? score_crossings(volume_, labels, tile) : SourceSurface(labels, tile);
   for_each_index(bricks, [&](Index3 b) { source_->write(b, surface, original_.box_of(b)); });
 }
 
@@ -340,7 +322,7 @@ void PreparedLabels::coarsen_tile(const Box3& bricks, double max_distance) {
   }
   const Box3 tile =
       clipped({scaled(bricks.lo, kBrick), scaled(bricks.hi, kBrick)}, original_.shape());
-  const LabelBox before = read(original_, grown(tile, kCoarsenHalo));
+  const LabelBox before = read_labels(original_, grown(tile, kCoarsenHalo));
   LabelBox after = before;
   coarsen(before, after, tile, original_.shape(), max_distance, sizes());
   for_each_index(bricks, [&](Index3 brick) {
@@ -374,7 +356,7 @@ void PreparedLabels::find_levels(const Box3& cubes, int threads) {
       return;
     }
     const Box3 box{scaled(cube, kBrick), scaled(cube + Index3{1, 1, 1}, kBrick)};
-    const LabelBox labels = read(shapes(), grown(box, LevelMap::kHalo));
+    const LabelBox labels = read_labels(shapes(), grown(box, LevelMap::kHalo));
     levels_.set_eighths(cube, LevelMap::allowed_eighths(labels, volume, cube, sizes()));
   });
   levels_.find_cubes([&](Index3 cube) { return is_whole(cube) && may_be_large(cube); });

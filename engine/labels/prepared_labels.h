@@ -107,7 +107,6 @@ class PreparedLabels {
   void read_tile(const io::DenseVolume& volume, const Box3& tile);
   void find_source(int threads);
   void find_source_in(const Box3& bricks);
-  void find_crossings_in(const Box3& bricks);
   void coarsen_tiles(double max_distance, int threads);
   void coarsen_tile(const Box3& tile, double max_distance);
   void find_levels(const Box3& cubes, int threads);

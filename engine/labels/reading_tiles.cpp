@@ -83,12 +83,6 @@ void cut_brick(const LabelBox& from, const Box3& brick, std::vector<Label>& out)
   }
 }
 
-LabelBox read_labels(const io::DenseVolume& volume, const Box3& box) {
-  LabelBox out{box, std::vector<Label>(static_cast<std::size_t>(box.voxels()))};
-  volume.read(box, out.labels);
-  return out;
-}
-
 void for_each_brick(const LabelBox& tile, const OnBrick& visit) {
   std::vector<Label> one;
   for_each_index(bricks_over(tile.box), [&](Index3 brick) {

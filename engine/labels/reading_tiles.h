@@ -54,7 +54,13 @@ class ReadingTiles {
 /// Copies the voxels of a brick out of a larger box.
 void cut_brick(const LabelBox& from, const Box3& brick, std::vector<Label>& out);
 
-[[nodiscard]] LabelBox read_labels(const io::DenseVolume& volume, const Box3& box);
+/// Reads a part of a volume of dense labels.
+template <class Volume>
+[[nodiscard]] LabelBox read_labels(const Volume& volume, const Box3& box) {
+  LabelBox out{box, std::vector<Label>(static_cast<std::size_t>(box.voxels()))};
+  volume.read(box, out.labels);
+  return out;
+}
 
 using OnBrick = std::function<void(Index3 brick, const Box3& box, std::span<const Label> voxels)>;
 

@@ -52,6 +52,12 @@ WindowKey RunLayout::window_key(std::uint64_t window) const {
   return {march, index_at(window - first_window_[march], grids_[march].windows())};
 }
 
+std::vector<BlockKey> RunLayout::blocks_of(const WindowKey& key) const {
+  std::vector<BlockKey> out;
+  for (Index3 block : grid(key.march).blocks_of(key.window)) out.push_back({key.march, block});
+  return out;
+}
+
 std::vector<BlockKey> RunLayout::parts(const BlockKey& key) const {
   MW_ASSERT(key.march > 0);
   const Box3 before{{0, 0, 0}, grids_[key.march - 1].blocks()};

@@ -65,6 +65,8 @@ class RunLayout {
   [[nodiscard]] std::uint64_t window(const WindowKey& key) const;
   [[nodiscard]] WindowKey window_key(std::uint64_t window) const;
 
+  /// Returns the blocks that a window covers.
+  [[nodiscard]] std::vector<BlockKey> blocks_of(const WindowKey& key) const;
   /// Returns the blocks of the march before that make up a block.  REQUIRES: key.march > 0.
   [[nodiscard]] std::vector<BlockKey> parts(const BlockKey& key) const;
 

@@ -80,7 +80,7 @@ class RunStore::March : public BlockStore {
     return run_.is_done({march_, window});
   }
   [[nodiscard]] std::uint64_t taken_bytes(Index3 window) const override {
-    return run_.memory_bytes_of(run_.blocks_of({march_, window}));
+    return run_.memory_bytes_of(run_.layout_.blocks_of({march_, window}));
   }
   [[nodiscard]] std::uint64_t loaded_bytes(Index3 block) const override {
     const BlockKey key{march_, block};
@@ -135,14 +135,6 @@ BlockStore& RunStore::march(std::uint32_t march) {
   return *marches_[march];
 }
 
-std::vector<BlockKey> RunStore::blocks_of(const WindowKey& key) const {
-  std::vector<BlockKey> out;
-  for (Index3 block : layout_.grid(key.march).blocks_of(key.window)) {
-    out.push_back({key.march, block});
-  }
-  return out;
-}
-
 void RunStore::find(const BlockKey& key, std::vector<Source>& out) const {
   const StoredBlock& block = table_.at(layout_.slot(key));
   if (!block.empty()) {
@@ -182,7 +174,7 @@ std::vector<std::optional<BlockMesh>> RunStore::take(const WindowKey& key) const
   std::vector<std::vector<Source>> sources;
   {
     const std::lock_guard lock(mutex_);
-    for (const BlockKey& block : blocks_of(key)) find(block, sources.emplace_back());
+    for (const BlockKey& block : layout_.blocks_of(key)) find(block, sources.emplace_back());
   }
   std::vector<std::optional<BlockMesh>> out;
   for (const auto& of_block : sources) out.push_back(assemble(of_block));
@@ -220,7 +212,7 @@ void RunStore::prefetch(const WindowKey& key) const {
   std::vector<Source> sources;
   {
     const std::lock_guard lock(mutex_);
-    for (const BlockKey& block : blocks_of(key)) find(block, sources);
+    for (const BlockKey& block : layout_.blocks_of(key)) find(block, sources);
   }
   for (const Source& s : sources) {
     if (s.cached == nullptr && !s.kept) disk_->prefetch(s.extent);
@@ -295,7 +287,7 @@ bool RunStore::admit(const WindowKey& key, std::uint64_t bytes, const MostBytes&
 }
 
 void RunStore::commit(const WindowKey& key, std::vector<BlockMesh> blocks) {
-  const std::vector<BlockKey> keys = blocks_of(key);
+  const std::vector<BlockKey> keys = layout_.blocks_of(key);
   MW_ASSERT(blocks.size() == keys.size());
   MemoryBudget::Reservation room;
   {
@@ -361,7 +353,7 @@ void RunStore::replace(const WindowKey& key, std::span<const BlockKey> blocks,
 }
 
 void RunStore::adopt(const WindowKey& key, std::span<const KeptPlace> places) {
-  const std::vector<BlockKey> keys = blocks_of(key);
+  const std::vector<BlockKey> keys = layout_.blocks_of(key);
   MW_ASSERT(places.size() == keys.size());
   std::vector<BlockPin> none;
   const std::lock_guard lock(mutex_);

@@ -133,7 +133,6 @@ class RunStore {
   [[nodiscard]] std::uint64_t memory_bytes_of(std::span<const BlockKey> keys) const;
   void prefetch(const WindowKey& key) const;
 
-  [[nodiscard]] std::vector<BlockKey> blocks_of(const WindowKey& key) const;
   void restore();
   /// Returns the source of memory for a table that grows with the blocks that are here.
   [[nodiscard]] TableRoom room_for_index();

@@ -93,14 +93,19 @@ bool PartRows::is_first_here(const Judged& judged) const {
   return share_.is_own(share_.line_of(judged.claim.first));
 }
 
-ClaimLists PartRows::firsts() const {
+template <class Get>
+ClaimLists PartRows::answers(Get get) const {
   ClaimLists out;
   for (const auto& places : theirs_) {
     std::vector<std::uint64_t>& list = out.emplace_back();
     list.reserve(places.size());
-    for (std::size_t at : places) list.push_back(judged_[at].claim.first);
+    for (std::size_t at : places) list.push_back(get(judged_[at]));
   }
   return out;
+}
+
+ClaimLists PartRows::firsts() const {
+  return answers([](const Judged& judged) { return judged.claim.first; });
 }
 
 void PartRows::take_firsts(const ClaimLists& firsts) {
@@ -178,13 +183,7 @@ void PartRows::take_given_rows(const ClaimLists& rows) {
 }
 
 ClaimLists PartRows::found_rows() const {
-  ClaimLists out;
-  for (const auto& places : theirs_) {
-    std::vector<std::uint64_t>& list = out.emplace_back();
-    list.reserve(places.size());
-    for (std::size_t at : places) list.push_back(judged_[at].row);
-  }
-  return out;
+  return answers([](const Judged& judged) { return judged.row; });
 }
 
 void PartRows::take_found_rows(const ClaimLists& rows) {

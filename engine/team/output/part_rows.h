@@ -89,6 +89,9 @@ class PartRows {
   };
 
   void note(std::uint64_t block, const BlockVertex& vertex, std::uint64_t local);
+  /// Returns get(Judged) for each of their claims.
+  template <class Get>
+  [[nodiscard]] ClaimLists answers(Get get) const;
   [[nodiscard]] bool is_first_here(const Judged& judged) const;
   [[nodiscard]] std::size_t foreign_before(std::uint64_t local) const;
   [[nodiscard]] std::uint64_t row_of(std::uint64_t local) const;

@@ -18,24 +18,6 @@ LabelTrees::Box LabelTrees::widened(const Extent& extent) {
   return box;
 }
 
-Extent LabelTrees::joined(const Extent& a, const Extent& b) {
-  Extent out;
-  for (std::size_t k = 0; k < 3; ++k) {
-    out.lo[k] = std::min(a.lo[k], b.lo[k]);
-    out.hi[k] = std::max(a.hi[k], b.hi[k]);
-  }
-  return out;
-}
-
-LabelTrees::Box LabelTrees::joined(const Box& a, const Box& b) {
-  Box out{};
-  for (std::size_t k = 0; k < 3; ++k) {
-    out.lo[k] = std::min(a.lo[k], b.lo[k]);
-    out.hi[k] = std::max(a.hi[k], b.hi[k]);
-  }
-  return out;
-}
-
 void LabelTrees::add_levels() {
   if (level_begin_.back() == levels_.size()) return;
   while (levels_.back().count > 1) {

@@ -71,8 +71,15 @@ class LabelTrees {
   };
 
   static Box widened(const Extent& extent);
-  static Extent joined(const Extent& a, const Extent& b);
-  static Box joined(const Box& a, const Box& b);
+  template <class Bounds>
+  static Bounds joined(const Bounds& a, const Bounds& b) {
+    Bounds out{};
+    for (std::size_t k = 0; k < 3; ++k) {
+      out.lo[k] = std::min(a.lo[k], b.lo[k]);
+      out.hi[k] = std::max(a.hi[k], b.hi[k]);
+    }
+    return out;
+  }
   static double squared_distance_to_box(const VoxelPoint& p, const Box& box);
 
   template <class ExtentOf>
