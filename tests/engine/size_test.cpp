@@ -7,15 +7,13 @@
 #include "kernels/core/layers.h"
 #include "tests/engine/memory_run.h"
 #include "tests/expect_error.h"
-#include "tests/oracle/whole_audit.h"
+#include "tests/promises/whole_runs.h"
 
 namespace mw::engine {
 namespace {
 
 using namespace audit::test;
 using namespace test;
-
-constexpr double kRounding = 1e-9;
 
 std::vector<Label> labels_of(const SmallVolume& volume) {
   const std::set<Label> all(volume.labels.begin(), volume.labels.end());
@@ -65,9 +63,8 @@ Trial random_sized(std::mt19937& random, int i) {
       {{1, 1, 1}, {0.5, 0.5, 1.25}, {0.7, 0.5, 0.5}}};
   constexpr std::array<StartMesh, 4> kStarts{StartMesh::kCoarse, StartMesh::kCoarse,
                                              StartMesh::kOctree, StartMesh::kDense};
-  const auto kind = static_cast<VolumeKind>(below(random, audit::test::kVolumeKinds));
-  const auto edge = [&] { return std::int64_t{6 + below(random, 22)}; };
-  const Index3 shape{edge(), edge(), edge()};
+  const VolumeKind kind = random_kind(random);
+  const Index3 shape = random_shape(random, 6, 27);
   Trial trial{.volume = random_volume_of(random, kind, shape, 2 + below(random, 3)),
               .settings = {.window = below(random, 2) == 0 ? 8 : 16,
                            .order = i % 2 == 0 ? Order::kRaster : Order::kColour,
@@ -148,17 +145,6 @@ double expect_sizes(const Trial& trial, const SmallMesh& mesh) {
   return max;
 }
 
-void expect_promises(const Trial& trial, const SmallMesh& mesh) {
-  const std::size_t n = trial.volume.label_count;
-  const auto expected = voxel_betti(trial.volume.view(), n);
-  const auto actual = mesh_betti(mesh.view(), n);
-  for (std::size_t label = 0; label <= n; ++label) EXPECT_TRUE(actual[label] == expected[label]);
-  const auto report = check_validity(mesh.view(), trial.volume.view(), trial.frame, n);
-  for (const audit::Check& c : report.checks) EXPECT_TRUE(c.passed) << c.name << ": " << c.detail;
-  EXPECT_GE(measure_quality(mesh.view()).radius_ratio_min,
-            trial.settings.quality_floor - kRounding);
-}
-
 TEST(Sizes, AreKeptByEveryEdgeWithAllPromises) {
   std::mt19937 random(2401);
   int used = 0, listed = 0;
@@ -166,7 +152,7 @@ TEST(Sizes, AreKeptByEveryEdgeWithAllPromises) {
     const Trial trial = random_sized(random, i);
     SCOPED_TRACE(trial.text());
     const SmallMesh mesh = small_mesh(run_in_memory(trial));
-    expect_promises(trial, mesh);
+    expect_promises(trial, mesh, Counter::kAudit);
     const double max = expect_sizes(trial, mesh);
     const SizeRules& rules = trial.settings.sizes.rules;
     listed += rules.labels.empty() && !rules.others ? 0 : 1;
@@ -222,7 +208,7 @@ TEST(InnerVerticesOfARun, AreThereForMostTets) {
     trial.settings.sizes.inner_vertices = true;
     SCOPED_TRACE(trial.text());
     const SmallMesh mesh = small_mesh(run_in_memory(trial));
-    expect_promises(trial, mesh);
+    expect_promises(trial, mesh, Counter::kAudit);
     with += count_lacking(mesh, trial);
   }
   EXPECT_LT(with, without / 3) << without;

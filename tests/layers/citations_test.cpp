@@ -8,20 +8,18 @@
 
 #include <regex>
 
+#include "tests/temp_folder.h"
+
 namespace mw::layers {
 namespace {
 
 namespace fs = std::filesystem;
+using mw::test::content_of;
 using testing::Contains;
 using testing::ElementsAre;
 using testing::IsEmpty;
 
 const fs::path kRoot = MW_SOURCE_DIR;
-
-std::string content_of(const fs::path& path) {
-  std::ifstream file(path, std::ios::binary);
-  return {std::istreambuf_iterator<char>(file), {}};
-}
 
 std::vector<fs::path> files_below(std::initializer_list<const char*> folders,
                                   const std::set<std::string>& extensions) {

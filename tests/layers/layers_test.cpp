@@ -2,16 +2,13 @@
 // SPDX-License-Identifier: Apache-2.0
 // The way data goes: no file includes what is above it or beside its trade.
 #include "tests/layers/rules.h"
+#include "tests/temp_folder.h"
 
 namespace mw::layers {
 namespace {
 
+using mw::test::content_of;
 using Tree = std::map<std::string, std::vector<Include>>;  ///< path from the root -> its includes
-
-std::string content_of(const std::filesystem::path& path) {
-  std::ifstream file(path, std::ios::binary);
-  return {std::istreambuf_iterator<char>(file), {}};
-}
 
 Tree read_tree() {
   const std::filesystem::path root = MW_SOURCE_DIR;

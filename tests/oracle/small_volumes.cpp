@@ -123,12 +123,19 @@ std::uint32_t below(std::mt19937& random, std::uint32_t count) {
   return static_cast<std::uint32_t>(random() % count);
 }
 
+VolumeKind random_kind(std::mt19937& random) {
+  return static_cast<VolumeKind>(below(random, kVolumeKinds));
+}
+
+Index3 random_shape(std::mt19937& random, std::uint32_t min, std::uint32_t max) {
+  const auto edge = [&] { return std::int64_t{min + below(random, max - min + 1)}; };
+  const auto x = edge(), y = edge(), z = edge();
+  return {x, y, z};
+}
+
 SmallVolume random_volume(std::mt19937& random) {
   const std::size_t kind = below(random, 6);
-  const std::uint32_t min = kind < 3 ? 1 : 3;
-  const auto edge = [&] { return std::int64_t{min + below(random, 6 - min)}; };
-  const auto x = edge(), y = edge(), z = edge();
-  const Index3 shape{x, y, z};
+  const Index3 shape = random_shape(random, kind < 3 ? 1 : 3, 5);
   const std::uint32_t labels = 1 + below(random, 4);
   SmallVolume volume = kGenerators[kind](random, shape, labels);
   for (std::uint32_t flips = below(random, 4); flips > 0; --flips) {
@@ -170,6 +177,25 @@ SmallMesh five_tet_mesh(const SmallVolume& volume, const Frame& frame) {
     }
   }
   return mesh;
+}
+
+SmallMesh kept_part(const SmallMesh& mesh, const KeptLabels& kept) {
+  SmallMesh out;
+  std::vector<std::uint64_t> row(mesh.vertices.size(), ~std::uint64_t{0});
+  for (std::size_t t = 0; t < mesh.tets.size(); ++t) {
+    if (!keeps(kept, mesh.labels[t])) continue;
+    TetRow tet = mesh.tets[t];
+    for (std::uint64_t& v : tet) {
+      if (row[v] == ~std::uint64_t{0}) {
+        row[v] = out.vertices.size();
+        out.vertices.push_back(mesh.vertices[v]);
+      }
+      v = row[v];
+    }
+    out.tets.push_back(tet);
+    out.labels.push_back(mesh.labels[t]);
+  }
+  return out;
 }
 
 }  // namespace mw::audit::test

@@ -43,6 +43,11 @@ enum class VolumeKind {
 };
 inline constexpr std::uint32_t kVolumeKinds = 8;
 
+[[nodiscard]] VolumeKind random_kind(std::mt19937& random);
+
+/// Each edge is from min to max.
+[[nodiscard]] Index3 random_shape(std::mt19937& random, std::uint32_t min, std::uint32_t max);
+
 /// A volume of one kind, any shape and number of labels.  Not every label need occur.
 [[nodiscard]] SmallVolume random_volume_of(std::mt19937& random, VolumeKind kind, Index3 shape,
                                            std::uint32_t labels);
@@ -72,5 +77,8 @@ struct SmallMesh {
 
 /// Five positive tets a voxel, mirrored by parity so that neighbours' triangles match.
 [[nodiscard]] SmallMesh five_tet_mesh(const SmallVolume& volume, const Frame& frame = {});
+
+/// The mesh without other labels, and without the vertices that none of its tets has.
+[[nodiscard]] SmallMesh kept_part(const SmallMesh& mesh, const KeptLabels& kept);
 
 }  // namespace mw::audit::test

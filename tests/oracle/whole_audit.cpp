@@ -156,4 +156,12 @@ AuditReport audit(const VoxelLabels& volume, std::size_t label_count, const Audi
   return judge(std::move(found), options);
 }
 
+std::vector<std::string> failures(const AuditReport& report) {
+  std::vector<std::string> names;
+  for (const Check& c : report.checks) {
+    if (!c.passed) names.push_back(c.name);
+  }
+  return names;
+}
+
 }  // namespace mw::audit::test

@@ -39,4 +39,7 @@ namespace mw::audit::test {
                                 const AuditMesh& mesh, const Frame& frame,
                                 const AuditOptions& options = {});
 
+/// The names of checks that failed, in their order.
+[[nodiscard]] std::vector<std::string> failures(const AuditReport& report);
+
 }  // namespace mw::audit::test

@@ -87,10 +87,9 @@ Trial interfaces_trial(std::mt19937& random, SmallVolume volume) {
 }
 
 SmallVolume random_small(std::mt19937& random, std::uint32_t max, std::uint32_t labels) {
-  const auto edge = [&] { return std::int64_t{1 + below(random, max)}; };
-  const auto x = edge(), y = edge(), z = edge();
-  const auto kind = static_cast<VolumeKind>(below(random, audit::test::kVolumeKinds));
-  return random_volume_of(random, kind, {x, y, z}, 2 + below(random, labels - 1));
+  const Index3 shape = random_shape(random, 1, max);
+  const VolumeKind kind = random_kind(random);
+  return random_volume_of(random, kind, shape, 2 + below(random, labels - 1));
 }
 
 struct Outcome {

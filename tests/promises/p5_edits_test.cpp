@@ -14,6 +14,7 @@
 namespace mw::engine {
 namespace {
 
+using audit::test::random_shape;
 using audit::test::random_volume_of;
 using audit::test::VolumeKind;
 using mw::test::TempFolder;
@@ -122,11 +123,10 @@ TEST(Promise5SameBytes, AfterEditsFromWhatWasKept) {
   std::mt19937 random(3501);
   Chain chain;
   for (std::uint32_t i = 0; i < 12 && !HasFailure(); ++i) {
-    const auto edge = [&] { return std::int64_t{10 + below(random, 10)}; };
-    const auto x = edge(), y = edge(), z = edge();
+    const Index3 shape = random_shape(random, 10, 19);
     const auto kind = static_cast<VolumeKind>(i % audit::test::kVolumeKinds);
     Trial trial = random_trial(
-        random, test::with_room(random_volume_of(random, kind, {x, y, z}, 2 + below(random, 120))));
+        random, test::with_room(random_volume_of(random, kind, shape, 2 + below(random, 120))));
     constexpr std::array<int, 3> kWindows{4, 6, 8};
     trial.settings.window = kWindows[below(random, 3)];
     trial.settings.marches = static_cast<int>(1 + below(random, 2));

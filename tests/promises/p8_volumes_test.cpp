@@ -20,16 +20,15 @@ RunReport run(const Trial& trial, MemorySink& sink, int threads) {
 TEST(Promise8Volumes, OfARunAddUpToTheBoxAndAreThoseOfItsMesh) {
   std::mt19937 random(831);
   for (std::uint32_t i = 0; i < 24 && !HasFailure(); ++i) {
-    const auto edge = [&] { return std::int64_t{4 + below(random, 20)}; };
-    const auto x = edge(), y = edge(), z = edge();
+    const Index3 shape = random_shape(random, 4, 23);
     const auto kind = static_cast<VolumeKind>(i % audit::test::kVolumeKinds);
-    const Trial trial = random_trial(random, random_volume_of(random, kind, {x, y, z}, 1 + i % 6));
+    const Trial trial = random_trial(random, random_volume_of(random, kind, shape, 1 + i % 6));
     SCOPED_TRACE(trial.text());
     MemorySink sink;
     const RunReport report = run(trial, sink, 1 + static_cast<int>(i % 2));
     const auto& sums = report.label_volumes6;
     const Int128 total = std::accumulate(sums.begin(), sums.end(), Int128{0});
-    EXPECT_TRUE(total == Int128{kVoxelVolume6} * (x * y * z));
+    EXPECT_TRUE(total == Int128{kVoxelVolume6} * shape.product());
     const audit::VolumeReport expected =
         measure_volumes(trial.volume.view(), trial.volume.label_count,
                         test::small_mesh(sink.mesh()).view(), trial.frame);

@@ -13,6 +13,8 @@ using audit::RegionBetti;
 using audit::test::below;
 using audit::test::betti_of;
 using audit::test::complex_of;
+using audit::test::random_kind;
+using audit::test::random_shape;
 using audit::test::random_volume_of;
 using audit::test::volume_from;
 using audit::test::VolumeKind;
@@ -41,25 +43,24 @@ inline void expect_valid(const Trial& trial, const SmallMesh& mesh) {
   for (const audit::Check& c : report.checks) EXPECT_TRUE(c.passed) << c.name << ": " << c.detail;
 }
 
+inline void expect_floor(const Trial& trial, const SmallMesh& mesh) {
+  EXPECT_GE(audit::test::measure_quality(mesh.view()).radius_ratio_min,
+            trial.settings.quality_floor - kRounding);
+}
+
+/// Checks P1 to P3.
+inline void expect_promises(const Trial& trial, const SmallMesh& mesh, Counter counter) {
+  expect_same_topology(trial.volume, mesh, counter);
+  expect_valid(trial, mesh);
+  expect_floor(trial, mesh);
+}
+
 /// Meshes the volume and checks P1 to P3; returns the number of vertices.
 inline std::size_t expect_promises(const Trial& trial, Counter counter) {
   SCOPED_TRACE(trial.text());
   const SmallMesh mesh = small_mesh(run_in_memory(trial));
-  expect_same_topology(trial.volume, mesh, counter);
-  expect_valid(trial, mesh);
-  EXPECT_GE(audit::test::measure_quality(mesh.view()).radius_ratio_min,
-            trial.settings.quality_floor - kRounding);
+  expect_promises(trial, mesh, counter);
   return mesh.vertices.size();
-}
-
-inline VolumeKind random_kind(std::mt19937& random) {
-  return static_cast<VolumeKind>(below(random, audit::test::kVolumeKinds));
-}
-
-inline Index3 random_shape(std::mt19937& random, std::uint32_t min, std::uint32_t max) {
-  const auto edge = [&] { return std::int64_t{min + below(random, max - min + 1)}; };
-  const auto x = edge(), y = edge(), z = edge();
-  return {x, y, z};
 }
 
 inline SmallVolume random_small(std::mt19937& random, std::uint32_t min, std::uint32_t max,

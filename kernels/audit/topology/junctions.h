@@ -66,6 +66,8 @@ struct JunctionChange {
   JunctionLabels labels{};
   Betti before;
   Betti after;
+
+  friend bool operator==(const JunctionChange&, const JunctionChange&) = default;
 };
 
 /// A mesh's junctions held against its volume's.

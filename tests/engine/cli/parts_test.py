@@ -9,7 +9,7 @@ import subprocess
 import sys
 import unittest
 
-from program import PROGRAM, enter_folder, run
+from program import PROGRAM, enter_folder, pull, run
 
 try:
     import meshio
@@ -255,25 +255,13 @@ class Split(unittest.TestCase):
             pairs = list(zip(one[order[0]], other[order[1]]))
             for a, b in pairs:
                 np.testing.assert_array_equal(split.points[a], split.points[b])
-            open_force = self.pull("s", "")
+            open_force = pull("s", "", 0.3, "X_MIN")
             ties = "".join(f"*EQUATION\n2\n{a + 1}, {k}, 1., {b + 1}, {k}, -1.\n"
                            for a, b in pairs for k in (1, 2, 3))
-            tied, whole = self.pull("s", ties), self.pull("w", "")
+            tied, whole = pull("s", ties, 0.3, "X_MIN"), pull("w", "", 0.3, "X_MIN")
             self.assertGreater(abs(whole[0]), 10)
             np.testing.assert_allclose(open_force, 0, atol=1e-6 * abs(whole[0]))
             np.testing.assert_allclose(tied, whole, rtol=1e-4, atol=1e-4 * abs(whole[0]))
-
-    @staticmethod
-    def pull(mesh, ties):
-        """Returns the force on the held side when the other one is moved by 0.1."""
-        pathlib.Path("job.inp").write_text(
-            f"*INCLUDE, INPUT={mesh}.inp\n{ties}*MATERIAL, NAME=M\n*ELASTIC\n1000, 0.3\n"
-            "*SOLID SECTION, ELSET=LABEL_1, MATERIAL=M\n*SOLID SECTION, ELSET=LABEL_2, MATERIAL=M\n"
-            "*BOUNDARY\nX_MIN, 1, 3\n*STEP\n*STATIC\n*BOUNDARY\nX_MAX, 2, 3\nX_MAX, 1, 1, 0.1\n"
-            "*NODE PRINT, NSET=X_MIN, TOTALS=ONLY\nRF\n*END STEP\n", encoding="utf-8")
-        done = subprocess.run(["ccx", "job"], capture_output=True, text=True, check=True)
-        assert "*ERROR" not in done.stdout, done.stdout
-        return [float(x) for x in pathlib.Path("job.dat").read_text().split()[-3:]]
 
 
 if __name__ == "__main__":

@@ -2,6 +2,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """The program under test, MW_PROGRAM, for the scripts of this folder."""
 import os
+import pathlib
 import subprocess
 import tempfile
 
@@ -28,3 +29,15 @@ def enter_folder(case):
     add_cleanup(folder.cleanup)
     add_cleanup(os.chdir, "/")
     os.chdir(folder.name)
+
+
+def pull(mesh, more, poisson, side):
+    """The force on X_MIN or X_MAX of MESH.inp when CalculiX moves the latter by 0.1."""
+    pathlib.Path("job.inp").write_text(
+        f"*INCLUDE, INPUT={mesh}.inp\n{more}*MATERIAL, NAME=M\n*ELASTIC\n1000, {poisson}\n"
+        "*SOLID SECTION, ELSET=LABEL_1, MATERIAL=M\n*SOLID SECTION, ELSET=LABEL_2, MATERIAL=M\n"
+        "*BOUNDARY\nX_MIN, 1, 3\n*STEP\n*STATIC\n*BOUNDARY\nX_MAX, 2, 3\nX_MAX, 1, 1, 0.1\n"
+        f"*NODE PRINT, NSET={side}, TOTALS=ONLY\nRF\n*END STEP\n", encoding="utf-8")
+    done = subprocess.run(["ccx", "job"], capture_output=True, text=True)
+    assert done.returncode == 0 and "*ERROR" not in done.stdout, done.stdout
+    return [float(x) for x in pathlib.Path("job.dat").read_text().split()[-3:]]

@@ -4,7 +4,7 @@
 // workers.
 #include "tests/engine/codt/random_plcs.h"
 #include "tests/engine/memory_run.h"
-#include "tests/oracle/whole_audit.h"
+#include "tests/promises/whole_runs.h"
 #include "tests/temp_folder.h"
 
 namespace mw::engine {
@@ -42,16 +42,12 @@ Trial codt_trial(std::mt19937& random, int number, std::int64_t edge) {
   return trial;
 }
 
-/// P1 and P2; P3 where the start mesh reaches the floor.
-void expect_promises(const Trial& trial, const SmallMesh& mesh) {
-  const std::size_t n = trial.volume.label_count;
-  const auto expected = voxel_betti(trial.volume.view(), n);
-  const auto actual = audit::mesh_betti(mesh.view(), n);
-  for (std::size_t l = 0; l <= n; ++l) EXPECT_TRUE(actual[l] == expected[l]) << "label " << l;
-  const auto report = check_validity(mesh.view(), trial.volume.view(), trial.frame, n);
-  for (const audit::Check& c : report.checks) EXPECT_TRUE(c.passed) << c.name << ": " << c.detail;
+/// P3 where the start mesh reaches the floor.
+void expect_promises_of(const Trial& trial, const SmallMesh& mesh) {
+  expect_same_topology(trial.volume, mesh, Counter::kAudit);
+  expect_valid(trial, mesh);
   if (trial.settings.start == StartMesh::kOctree && trial.settings.quality_floor > 0.25) return;
-  EXPECT_GE(measure_quality(mesh.view()).radius_ratio_min, trial.settings.quality_floor - 1e-9);
+  expect_floor(trial, mesh);
 }
 
 TEST(CodtRun, KeepsThePromises) {
@@ -62,7 +58,7 @@ TEST(CodtRun, KeepsThePromises) {
     const Trial trial = codt_trial(random, i, 9);
     SCOPED_TRACE(trial.text());
     const Outcome out = run(trial);
-    expect_promises(trial, small_mesh(out.mesh));
+    expect_promises_of(trial, small_mesh(out.mesh));
     stats += out.report.codt;
   }
   EXPECT_GT(stats.moves, 1000U);
@@ -95,7 +91,7 @@ TEST(CodtRun, KeepsThePromisesWithSteinerPoints) {
     SCOPED_TRACE(trial.text());
     const codt::PoolOptions splitting{.program = MW_SPLITTING_WORKER};
     const Outcome out = run(trial, 1, splitting);
-    expect_promises(trial, small_mesh(out.mesh));
+    expect_promises_of(trial, small_mesh(out.mesh));
     expect_same(run(trial, 3, splitting).mesh, out.mesh);
     added += out.report.codt.added;
   }
@@ -130,7 +126,7 @@ TEST(CodtRun, KilledWorkersChangeNoByte) {
     SCOPED_TRACE(trial.text());
     const Outcome calm = run(trial), stormy = run(trial, 2, mortal.options());
     restarted += stormy.report.workers->restarted;
-    expect_promises(trial, small_mesh(stormy.mesh));
+    expect_promises_of(trial, small_mesh(stormy.mesh));
     // A window that loses two workers in a row, on a machine that sleeps, is allowed another mesh.
     if (stormy.report.codt.fallbacks == calm.report.codt.fallbacks) {
       expect_same(stormy.mesh, calm.mesh);
@@ -149,7 +145,7 @@ void expect_fallbacks(const codt::PoolOptions& workers, std::uint32_t seed) {
     EXPECT_EQ(out.report.codt.fallbacks, out.report.codt.windows);
     EXPECT_GE(out.report.codt.windows, 1U);
     EXPECT_EQ(out.report.workers->failed, out.report.codt.windows);
-    expect_promises(trial, small_mesh(out.mesh));
+    expect_promises_of(trial, small_mesh(out.mesh));
     expect_same(run(trial, 1, workers).mesh, out.mesh);
   }
 }

@@ -15,6 +15,7 @@
 namespace mw::engine {
 namespace {
 
+using audit::test::random_shape;
 using audit::test::random_volume_of;
 using audit::test::VolumeKind;
 using mw::test::TempFolder;
@@ -39,10 +40,9 @@ Box3 random_box(std::mt19937& random, Index3 shape) {
 TEST(PatchedVolume, IsTheNewVolumeWhereTheBoxesHaveAllChanges) {
   std::mt19937 random(3513);
   for (int i = 0; i < 20; ++i) {
-    const auto edge = [&] { return std::int64_t{1 + below(random, 70)}; };
-    const auto x = edge(), y = edge(), z = edge();
+    const Index3 shape = random_shape(random, 1, 70);
     const test::SmallVolume before =
-        test::with_room(random_volume_of(random, VolumeKind::kBlobs, {x, y, z}, 9));
+        test::with_room(random_volume_of(random, VolumeKind::kBlobs, shape, 9));
     const TempFolder folder;
     const auto path = folder.path() / "labels";
     const MemoryVolume old_volume(before, {});

@@ -93,10 +93,9 @@ void expect_same_shape(const FinishedMesh& finished, const io::MeshData& mesh, c
 TEST(Finish, StreamsTheMeshThatAListOfEverythingGives) {
   std::mt19937 random(321);
   for (std::uint32_t i = 0; i < 40 && !HasFailure(); ++i) {
-    const auto edge = [&] { return std::int64_t{1 + below(random, 15)}; };
-    const auto x = edge(), y = edge(), z = edge();
+    const Index3 shape = random_shape(random, 1, 15);
     const auto kind = static_cast<VolumeKind>(i % audit::test::kVolumeKinds);
-    Trial trial = random_trial(random, random_volume_of(random, kind, {x, y, z}, 1 + i % 5));
+    Trial trial = random_trial(random, random_volume_of(random, kind, shape, 1 + i % 5));
     SCOPED_TRACE(trial.text());
     const MemoryVolume file(trial.volume, trial.frame);
     const io::LabelTable table = io::collect_labels(file);

@@ -10,6 +10,7 @@
 namespace mw::engine::test {
 
 using audit::test::below;
+using audit::test::random_shape;
 
 /// Vertices anywhere in a volume, each in a few blocks at most `reach` from its home.
 struct Scattered {
@@ -56,10 +57,11 @@ inline Scattered scatter_vertices(std::mt19937& random, Index3 shape, std::uint3
   return out;
 }
 
-inline Index3 random_shape(std::mt19937& random) {
-  const auto edge = [&] { return std::int64_t{1 + below(random, 17)}; };
-  const auto x = edge(), y = edge(), z = edge();
-  return {x, y, z};
+inline VertexUses uses_of(const Scattered& scattered) {
+  VertexUses uses(scattered.grid);
+  for_each_index(scattered.grid.blocks(),
+                 [&](Index3 b) { uses.add(b, uses.lines_of(scattered.at(b))); });
+  return uses;
 }
 
 }  // namespace mw::engine::test

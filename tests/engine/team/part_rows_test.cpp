@@ -117,13 +117,6 @@ class Ranks {
   std::uint64_t rows_ = 0;
 };
 
-VertexUses uses_of(const Scattered& scattered) {
-  VertexUses uses(scattered.grid);
-  for_each_index(scattered.grid.blocks(),
-                 [&](Index3 b) { uses.add(b, uses.lines_of(scattered.at(b))); });
-  return uses;
-}
-
 /// By block: rows, and which of them are new.
 struct Expected {
   std::vector<std::vector<std::uint64_t>> rows;
@@ -150,7 +143,8 @@ TEST(PartRows, AreTheRowsOfOneProcess) {
   std::mt19937 random(531);
   std::size_t foreign = 0;
   for (std::uint32_t i = 0; i < 600 && !HasFailure(); ++i) {
-    const Scattered scattered = scatter_vertices(random, random_shape(random), i % 5, 1 + i * 3);
+    const Scattered scattered =
+        scatter_vertices(random, random_shape(random, 1, 17), i % 5, 1 + i * 3);
     const Expected expected = rows_of_one_process(scattered);
     const std::uint32_t count = 1 + i % 8;
     const Index3 blocks = scattered.grid.blocks();
@@ -212,7 +206,8 @@ TEST(PartRows, TakeLessOfEachProcessTheMoreThereAre) {
 TEST(Claims, AreThoseOfASet) {
   std::mt19937 random(532);
   for (std::uint32_t i = 0; i < 200 && !HasFailure(); ++i) {
-    const Scattered scattered = scatter_vertices(random, random_shape(random), i % 4, 1 + i * 5);
+    const Scattered scattered =
+        scatter_vertices(random, random_shape(random, 1, 17), i % 4, 1 + i * 5);
     const std::uint32_t count = 1 + i % 5;
     const Index3 blocks = scattered.grid.blocks();
     const Ranks ranks(scattered, random_owners(random, blocks, count), count);

@@ -116,12 +116,9 @@ TEST(LineOwners, HaveVisitedAllBlocksOfTheirLinesLast) {
   std::mt19937 random(521);
   std::size_t shared = 0;
   for (std::uint32_t i = 0; i < 200; ++i) {
-    const auto edge = [&] { return std::int64_t{1 + below(random, 40)}; };
-    const auto x = edge(), y = edge(), z = edge();
+    const Index3 shape = audit::test::random_shape(random, 1, 40);
     std::vector<WindowGrid> grids;
-    for (std::uint32_t march = 0; march <= i % 3; ++march) {
-      grids.emplace_back(Index3{x, y, z}, 4 << march);
-    }
+    for (std::uint32_t march = 0; march <= i % 3; ++march) grids.emplace_back(shape, 4 << march);
     const Order order = i % 2 == 0 ? Order::kRaster : Order::kColour;
     const RunLayout layout(grids, order);
     const Partition partition(layout, order, 1 + static_cast<int>(below(random, 9)));

@@ -93,10 +93,9 @@ template <typename Visit>
 void each_random_window(unsigned seed, Visit visit) {
   std::mt19937 random(seed);
   for (std::uint32_t i = 0; i < 60 && !::testing::Test::HasFailure(); ++i) {
-    const auto edge = [&] { return std::int64_t{1 + below(random, 13)}; };
-    const auto x = edge(), y = edge(), z = edge();
+    const Index3 shape = random_shape(random, 1, 13);
     const auto kind = static_cast<VolumeKind>(i % audit::test::kVolumeKinds);
-    const SmallVolume volume = random_volume_of(random, kind, {x, y, z}, 1 + below(random, 5));
+    const SmallVolume volume = random_volume_of(random, kind, shape, 1 + below(random, 5));
     const WindowGrid grid(volume.shape, i % 3 == 0 ? 4 : 6);
     const Index3 windows = grid.windows();
     const auto pick = [&](std::int64_t n) {

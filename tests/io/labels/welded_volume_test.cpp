@@ -93,10 +93,9 @@ TEST(WeldedVolume, FillsWhatTheRuleSays) {
   std::mt19937 random(611);
   int welded = 0, rounds = 0;
   for (std::uint32_t i = 0; i < 400 && !HasFailure(); ++i) {
-    const auto edge = [&] { return std::int64_t{1 + below(random, 6)}; };
-    const auto x = edge(), y = edge(), z = edge();
+    const Index3 shape = audit::test::random_shape(random, 1, 6);
     const SmallVolume small = random_volume_of(
-        random, static_cast<VolumeKind>(i % audit::test::kVolumeKinds), {x, y, z}, 2 + i % 3);
+        random, static_cast<VolumeKind>(i % audit::test::kVolumeKinds), shape, 2 + i % 3);
     const MemoryVolume volume = volume_of(small, VoxelType::kU32, {5, 2, 9, 11});
     std::vector<RawLabel> labels = read_all(volume);
     const std::set<RawLabel> present(labels.begin(), labels.end());

@@ -8,6 +8,7 @@
 #include "io/mesh/open_mesh.h"
 #include "tests/io/mesh/mesh_digest.h"
 #include "tests/io/mesh/sample_mesh.h"
+#include "tests/io/names/random_names.h"
 
 namespace mw::io {
 namespace {
@@ -70,13 +71,17 @@ TEST(MeshFiles, SameBytesEveryTimeHoweverRowsArrive) {
 
 TEST(MeshFiles, CopyThroughEveryPairOfFormats) {
   const TempDir dir;
-  const MeshData mesh = sample_mesh(3000, true);
+  MeshData mesh = sample_mesh(3000, true);
+  std::mt19937 random(52);
+  mesh.names = random_names(random, 20);
   for (const char* from : kNames) {
     save(mesh, dir.path() / from);
     for (const char* to : kNames) {
       const auto path = dir.path() / (std::string("copy_") + to);
       copy_mesh(dir.path() / from, *open_mesh_sink(path));
-      expect_same(read_mesh(path), mesh);
+      const MeshData copy = read_mesh(path);
+      expect_same(copy, mesh);
+      expect_same_names(copy.names, mesh.names);
     }
   }
 }

@@ -51,20 +51,6 @@ TEST(MeshNames, ManyNamesAndLongOnes) {
   }
 }
 
-TEST(MeshNames, EveryPairOfFormatsCopiesThem) {
-  const TempDir dir;
-  std::mt19937 random(52);
-  const MeshData mesh = named_mesh(random, 20, true);
-  for (const char* from : kFiles) {
-    save(mesh, dir.path() / from);
-    for (const char* to : kFiles) {
-      const auto path = dir.path() / (std::string("copy_") + to);
-      copy_mesh(dir.path() / from, *open_mesh_sink(path));
-      expect_same_names(read_mesh(path).names, mesh.names);
-    }
-  }
-}
-
 TEST(MeshNames, DigestDoesNotDependOnThem) {
   std::mt19937 random(53);
   const MeshData mesh = named_mesh(random, 20, false);

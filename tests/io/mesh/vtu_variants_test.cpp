@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // .vtu files as other tools write them.
 #include "io/mesh/open_mesh.h"
+#include "tests/io/codec/packers.h"
 #include "tests/io/mesh/sample_mesh.h"
 
 namespace mw::io {
@@ -20,17 +21,6 @@ std::string base64(const std::string& bytes) {
     }
   }
   return out;
-}
-
-std::string deflate_block(const std::string& bytes) {
-  uLongf length = compressBound(static_cast<uLong>(bytes.size()));
-  std::string packed(length, '\0');
-  EXPECT_EQ(
-      compress(reinterpret_cast<Bytef*>(packed.data()), &length,
-               reinterpret_cast<const Bytef*>(bytes.data()), static_cast<uLong>(bytes.size())),
-      Z_OK);
-  packed.resize(length);
-  return packed;
 }
 
 /// How one file is written.
@@ -108,7 +98,7 @@ class Writer {
     std::string data;
     std::size_t blocks = 0;
     for (std::size_t at = 0; at < bytes.size(); at += 5, ++blocks) {
-      const std::string packed = deflate_block(bytes.substr(at, 5));
+      const std::string packed = zlib_packed(bytes.substr(at, 5));
       sizes += word(packed.size());
       data += packed;
     }

@@ -24,14 +24,6 @@ const Check& check(const AuditReport& report, const std::string& name) {
   return *found;
 }
 
-std::vector<std::string> failures(const AuditReport& report) {
-  std::vector<std::string> names;
-  for (const Check& c : report.checks) {
-    if (!c.passed) names.push_back(c.name);
-  }
-  return names;
-}
-
 using Names = std::vector<std::string>;
 
 /// A 4 x 4 x 4 box of label 0 with a bar of label 1 through it, off the origin.

@@ -17,6 +17,8 @@ using audit::RegionBetti;
 using audit::test::below;
 using audit::test::betti_of;
 using audit::test::complex_of;
+using audit::test::random_kind;
+using audit::test::random_shape;
 using audit::test::random_volume;
 using audit::test::random_volume_of;
 using audit::test::SmallMesh;
@@ -190,6 +192,13 @@ struct TetKey {
   }
   std::sort(key.vertices.begin(), key.vertices.end());
   return key;
+}
+
+/// The tet with its vertices in an order of positive orientation.
+[[nodiscard]] inline LocalTet positive(const TetKey& key) {
+  LocalTet t{key.vertices, key.label};
+  if (key.odd) std::swap(t.vertices[0], t.vertices[1]);
+  return t;
 }
 
 /// Every tet that some star knows, virtual ones included, and in how many stars it is.

@@ -17,12 +17,6 @@ Directed rotated(Directed t) {
   return t;
 }
 
-LocalTet positive(const TetKey& key) {
-  LocalTet t{key.vertices, key.label};
-  if (key.odd) std::swap(t.vertices[0], t.vertices[1]);
-  return t;
-}
-
 /// Directed faces of all tets, and how often each occurs.
 std::map<Directed, int> directed_faces(const std::map<TetKey, int>& tets) {
   std::map<Directed, int> out;

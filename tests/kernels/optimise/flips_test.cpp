@@ -18,12 +18,6 @@ std::set<TetKey> tet_keys(const TetMesh& mesh) {
   return out;
 }
 
-LocalTet positive(const TetKey& key) {
-  LocalTet t{key.vertices, key.label};
-  if (key.odd) std::swap(t.vertices[0], t.vertices[1]);
-  return t;
-}
-
 /// What is in the first only.
 std::vector<LocalTet> missing(const std::set<TetKey>& from, const std::set<TetKey>& in) {
   std::vector<LocalTet> out;

@@ -11,12 +11,6 @@ namespace {
 
 constexpr std::int64_t kVoxel6 = std::int64_t{6} << 30;  // 6 * 1024^3
 
-Index3 random_shape(std::mt19937& random) {
-  const auto edge = [&] { return std::int64_t{1 + below(random, 5)}; };
-  const auto x = edge(), y = edge(), z = edge();
-  return {x, y, z};
-}
-
 Box3 random_block(std::mt19937& random, Index3 shape) {
   const auto part = [&](std::int64_t edge) {
     const std::int64_t lo = below(random, static_cast<std::uint32_t>(edge));
@@ -51,7 +45,7 @@ TEST(Sec51StartMesh, HasFiveGoodTetsAVoxelOfExactVolume) {
   std::mt19937 random(501);
   const Metric metric;
   for (int i = 0; i < 100 && !HasFailure(); ++i) {
-    const Index3 shape = random_shape(random);
+    const Index3 shape = random_shape(random, 1, 5);
     const SmallVolume volume = random_volume_of(random, VolumeKind::kNoise, shape, 5);
     const Box3 block = random_block(random, shape);
     const BlockMesh mesh = dense_block(volume, block);
@@ -103,7 +97,7 @@ std::multiset<std::pair<std::array<VertexId, 4>, Label>> tets_by_id(const BlockM
 TEST(Sec51StartMesh, IsTheSameHoweverItIsCutIntoBlocks) {
   std::mt19937 random(502);
   for (int i = 0; i < 100 && !HasFailure(); ++i) {
-    const Index3 shape = random_shape(random) + Index3{1, 1, 1};
+    const Index3 shape = random_shape(random, 1, 5) + Index3{1, 1, 1};
     const SmallVolume volume = random_volume_of(random, VolumeKind::kNoise, shape, 4);
     const Box3 all{{0, 0, 0}, shape};
     Box3 low = all, high = all;
@@ -161,7 +155,7 @@ TEST(Sec52Quadrics, OfCornersSumOverTheTwelveFacesAround) {
   const QuadricWeights weights{.plane = 0.75, .boundary_point = 0.25, .inner_point = 0.5};
   const std::array<Vec3, 4> offsets{{{1, 0, 0}, {0, 0.5, 0}, {0, 0, -2}, {0.25, -0.5, 1.5}}};
   for (int i = 0; i < 60 && !HasFailure(); ++i) {
-    const Index3 shape = random_shape(random);
+    const Index3 shape = random_shape(random, 1, 5);
     const auto kind = below(random, 2) == 0 ? VolumeKind::kNoise : VolumeKind::kSpecks;
     const SmallVolume volume = random_volume_of(random, kind, shape, 3);
     const LabelBox labels = labels_in(volume, {{-1, -1, -1}, shape + Index3{1, 1, 1}});
@@ -180,7 +174,7 @@ TEST(Sec52Quadrics, OfCornersSumOverTheTwelveFacesAround) {
 TEST(Sec51StartMesh, SamplesCoverEveryInterfaceFaceOnce) {
   std::mt19937 random(504);
   for (int i = 0; i < 40 && !HasFailure(); ++i) {
-    const Index3 shape = random_shape(random) + Index3{1, 0, 0};
+    const Index3 shape = random_shape(random, 1, 5) + Index3{1, 0, 0};
     const SmallVolume volume = random_volume_of(random, VolumeKind::kNoise, shape, 3);
     const Box3 all{{0, 0, 0}, shape};
     const LabelBox labels = labels_in(volume, {{-1, -1, -1}, shape + Index3{1, 1, 1}});

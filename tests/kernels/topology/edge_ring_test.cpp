@@ -221,9 +221,8 @@ TEST(KeptInterfaces, AcceptedContractionsKeepThoseOfManyLabels) {
   std::mt19937 random(312);
   Counts counts;
   for (int i = 0; i < 250 && !HasFailure(); ++i) {
-    const auto edge = [&] { return std::int64_t{2 + below(random, 2)}; };
-    const auto x = edge(), y = edge(), z = edge();
-    judge(random_volume_of(random, VolumeKind::kNoise, {x, y, z}, 3 + below(random, 6)), random, 50,
+    const Index3 shape = random_shape(random, 2, 3);
+    judge(random_volume_of(random, VolumeKind::kNoise, shape, 3 + below(random, 6)), random, 50,
           counts);
   }
   EXPECT_GT(counts.broken_in_labels, 50);

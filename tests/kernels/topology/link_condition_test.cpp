@@ -123,9 +123,8 @@ TEST(Sec533Case3, AcceptedContractionsKeepBettiNumbersOfManyLabels) {
   std::mt19937 random(302);
   Counts counts;
   for (int i = 0; i < 400 && !HasFailure(); ++i) {
-    const auto edge = [&] { return std::int64_t{2 + below(random, 2)}; };
-    const auto x = edge(), y = edge(), z = edge();
-    counts += judge(random_volume_of(random, VolumeKind::kNoise, {x, y, z}, 8), random, 50);
+    const Index3 shape = random_shape(random, 2, 3);
+    counts += judge(random_volume_of(random, VolumeKind::kNoise, shape, 8), random, 50);
   }
   EXPECT_GT(counts.of_many_labels, 500);
   EXPECT_GT(counts.refused_and_broken, 100);

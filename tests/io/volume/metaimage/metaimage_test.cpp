@@ -1,23 +1,13 @@
 // SPDX-FileCopyrightText: The mwmesh authors
 // SPDX-License-Identifier: Apache-2.0
 // MetaImage files, hand-made by the field table of MetaIO's documentation.
+#include "tests/io/codec/packers.h"
 #include "tests/io/volume/volume_checks.h"
 
 namespace mw::io {
 namespace {
 
 constexpr Index3 kShape{5, 4, 3};
-
-std::string zlib_packed(const std::string& plain) {
-  uLongf length = compressBound(static_cast<uLong>(plain.size()));
-  std::string packed(length, '\0');
-  EXPECT_EQ(
-      compress(reinterpret_cast<Bytef*>(packed.data()), &length,
-               reinterpret_cast<const Bytef*>(plain.data()), static_cast<uLong>(plain.size())),
-      Z_OK);
-  packed.resize(length);
-  return packed;
-}
 
 std::string header(const std::string& type, const std::string& more,
                    const std::string& data_file = "LOCAL") {

@@ -22,17 +22,6 @@ std::vector<RegionBetti> without_exterior(std::vector<RegionBetti> rows) {
   return rows;
 }
 
-/// The mesh without the tets of some labels.
-SmallMesh kept_part(const SmallMesh& mesh, const std::vector<bool>& kept) {
-  SmallMesh out{mesh.vertices, {}, {}};
-  for (std::size_t t = 0; t < mesh.tets.size(); ++t) {
-    if (!kept[mesh.labels[t]]) continue;
-    out.tets.push_back(mesh.tets[t]);
-    out.labels.push_back(mesh.labels[t]);
-  }
-  return out;
-}
-
 TEST(RegionBetti, AgreesWithVoxelsWhateverIsLeftOut) {
   std::mt19937 random(11);
   int pinched = 0, hollow = 0;

@@ -13,34 +13,6 @@ using namespace test;
 
 using Names = std::vector<std::string>;
 
-Names failures(const AuditReport& report) {
-  Names names;
-  for (const Check& c : report.checks) {
-    if (!c.passed) names.push_back(c.name);
-  }
-  return names;
-}
-
-/// The mesh without other labels, and without the vertices that none of its tets has.
-SmallMesh kept_part(const SmallMesh& mesh, const KeptLabels& kept) {
-  SmallMesh out;
-  std::vector<std::uint64_t> row(mesh.vertices.size(), ~std::uint64_t{0});
-  for (std::size_t t = 0; t < mesh.tets.size(); ++t) {
-    if (!keeps(kept, mesh.labels[t])) continue;
-    TetRow tet = mesh.tets[t];
-    for (std::uint64_t& v : tet) {
-      if (row[v] == ~std::uint64_t{0}) {
-        row[v] = out.vertices.size();
-        out.vertices.push_back(mesh.vertices[v]);
-      }
-      v = row[v];
-    }
-    out.tets.push_back(tet);
-    out.labels.push_back(mesh.labels[t]);
-  }
-  return out;
-}
-
 /// Some of the labels that the volume has, but not all; empty when it has only one.
 KeptLabels random_choice(const SmallVolume& v, std::mt19937& random) {
   KeptLabels kept(v.label_count);

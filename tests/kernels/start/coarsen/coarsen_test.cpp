@@ -19,11 +19,10 @@ Label label_at(const SmallVolume& volume, Index3 v) {
 
 /// A volume of any kind, but most often of the one where most can be coarsened.
 SmallVolume random_of(std::mt19937& random, std::uint32_t min, std::uint32_t max) {
-  const auto edge = [&] { return std::int64_t{min + below(random, max - min + 1)}; };
-  const auto x = edge(), y = edge(), z = edge();
-  const auto any = static_cast<VolumeKind>(below(random, audit::test::kVolumeKinds));
+  const Index3 shape = random_shape(random, min, max);
+  const VolumeKind any = random_kind(random);
   const VolumeKind kind = below(random, 3) == 0 ? any : VolumeKind::kBlobs;
-  return random_volume_of(random, kind, {x, y, z}, 1 + below(random, 6));
+  return random_volume_of(random, kind, shape, 1 + below(random, 6));
 }
 
 TEST(Promise1Topology, CoarseningKeepsItByRanks) {

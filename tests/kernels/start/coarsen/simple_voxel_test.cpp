@@ -166,10 +166,9 @@ TEST(Promise1Topology, FlipsOfVoxelsKeepEveryRegionOfEveryLabel) {
                                              VolumeKind::kSponge, VolumeKind::kBlobs};
   int allowed = 0, between_others = 0;
   for (std::uint32_t i = 0; i < 30000 && !HasFailure(); ++i) {
-    const auto edge = [&] { return std::int64_t{i % 8 == 0 ? 4 : 3} + below(random, 2); };
-    const auto x = edge(), y = edge(), z = edge();
-    const SmallVolume volume =
-        random_volume_of(random, kKinds[i % 4], {x, y, z}, 2 + below(random, 5));
+    const std::uint32_t min = i % 8 == 0 ? 4 : 3;
+    const Index3 shape = random_shape(random, min, min + 1);
+    const SmallVolume volume = random_volume_of(random, kKinds[i % 4], shape, 2 + below(random, 5));
     const auto flip = random_flip(random, volume, random_voxel(random, volume.shape));
     if (!flip || !flip->allowed) continue;
     EXPECT_TRUE(keeps_betti_numbers(volume, *flip)) << volume.text() << " to " << flip->to;
