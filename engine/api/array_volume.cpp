@@ -22,9 +22,8 @@ static_assert(static_cast<int>(io::VoxelType::kU8) == static_cast<int>(mwmesh::V
 Index3 shape_of(const mwmesh::Index& shape) {
   for (std::size_t axis = 0; axis < 3; ++axis) {
     if (shape[axis] >= 1 && shape[axis] <= kMaxAxisVoxels) continue;
-    throw Error(ErrorKind::kUsage,
-                io::text("shape (", std::string_view("xyz").substr(axis, 1),
-                         "): must be from 1 to ", kMaxAxisVoxels, " voxels, got ", shape[axis]));
+    io::fail_usage("shape (", std::string_view("xyz").substr(axis, 1), "): must be from 1 to ",
+                   kMaxAxisVoxels, " voxels, got ", shape[axis]);
   }
   return {shape[0], shape[1], shape[2]};
 }
@@ -33,7 +32,7 @@ io::VoxelType type_of(mwmesh::VoxelType type) {
   if (type >= mwmesh::VoxelType::kU8 && type <= mwmesh::VoxelType::kF64) {
     return static_cast<io::VoxelType>(type);
   }
-  throw Error(ErrorKind::kUsage, "type: is none of VoxelType");
+  io::fail_usage("type: is none of VoxelType");
 }
 
 /// Returns what an ArrayVolume or a RegionVolume says of itself.
@@ -84,7 +83,7 @@ ArrayReader::ArrayReader(const mwmesh::ArrayVolume& array)
     : data_(static_cast<const std::byte*>(array.data)),
       strides_(strides_of(array)),
       info_(info_of(array)) {
-  if (data_ == nullptr) throw Error(ErrorKind::kUsage, "array: there is no data");
+  if (data_ == nullptr) io::fail_usage("array: there is no data");
   info_.z_fastest = std::abs(strides_[2]) < std::abs(strides_[0]);
 }
 
@@ -118,9 +117,9 @@ void ArrayReader::read(const Box3& box, std::span<RawLabel> out) const {
 
 RegionReader::RegionReader(const mwmesh::RegionVolume& region)
     : read_(region.read), info_(info_of(region)) {
-  if (!read_) throw Error(ErrorKind::kUsage, "volume: there is no read()");
+  if (!read_) io::fail_usage("volume: there is no read()");
   if (*std::min_element(region.chunk.begin(), region.chunk.end()) < 0) {
-    throw Error(ErrorKind::kUsage, "chunk must not be negative");
+    io::fail_usage("chunk must not be negative");
   }
   info_.chunk = {region.chunk[0], region.chunk[1], region.chunk[2]};
 }

@@ -7,6 +7,8 @@
 #include <cctype>
 #include <string_view>
 
+#include "io/file/errors.h"
+
 namespace mw::api {
 namespace {
 
@@ -54,8 +56,7 @@ std::string library_words(std::string message) {
 
 const std::filesystem::path& checked_path(const std::filesystem::path& path, const char* name) {
   if (path.native().find('\0') == path.native().npos) return path;
-  throw Error(ErrorKind::kUsage,
-              std::string(name) + " " + path.c_str() + ": has a zero byte in it");
+  io::fail_usage(std::string(name) + " " + path.c_str() + ": has a zero byte in it");
 }
 
 mwmesh::Error library_error(const Error& error) {

@@ -10,6 +10,7 @@
 #include "engine/settings/number_text.h"
 #include "engine/settings/setting_table.h"
 #include "engine/system/memory.h"
+#include "io/file/errors.h"
 #include "io/file/scratch/scratch_file.h"
 #include "io/labels/merged_labels.h"
 #include "io/volume/open_volume.h"
@@ -82,7 +83,7 @@ io::InputSteps input_steps(const mwmesh::Options& options, bool has_signed_label
     steps.merge.push_back({.from = {from}, .to = to, .to_is_negative = is_negative});
   }
   if (options.drop_specks > io::SpeckRule::kMax) {
-    throw Error(ErrorKind::kUsage, "--drop-specks: too many voxels");
+    io::fail_usage("--drop-specks: too many voxels");
   }
   if (options.drop_specks > 0) {
     steps.specks = {.min = options.drop_specks, .diagonal = options.specks_joined_by_corners};
@@ -110,13 +111,12 @@ std::uint64_t memory_of(const mwmesh::Options& options) {
 engine::MeshJob mesh_job(const io::VolumeInfo& labels, const mwmesh::Settings& settings,
                          const mwmesh::Options& options, const mwmesh::Hooks& hooks) {
   if (options.resume && options.workdir.empty() && options.keep.empty()) {
-    throw Error(ErrorKind::kUsage,
-                "--resume: needs the --workdir or the --keep of the run that ended early");
+    io::fail_usage("--resume: needs the --workdir or the --keep of the run that ended early");
   }
   if (options.keep.empty() && (options.from_kept || !options.changed.empty())) {
-    throw Error(ErrorKind::kUsage, std::string(options.from_kept ? "--from" : "--changed") +
-                                       ": needs the folder that a run has kept something in, name "
-                                       "it with --keep");
+    io::fail_usage(std::string(options.from_kept ? "--from" : "--changed") +
+                   ": needs the folder that a run has kept something in, name "
+                   "it with --keep");
   }
   engine::MeshSettings values = mesh_settings(settings);
   std::shared_ptr<const io::LabelVolume> sizes;

@@ -7,6 +7,7 @@
 #include "engine/api/jobs.h"
 #include "engine/settings/near_words.h"
 #include "engine/settings/setting_table.h"
+#include "io/file/errors.h"
 
 namespace mw::api {
 namespace {
@@ -28,8 +29,7 @@ const engine::Setting& find(std::string_view name) {
     listed += ", " + all.back();
   }
   const std::string near = engine::did_you_mean(name, all);
-  throw Error(ErrorKind::kUsage,
-              std::string(name) + ": no such setting" + (near.empty() ? listed : near));
+  io::fail_usage(std::string(name) + ": no such setting" + (near.empty() ? listed : near));
 }
 
 /// Sets a value.  Errors name the setting as the library does.
@@ -46,8 +46,7 @@ void set(std::string_view name, engine::MeshSettings& settings, const std::strin
 
 const engine::Preset& find_preset(const std::string& name) {
   if (const engine::Preset* preset = engine::find_preset(name)) return *preset;
-  throw Error(ErrorKind::kUsage,
-              "preset: there is no '" + name + "'; there are draft, default and fine");
+  io::fail_usage("preset: there is no '" + name + "'; there are draft, default and fine");
 }
 
 /// Returns the values, each of which is allowed by itself.

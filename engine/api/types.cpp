@@ -22,7 +22,7 @@ io::WorldFrame frame_of(const std::string& name) {
        {io::WorldFrame::kOwn, io::WorldFrame::kRas, io::WorldFrame::kLps}) {
     if (name == io::name(frame)) return frame;
   }
-  throw Error(ErrorKind::kUsage, "frame " + name + ": expected own, ras or lps");
+  io::fail_usage("frame " + name + ": expected own, ras or lps");
 }
 
 void check_axes(const std::array<mwmesh::Vector, 3>& axes) {
@@ -30,11 +30,11 @@ void check_axes(const std::array<mwmesh::Vector, 3>& axes) {
   for (std::size_t i = 0; i < 3; ++i) {
     const mwmesh::Vector &a = axes[i], &b = axes[(i + 1) % 3];
     const bool is_unit = std::abs(std::hypot(a[0], a[1], a[2]) - 1) < kMost;
-    if (!is_unit) throw Error(ErrorKind::kUsage, "axes must have unit length");
+    if (!is_unit) io::fail_usage("axes must have unit length");
     if (std::abs(a[0] * b[0] + a[1] * b[1] + a[2] * b[2]) <= kMost) continue;
-    throw Error(ErrorKind::kUsage,
-                "axes must be at right angles: resample a sheared volume onto a grid that has "
-                "them, or leave the axes out");
+    io::fail_usage(
+        "axes must be at right angles: resample a sheared volume onto a grid that has "
+        "them, or leave the axes out");
   }
 }
 
@@ -123,9 +123,9 @@ std::unique_ptr<io::MeshSink> open_file(const std::filesystem::path& path,
   }
   auto sink = io::open_mesh_sink(checked_path(path), io::parse_element(file.element), extras);
   if (extras.materials && !file.values && io::why_no_values(path).empty()) {
-    throw Error(ErrorKind::kUsage, "values: " + path.string() +
-                                       " has values of tets where it has materials; write "
-                                       "them, too, or give an .inp, which has materials alone");
+    io::fail_usage("values: " + path.string() +
+                   " has values of tets where it has materials; write "
+                   "them, too, or give an .inp, which has materials alone");
   }
   return sink;
 }
@@ -158,23 +158,22 @@ void write_rows(const mwmesh::Mesh& mesh, bool values, io::MeshSink& sink) {
 
 void deliver(const mwmesh::Mesh& mesh, io::MeshSink& sink, bool values) {
   if (mesh.labels.size() != mesh.tets.size()) {
-    throw Error(ErrorKind::kUsage, "mesh: there must be one label a tet");
+    io::fail_usage("mesh: there must be one label a tet");
   }
   for (const auto& [name, column] : mesh.values) {
     if (column.size() == mesh.tets.size()) continue;
-    throw Error(ErrorKind::kUsage, "mesh: there must be one value '" + name + "' a tet");
+    io::fail_usage("mesh: there must be one value '" + name + "' a tet");
   }
   for (const auto& tet : mesh.tets) {
     for (const std::uint64_t row : tet) {
       if (row < mesh.points.size()) continue;
-      throw Error(ErrorKind::kUsage, "mesh: a tet names point " + std::to_string(row) + " of " +
-                                         std::to_string(mesh.points.size()));
+      io::fail_usage("mesh: a tet names point " + std::to_string(row) + " of " +
+                     std::to_string(mesh.points.size()));
     }
   }
   if (mesh.in_parts && mesh.tets.size() % kTetParts.size() != 0) {
-    throw Error(ErrorKind::kUsage,
-                io::text("mesh: in_parts needs eight tets for each curved one, and there are ",
-                         mesh.tets.size()));
+    io::fail_usage("mesh: in_parts needs eight tets for each curved one, and there are ",
+                   mesh.tets.size());
   }
   io::MeshHeader header{.tets = mesh.tets.size(),
                         .labels_signed = mesh.labels_are_signed,

@@ -8,14 +8,14 @@
 #include <deque>
 
 #include "engine/settings/near_words.h"
-#include "kernels/core/error.h"
+#include "io/file/errors.h"
 
 namespace mw::cli {
 namespace {
 
 [[noreturn]] void refuse(const std::string& what, const Command* command) {
   const std::string see = command == nullptr ? "mwmesh" : "mwmesh " + command->name;
-  throw Error(ErrorKind::kUsage, what + "; see " + see + " --help");
+  io::fail_usage(what + "; see " + see + " --help");
 }
 
 const Command& find_command(const std::vector<Command>& commands, const std::string& name) {

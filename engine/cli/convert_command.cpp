@@ -9,10 +9,10 @@
 #include "engine/cli/options/shared_options.h"
 #include "engine/cli/options/values.h"
 #include "engine/settings/material_text.h"
+#include "io/file/errors.h"
 #include "io/mesh/no_sink.h"
 #include "io/mesh/open_mesh.h"
 #include "io/mesh/tee_sink.h"
-#include "kernels/core/error.h"
 
 namespace mw::cli {
 namespace {
@@ -52,14 +52,13 @@ std::unique_ptr<io::MeshSink> open_output(const ConvertJob& job) {
   const bool in_pieces = job.to.extension() == io::kPiecesExtension;
   if (!in_pieces && job.pieces == 0) return io::open_mesh_sink(job.to, job.element, job.extras);
   if (in_pieces && job.pieces == 0) {
-    throw Error(ErrorKind::kUsage,
-                job.to.string() + ": a mesh in pieces; say how many with --pieces N");
+    io::fail_usage(job.to.string() + ": a mesh in pieces; say how many with --pieces N");
   }
   if (job.extras.encoding == io::Encoding::kText || job.extras.materials || job.extras.deck ||
       job.element != io::Element::kTet4 || !job.extras.pairs.empty()) {
-    throw Error(ErrorKind::kUsage, job.to.string() +
-                                       ": pieces are written with tet4 only, in one way, without "
-                                       "--materials, --deck and --pairs");
+    io::fail_usage(job.to.string() +
+                   ": pieces are written with tet4 only, in one way, without "
+                   "--materials, --deck and --pairs");
   }
   return io::open_mesh_pieces(job.to, job.pieces);
 }
@@ -88,7 +87,7 @@ std::uint64_t parse_pieces(const std::string& text) {
   constexpr std::int64_t kMaxPieces = 1 << 20;
   const std::int64_t pieces = parse_integer(text);
   if (pieces >= 1 && pieces <= kMaxPieces) return static_cast<std::uint64_t>(pieces);
-  throw Error(ErrorKind::kUsage, "expected pieces from 1 to " + std::to_string(kMaxPieces));
+  io::fail_usage("expected pieces from 1 to " + std::to_string(kMaxPieces));
 }
 
 void add_output_options(OptionSet& options, ConvertJob& job) {

@@ -17,6 +17,7 @@
 #include "engine/cli/interrupt.h"
 #include "engine/cli/log.h"
 #include "engine/cli/mesh/run_processes.h"
+#include "io/file/errors.h"
 
 namespace mw::cli {
 namespace {
@@ -53,11 +54,10 @@ void require_stack() {
 int run_command(const CommandLine& line, const std::vector<Command>& commands) {
   require_stack();
   if (line.command == nullptr) {
-    throw Error(ErrorKind::kUsage, "a command is needed; see mwmesh --help");
+    io::fail_usage("a command is needed; see mwmesh --help");
   }
   if (runs_are_divided() && line.command->name != "mesh") {
-    throw Error(ErrorKind::kUsage,
-                "mwmesh-mpi shares out mesh; for everything else there is mwmesh");
+    io::fail_usage("mwmesh-mpi shares out mesh; for everything else there is mwmesh");
   }
   std::vector<const OptionSet*> all;
   for (const Command& command : commands) all.push_back(&command.options);

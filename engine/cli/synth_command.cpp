@@ -7,9 +7,9 @@
 #include "engine/cli/exit_code.h"
 #include "engine/cli/options/shared_options.h"
 #include "engine/cli/options/values.h"
+#include "io/file/errors.h"
 #include "io/volume/decode.h"
 #include "io/volume/npy/open_npy.h"
-#include "kernels/core/error.h"
 #include "kernels/synth/synth.h"
 
 namespace mw::cli {
@@ -32,7 +32,7 @@ io::VoxelType type_for(std::uint64_t labels) {
 
 io::VoxelType parse_dtype(const std::string& text) {
   const std::optional<io::VoxelType> type = io::parse_voxel_type(text);
-  if (!type || io::is_float(*type)) throw Error(ErrorKind::kUsage, "expected u8 to u64");
+  if (!type || io::is_float(*type)) io::fail_usage("expected u8 to u64");
   return *type;
 }
 
@@ -47,7 +47,7 @@ int run_synth(const SynthJob& job) {
   const SynthSpec& spec = job.spec;
   check_synth_spec(spec);
   if (job.output.extension() != ".npy") {
-    throw Error(ErrorKind::kUsage, "-o " + job.output.string() + ": volumes are written as .npy");
+    io::fail_usage("-o " + job.output.string() + ": volumes are written as .npy");
   }
   io::VolumeInfo info;
   info.shape = spec.shape;

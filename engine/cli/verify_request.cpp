@@ -7,8 +7,8 @@
 #include "engine/cli/options/shared_options.h"
 #include "engine/cli/options/values.h"
 #include "engine/system/memory.h"
+#include "io/file/errors.h"
 #include "kernels/audit/audit.h"
-#include "kernels/core/error.h"
 
 namespace mw::cli {
 namespace {
@@ -20,7 +20,7 @@ std::optional<double> parse_bound(const std::string& text) {
   if (text == kNone) return std::nullopt;
   const double bound = parse_number(text);
   if (bound >= 0) return bound;
-  throw Error(ErrorKind::kUsage, "must not be negative; or none");
+  io::fail_usage("must not be negative; or none");
 }
 
 void add_bounds(OptionSet& options, VerifyRequest& request) {
@@ -73,9 +73,9 @@ void check_verify_request(VerifyRequest& request) {
   engine::check_choice(request.choice);
   if (request.asked.interfaces.value_or(false) &&
       (request.choice.labels || request.choice.background)) {
-    throw Error(ErrorKind::kUsage,
-                "--topology interfaces: is for meshes of all labels, without --labels and "
-                "--background");
+    io::fail_usage(
+        "--topology interfaces: is for meshes of all labels, without --labels and "
+        "--background");
   }
   FileNames files;
   files.read_volume(request.volume);

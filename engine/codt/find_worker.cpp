@@ -10,7 +10,7 @@
 #include <optional>
 #include <string>
 
-#include "kernels/core/error.h"
+#include "io/file/errors.h"
 
 namespace mw::engine::codt {
 namespace {
@@ -69,9 +69,8 @@ fs::path find_worker() {
   for (const fs::path& program : positions) {
     if (can_be_run(program)) return program;
   }
-  throw Error(ErrorKind::kUsage,
-              "--optimizer tetgen: there is no program " + positions.front().string() +
-                  "; it is built with -DMW_WITH_TETGEN=ON, and MW_CODT_WORKER names another place");
+  io::fail_usage("--optimizer tetgen: there is no program " + positions.front().string() +
+                 "; it is built with -DMW_WITH_TETGEN=ON, and MW_CODT_WORKER names another place");
 }
 
 }  // namespace mw::engine::codt

@@ -16,6 +16,7 @@
 #include <cstring>
 #include <utility>
 
+#include "io/file/errors.h"
 #include "kernels/core/error.h"
 
 namespace mw::engine::codt {
@@ -68,7 +69,7 @@ class SpawnPlan {
     if (reason == 0) return id;
     const std::string message = "--optimizer tetgen: cannot start " + program + ": " +
                                 std::strerror(reason);  // NOLINT(concurrency-mt-unsafe)
-    if (reason != EAGAIN && reason != ENOMEM) throw Error(ErrorKind::kUsage, message);
+    if (reason != EAGAIN && reason != ENOMEM) io::fail_usage(message);
     throw Error(ErrorKind::kResource,
                 message + "; raise the limit of processes (ulimit -u) or give fewer --threads");
   }

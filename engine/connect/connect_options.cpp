@@ -44,8 +44,7 @@ std::vector<std::array<RawLabel, 2>> parse_pairs(std::string_view text) {
 
 void check_label(RawLabel label, const char* option, const io::LabelTable& table) {
   if (table.contains(label)) return;
-  throw Error(ErrorKind::kUsage, io::text(option, ": the volume has no label ",
-                                          io::label_text(label, table.is_signed())));
+  io::fail_usage(option, ": the volume has no label ", io::label_text(label, table.is_signed()));
 }
 
 }  // namespace

@@ -216,9 +216,8 @@ void PartFinder::choose_parts() {
   }
   const PartsRule& rule = options_.parts;
   if (facts_.largest_tets < rule.least_tets) {
-    throw Error(ErrorKind::kUsage,
-                io::text("--parts ", rule.least_tets, ": no part is that large, the largest has ",
-                         facts_.largest_tets));
+    io::fail_usage("--parts ", rule.least_tets, ": no part is that large, the largest has ",
+                   facts_.largest_tets);
   }
   for (std::uint32_t p = 0; p < pieces_.size(); ++p) {
     const std::uint32_t part = root(&Piece::parent, p);

@@ -9,6 +9,7 @@
 #include "engine/report/mesh_facts.h"
 #include "engine/settings/promises.h"
 #include "engine/verify/verify_mesh.h"
+#include "io/file/errors.h"
 #include "io/file/text_numbers.h"
 #include "kernels/core/error.h"
 
@@ -51,7 +52,7 @@ CertificatePlan plan_certificate(const MeshJob& job) {
   if (job.certify == Certify::kOff) return {.why_not = "not asked for"};
   const std::string why_not = obstacle(job);
   if (!why_not.empty() && job.certify == Certify::kOn) {
-    throw Error(ErrorKind::kUsage, "--certify on: " + why_not);
+    io::fail_usage("--certify on: " + why_not);
   }
   if (!why_not.empty()) return {.why_not = why_not};
   const std::uint64_t max = (job.run.store.memory / 4 - kShared) / kPerThread;

@@ -9,7 +9,6 @@
 
 #include "engine/labels/voxel_lattice.h"
 #include "io/file/errors.h"
-#include "kernels/core/error.h"
 #include "kernels/distance/distance_guard.h"
 
 namespace mw::engine {
@@ -39,20 +38,19 @@ int halvings_of(const io::VolumeInfo& volume, const MeshJob& job, double in_imag
   if (!sizes.rules.any() || sizes.count > 0) return 0;
   const double kept = least_size(volume), listed = sizes.rules.least();
   if (std::ldexp(listed, io::kMostHalvings) < kept) {
-    throw Error(ErrorKind::kUsage,
-                io::text("size ", listed,
-                         " is too small: the marches make edges as long as the diagonals of "
-                         "voxels, and tets are cut ",
-                         io::kMostHalvings, " times at most; ",
-                         told_size(std::ldexp(kept, -io::kMostHalvings)), " can be kept"));
+    io::fail_usage("size ", listed,
+                   " is too small: the marches make edges as long as the diagonals of "
+                   "voxels, and tets are cut ",
+                   io::kMostHalvings, " times at most; ",
+                   told_size(std::ldexp(kept, -io::kMostHalvings)), " can be kept");
   }
   const double least = std::min(listed, in_image);
   int times = 0;
   while (times < io::kMostHalvings && std::ldexp(least, times) < kept) ++times;
   const bool is_alone = job.run.processes == nullptr || job.run.processes->count() == 1;
   if (times == 0 || is_alone) return times;
-  throw Error(ErrorKind::kUsage, io::text("size ", least, ": sizes below ", told_size(kept),
-                                          " are for one process only, run mwmesh without mpirun"));
+  io::fail_usage("size ", least, ": sizes below ", told_size(kept),
+                 " are for one process only, run mwmesh without mpirun");
 }
 
 MeshSettings before_halvings(MeshSettings settings, int times) {

@@ -71,10 +71,9 @@ class CountedVolume : public io::VolumeView {
 void check_changed(const std::vector<Box3>& changed) {
   for (const Box3& box : changed) {
     if (!is_empty(box)) continue;
-    throw Error(ErrorKind::kUsage,
-                io::text("--changed: the box from ", box.lo.x, ",", box.lo.y, ",", box.lo.z, " to ",
-                         box.hi.x, ",", box.hi.y, ",", box.hi.z,
-                         " has no voxel: give the first voxel, and the one behind the last"));
+    io::fail_usage("--changed: the box from ", box.lo.x, ",", box.lo.y, ",", box.lo.z, " to ",
+                   box.hi.x, ",", box.hi.y, ",", box.hi.z,
+                   " has no voxel: give the first voxel, and the one behind the last");
   }
 }
 
@@ -161,14 +160,12 @@ class KeptInput {
     if (before_) return;
     const std::string folder = folder_->path().string();
     if (std::error_code ignored; std::filesystem::exists(file, ignored)) {
-      throw Error(ErrorKind::kUsage,
-                  folder +
-                      ": was kept of a volume of another shape; give that volume, edited, or "
-                      "delete the folder and begin it by --keep");
+      io::fail_usage(folder +
+                     ": was kept of a volume of another shape; give that volume, edited, or "
+                     "delete the folder and begin it by --keep");
     }
     if (job.delta == Delta::kOn) {
-      throw Error(ErrorKind::kUsage,
-                  "--delta: no run was complete in " + folder + ", there is nothing before");
+      io::fail_usage("--delta: no run was complete in " + folder + ", there is nothing before");
     }
     if (options.say && !options.changed.empty()) {
       options.say(folder +
@@ -266,7 +263,7 @@ std::optional<SizeImage> size_image(const io::VolumeInfo& labels, const MeshJob&
   const std::string& file = job.settings.sizes.rules.image;
   if (file.empty()) return std::nullopt;
   if (job.size_image != nullptr) return SizeImage(*job.size_image, labels, file);
-  throw Error(ErrorKind::kUsage, "size: the image " + file + " was not opened");
+  io::fail_usage("size: the image " + file + " was not opened");
 }
 
 /// Returns the smallest size of an image.  ERRORS: mw::Error(kInput) if it asks for none.
@@ -302,25 +299,24 @@ ReadingRoom reading_room(const MeshJob& job, bool has_scores = false) {
 /// ERRORS: mw::Error(kUsage) for what does not go with labels that come from scores.
 void check_scored(const MeshJob& job) {
   if (!job.steps.merge.empty()) {
-    throw Error(
-        ErrorKind::kUsage,
+    io::fail_usage(
         "--merge: merged labels have no probabilities or distances; merge these (the sum of "
         "probabilities, the least distance) before they are meshed");
   }
   if (!job.steps.weld.empty()) {
-    throw Error(ErrorKind::kUsage,
-                "--weld: voxels that it fills have no probabilities or distances; mesh a volume of "
-                "labels, or without it");
+    io::fail_usage(
+        "--weld: voxels that it fills have no probabilities or distances; mesh a volume of "
+        "labels, or without it");
   }
   if (!job.run.keep.folder.empty()) {
-    throw Error(ErrorKind::kUsage,
-                "--keep: what is kept is known by its labels alone, and interfaces depend on "
-                "probabilities and distances, too; mesh without it, or a volume of labels");
+    io::fail_usage(
+        "--keep: what is kept is known by its labels alone, and interfaces depend on "
+        "probabilities and distances, too; mesh without it, or a volume of labels");
   }
   if (job.run.processes != nullptr && job.run.processes->count() > 1) {
-    throw Error(ErrorKind::kUsage,
-                "--values: probabilities and distances are meshed in one process only, run mwmesh "
-                "without mpirun");
+    io::fail_usage(
+        "--values: probabilities and distances are meshed in one process only, run mwmesh "
+        "without mpirun");
   }
 }
 

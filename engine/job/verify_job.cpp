@@ -15,7 +15,6 @@
 #include "io/file/errors.h"
 #include "io/file/text_numbers.h"
 #include "io/mesh/merged_vertices.h"
-#include "kernels/core/error.h"
 #include "kernels/core/layers.h"
 
 namespace mw::engine {
@@ -131,9 +130,8 @@ report::Bounds bounds_of(const AskedBounds& asked, const io::MeshRecord& record,
   io::MeshPromises& bounds = out.promises;
   if (out.of_run) check_promises(bounds);
   if (asked.interfaces.value_or(false) && !kept.labels.empty()) {
-    throw Error(ErrorKind::kUsage,
-                "--topology interfaces: is for meshes of all labels, and this one is " +
-                    (kept.told.empty() ? "of some" : kept.told));
+    io::fail_usage("--topology interfaces: is for meshes of all labels, and this one is " +
+                   (kept.told.empty() ? "of some" : kept.told));
   }
   if (asked.max_distance) bounds.max_distance = *asked.max_distance;
   bounds.quality_floor = asked.quality_floor.value_or(floor_of(bounds));

@@ -68,7 +68,7 @@ bool is_part(const fs::path& path) {
 }
 
 [[noreturn]] void refuse(const fs::path& path, const std::string& why) {
-  throw Error(ErrorKind::kUsage, path.string() + ": " + why);
+  io::fail_usage(path.string() + ": " + why);
 }
 
 fs::path whole(const fs::path& path) {

@@ -86,11 +86,10 @@ void check_periodic(Index3 shape, const MeshSettings& settings) {
   for (unsigned axis = 0; axis < 3; ++axis) {
     const std::int64_t voxels = along(shape, axis);
     if (!is_periodic(settings, axis) || voxels % 2 == 0) continue;
-    throw Error(ErrorKind::kUsage,
-                io::text("--periodic: the volume has ", voxels, " voxels along ",
-                         std::string_view("xyz").substr(axis, 1),
-                         "; a cell that repeats itself needs an even number: --crop it, or "
-                         "resample it"));
+    io::fail_usage("--periodic: the volume has ", voxels, " voxels along ",
+                   std::string_view("xyz").substr(axis, 1),
+                   "; a cell that repeats itself needs an even number: --crop it, or "
+                   "resample it");
   }
 }
 

@@ -54,10 +54,9 @@ void check_floor(const io::VolumeInfo& volume, const MeshSettings& settings) {
   const double told = std::floor(1000 * kept) / 1000;
   const std::array<double, 3> voxel =
       layered_spacing(volume.space.spacing, layers_of(volume.space.spacing));
-  throw Error(ErrorKind::kUsage,
-              io::text("quality-floor ", settings.quality_floor,
-                       " cannot be promised for voxels of ", voxel[0], " x ", voxel[1], " x ",
-                       voxel[2], "; --quality-floor ", told, " can be", way_out(volume, settings)));
+  io::fail_usage("quality-floor ", settings.quality_floor, " cannot be promised for voxels of ",
+                 voxel[0], " x ", voxel[1], " x ", voxel[2], "; --quality-floor ", told, " can be",
+                 way_out(volume, settings));
 }
 
 /// Start meshes have edges as long as the diagonal of a voxel, and no step cuts an edge.  With a
@@ -66,10 +65,9 @@ void check_sizes(const io::VolumeInfo& volume, const MeshSettings& settings) {
   if (!settings.sizes.rules.any() || settings.sizes.count > 0) return;
   const double least = settings.sizes.rules.least(), kept = least_size(volume);
   if (least >= kept) return;
-  throw Error(
-      ErrorKind::kUsage,
-      io::text("size ", least, " is too small: the finest start mesh has the diagonals of voxels; ",
-               told_size(kept), " can be kept"));
+  io::fail_usage("size ", least,
+                 " is too small: the finest start mesh has the diagonals of voxels; ",
+                 told_size(kept), " can be kept");
 }
 
 /// Returns the largest absolute coordinate of the box.
@@ -143,7 +141,7 @@ void check(const io::LabelTable& labels, const MeshSettings& settings) {
     if (labels.contains(label)) return;
     const std::string name = labels.is_signed() ? std::to_string(static_cast<std::int64_t>(label))
                                                 : std::to_string(label);
-    throw Error(ErrorKind::kUsage, "size: the volume has no label " + name);
+    io::fail_usage("size: the volume has no label " + name);
   };
   const SizeRules& rules = settings.sizes.rules;
   for (const LabelSize& s : rules.labels) require(s.label);

@@ -5,7 +5,7 @@
 
 #include <string>
 
-#include "kernels/core/error.h"
+#include "io/file/errors.h"
 
 namespace mw::engine {
 namespace {
@@ -14,7 +14,7 @@ void require_label(RawLabel label, const io::LabelTable& table, const char* opti
   if (table.contains(label)) return;
   const std::string digits =
       table.is_signed() ? std::to_string(static_cast<std::int64_t>(label)) : std::to_string(label);
-  throw Error(ErrorKind::kUsage, std::string(option) + ": the volume has no label " + digits);
+  io::fail_usage(std::string(option) + ": the volume has no label " + digits);
 }
 
 }  // namespace
@@ -48,7 +48,7 @@ void LabelSelection::apply(BlockMesh& block) const {
 
 void check_choice(const LabelChoice& choice) {
   if (choice.labels && choice.background) {
-    throw Error(ErrorKind::kUsage, "--labels and --background: give one of them, not both");
+    io::fail_usage("--labels and --background: give one of them, not both");
   }
 }
 
@@ -56,7 +56,7 @@ WantedLabel wanted_labels(const LabelChoice& choice, const io::LabelTable& table
   if (!choice.labels && !choice.background) return {};
   if (choice.background) {
     require_label(*choice.background, table, "--background");
-    if (table.size() == 1) throw Error(ErrorKind::kUsage, "--background: it is the only label");
+    if (table.size() == 1) io::fail_usage("--background: it is the only label");
     return [left_out = *choice.background](RawLabel label) { return label != left_out; };
   }
   for (const RawLabel label : *choice.labels) require_label(label, table, "--labels");

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "io/file/errors.h"
 #include "kernels/core/error.h"
 
 namespace mw::picture {
@@ -82,7 +83,7 @@ int band_rows(const PictureStyle& style) {
 void check_sides(std::int64_t width, std::int64_t height) {
   constexpr std::int64_t kMin = 16, kMax = 8192;
   if (std::min(width, height) >= kMin && std::max(width, height) <= kMax) return;
-  throw Error(ErrorKind::kUsage, "expected pixels from 16x16 to 8192x8192, e.g. 1200x900");
+  io::fail_usage("expected pixels from 16x16 to 8192x8192, e.g. 1200x900");
 }
 
 std::uint64_t draw(MeshScene& scene, const PictureStyle& style, const io::TakeBytes& take) {

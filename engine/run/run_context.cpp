@@ -9,6 +9,7 @@
 #include "engine/settings/promises.h"
 #include "engine/store/journal/workdir.h"
 #include "engine/window/window_memory.h"
+#include "io/file/errors.h"
 #include "io/file/text_numbers.h"
 
 namespace mw::engine {
@@ -18,7 +19,7 @@ namespace {
 const MeshSettings& checked(const io::DenseVolume& volume, const MeshSettings& settings) {
   check(volume.info(), settings);
   if (settings.periodic != 0 && volume.raw().scores() != nullptr) {
-    throw Error(ErrorKind::kUsage, "periodic: works with labels, not with --values");
+    io::fail_usage("periodic: works with labels, not with --values");
   }
   check(volume.table(), settings);
   return settings;
@@ -31,8 +32,7 @@ RunHooks settled(RunHooks hooks, const MeshSettings& settings, Index3 layers) {
   if (hooks.processes == nullptr) hooks.processes = &one_process();
   check_keep(hooks, settings);
   if (settings.periodic != 0 && hooks.processes->count() > 1) {
-    throw Error(ErrorKind::kUsage,
-                "periodic: works in one process only, run mwmesh without mpirun");
+    io::fail_usage("periodic: works in one process only, run mwmesh without mpirun");
   }
   if (!hooks.keep.folder.empty()) hooks.store.workdir.clear();
   return hooks;
@@ -151,24 +151,24 @@ std::string way_on(const RunHooks& hooks) {
 void check_keep(const RunHooks& hooks, const MeshSettings& settings) {
   if (hooks.keep.folder.empty()) {
     if (!hooks.keep.bytes) return;
-    throw Error(ErrorKind::kUsage, "--keep-bytes: is the size of a folder, name it with --keep");
+    io::fail_usage("--keep-bytes: is the size of a folder, name it with --keep");
   }
   if (settings.order != Order::kColour) {
-    throw Error(ErrorKind::kUsage,
-                "keep: needs order colour: in raster order an edit changes what all later windows "
-                "see, so nothing could be used again");
+    io::fail_usage(
+        "keep: needs order colour: in raster order an edit changes what all later windows "
+        "see, so nothing could be used again");
   }
   if (settings.periodic != 0) {
-    throw Error(ErrorKind::kUsage, "keep: works without periodic");
+    io::fail_usage("keep: works without periodic");
   }
   if (settings.sizes.count > 0) {
-    throw Error(ErrorKind::kUsage,
-                "count: looks at the whole volume, so that an edit anywhere could change sizes "
-                "everywhere; with keep give size instead");
+    io::fail_usage(
+        "count: looks at the whole volume, so that an edit anywhere could change sizes "
+        "everywhere; with keep give size instead");
   }
   const bool are_many = hooks.processes != nullptr && hooks.processes->count() > 1;
   if (are_many && hooks.keep.use == KeepUse::kUpdate) {
-    throw Error(ErrorKind::kUsage, "from: works in one process only, run mwmesh without mpirun");
+    io::fail_usage("from: works in one process only, run mwmesh without mpirun");
   }
 }
 

@@ -93,9 +93,8 @@ io::VolumeSpace space_in(const SampleImage& sample, const io::VolumeInfo& labels
   }
   const std::string &own = image.space.unit, &wanted = labels.space.unit;
   if (!own.empty() && !wanted.empty() && own != wanted) {
-    throw Error(ErrorKind::kUsage,
-                io::text("--sample ", sample.name, ": ", sample.file, " is in ", own,
-                         ", the labels are in ", wanted, ": convert one of them"));
+    io::fail_usage("--sample ", sample.name, ": ", sample.file, " is in ", own,
+                   ", the labels are in ", wanted, ": convert one of them");
   }
   return in_frame(image.space, labels.space.frame);
 }

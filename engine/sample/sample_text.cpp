@@ -39,15 +39,14 @@ std::string in_small_letters(std::string text) {
 SampleImage parse_sample(std::string_view text) {
   const std::size_t equals = text.find('=');
   if (equals == text.npos || equals + 1 == text.size()) {
-    throw Error(ErrorKind::kUsage,
-                io::text("expected NAME=FILE or NAME=FILE:mean, got '", text, "'"));
+    io::fail_usage("expected NAME=FILE or NAME=FILE:mean, got '", text, "'");
   }
   SampleImage out{.name = std::string(text.substr(0, equals)),
                   .file = std::string(text.substr(equals + 1))};
   if (!is_name(out.name)) {
-    throw Error(ErrorKind::kUsage, io::text("'", out.name,
-                                            "' is no name for values; a letter and up "
-                                            "to 30 letters, digits and '_' are"));
+    io::fail_usage("'", out.name,
+                   "' is no name for values; a letter and up "
+                   "to 30 letters, digits and '_' are");
   }
   for (const auto& [statistic, word] : kStatistics) {
     const std::string ending = io::text(":", word);
@@ -72,7 +71,7 @@ std::vector<SampleImage> parse_samples(std::string_view text) {
     out.push_back(parse_sample(part));
     const std::string name = in_small_letters(out.back().name);
     if (std::find(taken.begin(), taken.end(), name) != taken.end()) {
-      throw Error(ErrorKind::kUsage, io::text("the name '", out.back().name, "' is taken"));
+      io::fail_usage("the name '", out.back().name, "' is taken");
     }
     taken.push_back(name);
   }

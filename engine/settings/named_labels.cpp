@@ -70,13 +70,12 @@ std::string listed(const std::vector<std::string>& names) {
     if (!row.name.empty()) known.push_back(row.name);
   }
   if (known.empty()) {
-    throw Error(ErrorKind::kUsage, "no label has a name, and so none is called '" + name +
-                                       "'; give numbers, or names with --names FILE");
+    io::fail_usage("no label has a name, and so none is called '" + name +
+                   "'; give numbers, or names with --names FILE");
   }
   const std::vector<std::string> near = near_words(name, known);
   const char* const which = near.empty() ? "; names are " : "; near it: ";
-  throw Error(ErrorKind::kUsage,
-              "no label is called '" + name + "'" + which + listed(near.empty() ? known : near));
+  io::fail_usage("no label is called '" + name + "'" + which + listed(near.empty() ? known : near));
 }
 
 std::string number_text(RawLabel label, bool is_signed) {
@@ -87,8 +86,7 @@ std::string number_text(RawLabel label, bool is_signed) {
                                  bool is_signed) {
   std::vector<std::string> numbers;
   for (const RawLabel label : found) numbers.push_back(number_text(label, is_signed));
-  throw Error(ErrorKind::kUsage,
-              "labels " + listed(numbers) + " are called '" + name + "'; give the number");
+  io::fail_usage("labels " + listed(numbers) + " are called '" + name + "'; give the number");
 }
 
 bool is_same_letter(char a, char b) {
@@ -153,8 +151,8 @@ RawLabel find_label(std::string_view text, const io::LabelNames& names, bool is_
   const RawLabel label = parse_label(token);
   const bool is_high = label >> 63U != 0;
   if (!is_high || is_signed == token.starts_with('-')) return label;
-  throw Error(ErrorKind::kUsage, io::text("label ", token, ": labels are ",
-                                          is_signed ? "signed, below 2^63" : "not negative"));
+  io::fail_usage("label ", token, ": labels are ",
+                 is_signed ? "signed, below 2^63" : "not negative");
 }
 
 bool has_names(std::string_view text) {

@@ -46,7 +46,7 @@ std::optional<std::uint64_t> bytes_of(std::string_view number, std::uint64_t uni
 }  // namespace
 
 void fail_expected(std::string_view expected, std::string_view text) {
-  throw Error(ErrorKind::kUsage, io::text("expected ", expected, ", got '", text, "'"));
+  io::fail_usage("expected ", expected, ", got '", text, "'");
 }
 
 std::int64_t parse_integer(std::string_view text) {

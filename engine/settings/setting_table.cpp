@@ -12,6 +12,7 @@
 
 #include "engine/settings/number_text.h"
 #include "engine/settings/size_text.h"
+#include "io/file/errors.h"
 #include "kernels/distance/distance_guard.h"
 
 namespace mw::engine {
@@ -356,7 +357,7 @@ const std::vector<SettingRule>& setting_rules() {
 
 void check(const Setting& setting, const MeshSettings& settings) {
   if (setting.is_allowed == nullptr || setting.is_allowed(settings)) return;
-  throw Error(ErrorKind::kUsage, setting.name + " must be " + setting.allowed);
+  io::fail_usage(setting.name + " must be " + setting.allowed);
 }
 
 void set(const Setting& setting, MeshSettings& settings, const std::string& text) {
@@ -367,7 +368,7 @@ void set(const Setting& setting, MeshSettings& settings, const std::string& text
 void check_threads(std::int64_t threads) {
   constexpr int kMax = 1024;
   if (threads >= 0 && threads <= kMax) return;
-  throw Error(ErrorKind::kUsage, "threads must be " + range_text(1, kMax) + ", or 0 for all cores");
+  io::fail_usage("threads must be " + range_text(1, kMax) + ", or 0 for all cores");
 }
 
 }  // namespace mw::engine

@@ -8,6 +8,7 @@
 #include <string>
 
 #include "engine/settings/setting_table.h"
+#include "io/file/errors.h"
 
 namespace mw::engine {
 
@@ -53,7 +54,7 @@ void check(const MeshSettings& settings) {
     }
   }
   for (const SettingRule& rule : setting_rules()) {
-    if (!rule.is_kept(settings)) throw Error(ErrorKind::kUsage, rule.told);
+    if (!rule.is_kept(settings)) io::fail_usage(rule.told);
   }
 }
 

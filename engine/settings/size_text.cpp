@@ -30,11 +30,11 @@ bool names_table(std::string_view part) {
 double parse_size(std::string_view text) {
   const double size = parse_number(text);
   if (size > 0.0) return size;
-  throw Error(ErrorKind::kUsage, io::text("a size must be positive, got '", text, "'"));
+  io::fail_usage("a size must be positive, got '", text, "'");
 }
 
 [[noreturn]] void fail_twice(std::string_view where) {
-  throw Error(ErrorKind::kUsage, io::text(where, " has two sizes"));
+  io::fail_usage(where, " has two sizes");
 }
 
 /// Adds the rule of a place, which is "7", "3|5" or "*".
@@ -99,7 +99,7 @@ SizeRules parse_sizes(std::string_view text) {
     } else if (equals != part.npos) {
       add_rule(out, part.substr(0, equals), part.substr(equals + 1));
     } else if (names_image(part)) {
-      if (!out.image.empty()) throw Error(ErrorKind::kUsage, "sizes come from two images");
+      if (!out.image.empty()) io::fail_usage("sizes come from two images");
       out.image = part.substr(part.starts_with('@') ? 1 : 0);
     } else {
       const bool is_number = part.find_first_not_of("0123456789.eE+-") == part.npos;

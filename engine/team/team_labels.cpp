@@ -8,6 +8,7 @@
 #include "engine/labels/label_scan.h"
 #include "engine/team/team.h"
 #include "engine/window/window_memory.h"
+#include "io/file/errors.h"
 #include "kernels/core/error.h"
 
 namespace mw::engine {
@@ -41,9 +42,9 @@ void refuse_other_volumes(Team& team, const FingerprintVolume& volume) {
     const auto seen = list_of<std::uint64_t>(all[static_cast<std::size_t>(rank)]);
     const auto other = list_of<std::uint64_t>(all[static_cast<std::size_t>(next(rank))]);
     if (seen.at(1) == other.at(0)) continue;
-    throw Error(ErrorKind::kUsage, "the processes of this run do not mesh the same: ranks " +
-                                       std::to_string(rank) + " and " + std::to_string(next(rank)) +
-                                       " read other labels; give all of them the same volume");
+    io::fail_usage("the processes of this run do not mesh the same: ranks " + std::to_string(rank) +
+                   " and " + std::to_string(next(rank)) +
+                   " read other labels; give all of them the same volume");
   }
 }
 

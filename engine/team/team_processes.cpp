@@ -7,6 +7,7 @@
 #include "engine/team/saved/saved_run.h"
 #include "engine/team/team_labels.h"
 #include "engine/team/team_run.h"
+#include "io/file/errors.h"
 
 namespace mw::engine {
 
@@ -26,10 +27,9 @@ std::unique_ptr<WindowKeep> TeamPart::open_keep(const OpenKeep& open) {
   std::unique_ptr<WindowKeep> keep;
   if (team_.is_first()) keep = open(team_.rank());
   if (keep != nullptr && keep->has_facts()) {
-    throw Error(ErrorKind::kUsage,
-                keep->folder().string() +
-                    ": holds what an earlier run has kept, which one process alone goes on from; "
-                    "run mwmesh without mpirun, or delete the folder");
+    io::fail_usage(keep->folder().string() +
+                   ": holds what an earlier run has kept, which one process alone goes on from; "
+                   "run mwmesh without mpirun, or delete the folder");
   }
   wait_for_all(team_);
   if (!team_.is_first()) keep = open(team_.rank());

@@ -48,9 +48,9 @@ void agree(Team& team, const std::string& identity) {
   const std::vector<std::string> all = team.gather(identity);
   for (std::size_t rank = 1; rank < all.size(); ++rank) {
     if (all[rank] == all[0]) continue;
-    throw Error(ErrorKind::kUsage, "the processes of this run do not mesh the same: " +
-                                       difference(all[0], all[rank], static_cast<int>(rank)) +
-                                       "; start all of them with one command line and one version");
+    io::fail_usage("the processes of this run do not mesh the same: " +
+                   difference(all[0], all[rank], static_cast<int>(rank)) +
+                   "; start all of them with one command line and one version");
   }
 }
 

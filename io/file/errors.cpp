@@ -33,7 +33,7 @@ void fail_output(std::string_view path, std::string_view action, int error_numbe
     case ENAMETOOLONG:
     case ELOOP:
     case EINVAL:
-      throw Error(ErrorKind::kUsage, start + "; give a path in an existing, writable folder");
+      fail_usage(start + "; give a path in an existing, writable folder");
     default:
       throw Error(ErrorKind::kResource, start + "; check the disk and its limits");
   }

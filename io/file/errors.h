@@ -34,6 +34,12 @@ template <class... Pieces>
   return out;
 }
 
+/// Throws mw::Error(kUsage) with the pieces as text().
+template <class... Pieces>
+[[noreturn]] void fail_usage(const Pieces&... pieces) {
+  throw Error(ErrorKind::kUsage, text(pieces...));
+}
+
 /// Throws mw::Error(kInput): "FILE: FIELD: REASON; WAY_OUT".  FIELD and WAY_OUT may be empty.
 [[noreturn]] void fail_input(std::string_view file, std::string_view field, std::string_view reason,
                              std::string_view way_out = {});

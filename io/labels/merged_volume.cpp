@@ -18,17 +18,15 @@ LabelTable table_of(const std::vector<MergeRule>& rules, bool is_signed) {
   if (table.size() == all.size()) return table;
   std::sort(all.begin(), all.end());
   const RawLabel twice = *std::adjacent_find(all.begin(), all.end());
-  throw Error(ErrorKind::kUsage,
-              text("--merge: label ", label_text(twice, is_signed), " is to be merged twice"));
+  fail_usage("--merge: label ", label_text(twice, is_signed), " is to be merged twice");
 }
 
 /// Checks that labels of the volume, whose 64 bits are signed or unsigned numbers, can be `to`.
 void check_target(const MergeRule& rule, bool is_signed) {
   const bool is_high = rule.to >> 63U != 0;
   if (is_high && is_signed != rule.to_is_negative) {
-    throw Error(ErrorKind::kUsage, text("--merge: ", label_text(rule.to, rule.to_is_negative),
-                                        ": labels of the volume are ",
-                                        is_signed ? "signed, below 2^63" : "not negative"));
+    fail_usage("--merge: ", label_text(rule.to, rule.to_is_negative), ": labels of the volume are ",
+               is_signed ? "signed, below 2^63" : "not negative");
   }
 }
 
@@ -51,9 +49,8 @@ void require_labels(const LabelVolume& volume, const LabelTable& wanted) {
   });
   if (missing == 0) return;
   const auto first = std::find(found.begin(), found.end(), false) - found.begin();
-  throw Error(ErrorKind::kUsage,
-              text("--merge: the volume has no label ",
-                   label_text(wanted.raw(static_cast<Label>(first)), wanted.is_signed())));
+  fail_usage("--merge: the volume has no label ",
+             label_text(wanted.raw(static_cast<Label>(first)), wanted.is_signed()));
 }
 
 }  // namespace

@@ -240,9 +240,8 @@ void WeldedVolume::check_givers(const std::vector<char>& seen) const {
   const auto missing = std::find(seen.begin(), seen.end(), 0);
   if (missing == seen.end()) return;
   const RawLabel label = givers_.raw(static_cast<Label>(missing - seen.begin()));
-  throw Error(ErrorKind::kUsage, "--weld: the volume has no label " +
-                                     label_text(label, givers_.is_signed()) +
-                                     "; mwmesh info lists its labels");
+  fail_usage("--weld: the volume has no label " + label_text(label, givers_.is_signed()) +
+             "; mwmesh info lists its labels");
 }
 
 void WeldedVolume::keep(const std::vector<Filled>& found) {

@@ -9,7 +9,7 @@
 #include <string>
 #include <string_view>
 
-#include "kernels/core/error.h"
+#include "io/file/errors.h"
 
 namespace mw::io {
 
@@ -33,8 +33,7 @@ enum class Element : std::uint8_t {
   if (text == "tet4") return Element::kTet4;
   if (text == "tet10") return Element::kTet10;
   if (text == "tet10-curved") return Element::kCurvedTet10;
-  throw Error(ErrorKind::kUsage,
-              "'" + std::string(text) + "' is no element; those are tet4, tet10 and tet10-curved");
+  fail_usage("'" + std::string(text) + "' is no element; those are tet4, tet10 and tet10-curved");
 }
 
 /// VTK's cell types for tets; behind the corners, the second has the middles of kTetEdges.

@@ -76,8 +76,7 @@ struct MeshFormat {
 template <class Sink>
 std::unique_ptr<MeshSink> open_corners(const std::filesystem::path& path, Element element) {
   if (element == Element::kTet4) return std::make_unique<Sink>(path);
-  throw Error(ErrorKind::kUsage,
-              text(path.string(), ": ", path.extension().string(), " is written with tet4 only"));
+  fail_usage(path.string(), ": ", path.extension().string(), " is written with tet4 only");
 }
 
 /// Opens a sink that groups the mesh and then writes its cells.
@@ -222,25 +221,22 @@ const MeshFormat& written_format(const std::filesystem::path& path) {
   const MeshFormat* const format = find_format(path);
   if (format == nullptr) throw unknown_format(path, mesh_extensions());
   if (format->is_written()) return *format;
-  throw Error(ErrorKind::kUsage,
-              text(path.string(), ": a mesh in pieces; write it whole, and then with 'convert ",
-                   "--pieces N'"));
+  fail_usage(path.string(), ": a mesh in pieces; write it whole, and then with 'convert ",
+             "--pieces N'");
 }
 
 const MeshFormat& read_format(const std::filesystem::path& path) {
   const MeshFormat* const format = find_format(path);
   if (format == nullptr) throw unknown_format(path, read_mesh_extensions());
   if (format->is_read()) return *format;
-  throw Error(ErrorKind::kUsage, text(path.string(), ": ", format->extension,
-                                      " is written here, but not read; meshes are read from ",
-                                      read_mesh_extensions()));
+  fail_usage(path.string(), ": ", format->extension,
+             " is written here, but not read; meshes are read from ", read_mesh_extensions());
 }
 
 /// Throws, because CalculiX, which runs the jobs, has no cohesive elements.
 [[noreturn]] void refuse_wedges_in_deck(const std::filesystem::path& path) {
-  throw Error(ErrorKind::kUsage,
-              text(path.string(), ": --deck has no sections for cohesive wedges; give --split in ",
-                   "the place of --cohesive"));
+  fail_usage(path.string(), ": --deck has no sections for cohesive wedges; give --split in ",
+             "the place of --cohesive");
 }
 
 /// Returns a sink that refuses wedges, for which the format or a deck has no place.
@@ -285,7 +281,7 @@ bool is_mesh_path(const std::filesystem::path& path) {
 void require_place_for_values(const std::filesystem::path& path) {
   static_cast<void>(written_format(path));
   if (const std::string why = why_no_values(path); !why.empty()) {
-    throw Error(ErrorKind::kUsage, why);
+    fail_usage(why);
   }
 }
 
@@ -303,12 +299,10 @@ void require_place_for_wedges(const std::filesystem::path& path, Element element
   if (is_known && format->is_written() && format->has_wedges(element)) return;
   const bool quadratic = has_middles(element);
   const bool would_take_six = is_known && quadratic && format->has_wedges6();
-  throw Error(
-      ErrorKind::kUsage,
-      text(path.string(), ": ", path.extension().string(), " has no place for cohesive wedges",
-           would_take_six ? " between tets of ten nodes; " : "; ",
-           extensions_where(quadratic ? &MeshFormat::has_wedges12 : &MeshFormat::has_wedges6),
-           " have", would_take_six ? ", or write tets of four" : ""));
+  fail_usage(path.string(), ": ", path.extension().string(), " has no place for cohesive wedges",
+             would_take_six ? " between tets of ten nodes; " : "; ",
+             extensions_where(quadratic ? &MeshFormat::has_wedges12 : &MeshFormat::has_wedges6),
+             " have", would_take_six ? ", or write tets of four" : "");
 }
 
 std::vector<std::filesystem::path> mesh_files(const std::filesystem::path& path) {
@@ -361,17 +355,16 @@ std::unique_ptr<MeshSink> open_mesh_sink(const std::filesystem::path& path, Elem
   }
   const MeshFormat& format = written_format(path);
   if (extras.encoding == Encoding::kText && !format.has_text) {
-    throw Error(ErrorKind::kUsage, text(path.string(), ": ", format.extension,
-                                        " is written in one way, so ascii is not for it"));
+    fail_usage(path.string(), ": ", format.extension,
+               " is written in one way, so ascii is not for it");
   }
   if (extras.materials && !format.takes_materials) {
-    throw Error(ErrorKind::kUsage, text(path.string(), ": has no place for materials; ",
-                                        extensions_where(&MeshFormat::takes_materials), " have"));
+    fail_usage(path.string(), ": has no place for materials; ",
+               extensions_where(&MeshFormat::takes_materials), " have");
   }
   if (extras.deck && !format.takes_deck) {
-    throw Error(ErrorKind::kUsage,
-                text(path.string(), ": no job is written in ", format.extension, "; --deck is for ",
-                     extensions_where(&MeshFormat::takes_deck)));
+    fail_usage(path.string(), ": no job is written in ", format.extension, "; --deck is for ",
+               extensions_where(&MeshFormat::takes_deck));
   }
   if (extras.deck && extras.wedges) refuse_wedges_in_deck(path);
   if (extras.wedges && format.open_wedges != nullptr) return format.open_wedges(path, element);
@@ -384,10 +377,9 @@ std::unique_ptr<MeshSink> open_mesh_sink(const std::filesystem::path& path, Elem
 std::unique_ptr<MeshSink> open_mesh_pieces(const std::filesystem::path& path,
                                            std::uint64_t pieces) {
   if (path.extension() != kPiecesExtension) {
-    throw Error(ErrorKind::kUsage, text(path.string(), ": pieces are written as ", kPiecesExtension,
-                                        " and files beside it"));
+    fail_usage(path.string(), ": pieces are written as ", kPiecesExtension, " and files beside it");
   }
-  if (pieces == 0) throw Error(ErrorKind::kUsage, text(path.string(), ": no pieces are no mesh"));
+  if (pieces == 0) fail_usage(path.string(), ": no pieces are no mesh");
   return without_wedges(path, Element::kTet4, std::make_unique<PvtuSink>(path, pieces));
 }
 

@@ -89,7 +89,7 @@ std::size_t end_of_host(std::string_view address) {
 }
 
 [[noreturn]] void fail_address(std::string_view scheme, std::string_view reason) {
-  throw Error(ErrorKind::kUsage, text("the address ", scheme, "...: ", reason));
+  fail_usage("the address ", scheme, "...: ", reason);
 }
 
 /// Puts a bucket with a dot in its name into the path, as the certificate of

@@ -192,8 +192,8 @@ void note_use(const fs::path& path) {
 
 DiskCache::DiskCache(const CacheFolder& folder) : folder_(folder) {
   const auto fail = [&](const std::string& reason) {
-    throw Error(ErrorKind::kUsage, text("--cache: ", folder_.path.string(), ": ", reason,
-                                        "; give a folder that can be written to"));
+    fail_usage("--cache: ", folder_.path.string(), ": ", reason,
+               "; give a folder that can be written to");
   };
   std::error_code error;
   if (fs::create_directories(folder_.path, error)) {

@@ -63,7 +63,7 @@ std::string authorization_header() {
   const char* value = std::getenv(kAuthorizationVariable);  // NOLINT(concurrency-mt-unsafe)
   if (value == nullptr || *value == '\0') return {};
   if (std::strpbrk(value, "\r\n") != nullptr) {
-    throw Error(ErrorKind::kUsage, text(kAuthorizationVariable, ": has more than one line"));
+    fail_usage(kAuthorizationVariable, ": has more than one line");
   }
   return text("Authorization: ", value);
 }
@@ -480,9 +480,8 @@ HttpClient::Verdict HttpClient::attempt(Exchange& exchange) const {
 
 void HttpClient::run(Exchange& exchange) const {
   if (!authorization_.empty() && is_open_to_all(exchange.address)) {
-    throw Error(ErrorKind::kUsage,
-                text(exchange.address, ": ", kAuthorizationVariable,
-                     " is set, and http:// would show it on the way; use https://, or unset it"));
+    fail_usage(exchange.address, ": ", kAuthorizationVariable,
+               " is set, and http:// would show it on the way; use https://, or unset it");
   }
   std::chrono::milliseconds wait = limits_.first_wait;
   for (int done = 1;; ++done) {

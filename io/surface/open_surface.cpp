@@ -50,9 +50,8 @@ bool is_surface_path(const std::filesystem::path& path) {
 
 std::unique_ptr<SurfaceSink> open_surface_sink(const std::filesystem::path& path) {
   if (const SurfaceFormat* format = find_format(path)) return format->open(path);
-  throw Error(ErrorKind::kUsage,
-              text(path.string(), ": extension '", path.extension().string(),
-                   "' is no surface format known here; supported are ", surface_extensions()));
+  fail_usage(path.string(), ": extension '", path.extension().string(),
+             "' is no surface format known here; supported are ", surface_extensions());
 }
 
 }  // namespace mw::io

@@ -93,8 +93,8 @@ bool RunCursor::next() {
 void check_max(std::string_view file, std::string_view what, std::uint64_t count,
                std::uint64_t max) {
   if (count <= max) return;
-  throw Error(ErrorKind::kUsage, text(file, ": ", count, " ", what, " are more than the ", max,
-                                      " that this format can hold; write each label apart"));
+  fail_usage(file, ": ", count, " ", what, " are more than the ", max,
+             " that this format can hold; write each label apart");
 }
 
 }  // namespace mw::io

@@ -11,11 +11,10 @@ void check_crop(std::string_view file, const Box3& crop, Index3 shape) {
   const Index3 &lo = crop.lo, &hi = crop.hi;
   const bool is_box = lo.x < hi.x && lo.y < hi.y && lo.z < hi.z;
   if (is_box && intersection(crop, {{0, 0, 0}, shape}) == crop) return;
-  throw Error(ErrorKind::kUsage,
-              text("--crop ", lo.x, ",", lo.y, ",", lo.z, ",", hi.x, ",", hi.y, ",", hi.z,
-                   is_box ? ": reaches outside of " : ": no box in ", file, ", which has ", shape.x,
-                   " x ", shape.y, " x ", shape.z,
-                   " voxels; give the first voxel and the one past the last, 0 <= first < last"));
+  fail_usage("--crop ", lo.x, ",", lo.y, ",", lo.z, ",", hi.x, ",", hi.y, ",", hi.z,
+             is_box ? ": reaches outside of " : ": no box in ", file, ", which has ", shape.x,
+             " x ", shape.y, " x ", shape.z,
+             " voxels; give the first voxel and the one past the last, 0 <= first < last");
 }
 
 CroppedVolume::CroppedVolume(std::unique_ptr<LabelVolume> volume, const Box3& box,

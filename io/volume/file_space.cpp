@@ -94,10 +94,8 @@ void choose_frame(std::string_view file, VolumeSpace& space, FrameChoice choice)
   if (choice == FrameChoice::kFile) return;
   const WorldFrame wanted = choice == FrameChoice::kRas ? WorldFrame::kRas : WorldFrame::kLps;
   if (space.frame == WorldFrame::kOwn) {
-    throw Error(
-        ErrorKind::kUsage,
-        text("--frame ", name(wanted), ": ", file,
-             " does not say how its axes lie in a patient; take its own with --frame file"));
+    fail_usage("--frame ", name(wanted), ": ", file,
+               " does not say how its axes lie in a patient; take its own with --frame file");
   }
   space = in_frame(space, wanted);
 }

@@ -188,8 +188,8 @@ const VolumeFormat& format_of_folder(const std::filesystem::path& folder) {
 void check_understood(const VolumeFormat& format, const std::filesystem::path& path,
                       const OpenOptions& options) {
   const auto fail = [&](const char* option, const char* what, const std::string& others) {
-    throw Error(ErrorKind::kUsage, text(option, ": ", path.string(), " is ", format.name,
-                                        ", which has no ", what, "; it is for ", others));
+    fail_usage(option, ": ", path.string(), " is ", format.name, ", which has no ", what,
+               "; it is for ", others);
   };
   if (!options.dataset.empty() && !format.has_datasets) {
     fail("--dataset", "arrays to choose from", formats_with_datasets());
@@ -220,8 +220,7 @@ const CacheFolder* cache_of(const OpenOptions& options) {
 
 std::unique_ptr<LabelVolume> open_remote(const std::string& address, const OpenOptions& options) {
   if (options.raw) {
-    throw Error(ErrorKind::kUsage,
-                text("--shape: ", address, " is remote, and raw files are read from disks only"));
+    fail_usage("--shape: ", address, " is remote, and raw files are read from disks only");
   }
   const Place place = remote_place(address, cache_of(options));
   const VolumeFormat& format = format_of_remote(place);
@@ -293,10 +292,10 @@ void check_place(const std::optional<Vector3>& spacing, const std::optional<Vect
   const auto is_finite = [](double x) { return std::isfinite(x); };
   const auto is_length = [](double x) { return std::isfinite(x) && x > 0; };
   if (spacing && !std::ranges::all_of(*spacing, is_length)) {
-    throw Error(ErrorKind::kUsage, "spacing must be finite and positive");
+    fail_usage("spacing must be finite and positive");
   }
   if (origin && !std::ranges::all_of(*origin, is_finite)) {
-    throw Error(ErrorKind::kUsage, "origin must be finite");
+    fail_usage("origin must be finite");
   }
 }
 
@@ -362,7 +361,7 @@ std::unique_ptr<LabelVolume> open_volume(const std::filesystem::path& path,
   check_place(options.spacing, options.origin);
   const bool has_scores = options.values != VoxelValues::kLabels;
   if (has_scores && !options.object.empty()) {
-    throw Error(ErrorKind::kUsage, "--object: is for volumes of labels, not for --values");
+    fail_usage("--object: is for volumes of labels, not for --values");
   }
   if (!options.object.empty()) return open_object_of(path, options);
   if (!has_scores) return cropped(open_whole(path, options), path.string(), options);

@@ -12,6 +12,7 @@
 #include "engine/cli/options/shared_options.h"
 #include "engine/cli/options/values.h"
 #include "engine/connect/connected_sink.h"
+#include "io/file/errors.h"
 #include "io/mesh/digest.h"
 #include "io/mesh/grouped/grouped_sink.h"
 #include "io/mesh/merged_vertices.h"
@@ -19,7 +20,6 @@
 #include "io/mesh/open_mesh.h"
 #include "io/mesh/tee_sink.h"
 #include "io/names/read_names.h"
-#include "kernels/core/error.h"
 
 namespace mw::cli {
 namespace {
@@ -114,24 +114,24 @@ void refuse_volume_flags(const OptionSet& options, const std::string& mesh) {
   for (const OptionSet::Entry& entry : of_volumes.entries()) {
     const std::string& name = entry.option.name;
     if (name == "names" || !options.is_flag(name)) continue;
-    throw Error(ErrorKind::kUsage, "--" + name + ": says something of a volume, and " + mesh +
-                                       " is a mesh; leave it out, or name the volume behind the "
-                                       "mesh, as in mwmesh info " +
-                                       mesh + " VOLUME");
+    io::fail_usage("--" + name + ": says something of a volume, and " + mesh +
+                   " is a mesh; leave it out, or name the volume behind the "
+                   "mesh, as in mwmesh info " +
+                   mesh + " VOLUME");
   }
 }
 
 int run_info(InfoJob& job, const OptionSet& options) {
-  if (job.json && job.csv) throw Error(ErrorKind::kUsage, "--json and --csv: only one of them");
+  if (job.json && job.csv) io::fail_usage("--json and --csv: only one of them");
   const bool has_volume = !job.volume.path.empty();
   if (is_about_mesh(job)) {
     if (!has_volume) refuse_volume_flags(options, job.file.string());
     tell_of_mesh(job);
     return kExitDone;
   }
-  if (has_volume) throw Error(ErrorKind::kUsage, "--volume: FILE must be a mesh then");
+  if (has_volume) io::fail_usage("--volume: FILE must be a mesh then");
   if (job.betti || job.contacts || job.csv) {
-    throw Error(ErrorKind::kUsage, "--betti, --contacts and --csv: FILE must be a mesh then");
+    io::fail_usage("--betti, --contacts and --csv: FILE must be a mesh then");
   }
   job.volume.path = job.file;
   const VolumeFacts facts(job.volume);

@@ -105,8 +105,8 @@ void open_samples(const MeshRequest& request, std::vector<engine::SampleImage>& 
                       .trust_paths = request.volume.open.trust_paths,
                       .cache_bytes = request.volume.open.cache_bytes / samples.size()});
     if (sample.image->info().is_placed && request.volume.open.frame == io::FrameChoice::kVoxel) {
-      throw Error(ErrorKind::kUsage, "--frame voxel: " + sample.file +
-                                         " lies in the world, which the mesh then is not in");
+      io::fail_usage("--frame voxel: " + sample.file +
+                     " lies in the world, which the mesh then is not in");
     }
   }
 }
@@ -280,9 +280,9 @@ void check_changed(const MeshRequest& request, Index3 shape) {
   if (request.volume.open.crop) return;
   for (const Box3& box : request.job.run.keep.changed) {
     if (is_empty(box) || !is_empty(intersection(box, {{0, 0, 0}, shape}))) continue;
-    throw Error(ErrorKind::kUsage, io::text("--changed: the box from ", box.lo.x, ",", box.lo.y,
-                                            ",", box.lo.z, " is outside of the volume, which has ",
-                                            shape.x, " x ", shape.y, " x ", shape.z, " voxels"));
+    io::fail_usage("--changed: the box from ", box.lo.x, ",", box.lo.y, ",", box.lo.z,
+                   " is outside of the volume, which has ", shape.x, " x ", shape.y, " x ", shape.z,
+                   " voxels");
   }
 }
 

@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "engine/cli/options/file_names.h"
-#include "kernels/core/error.h"
+#include "io/file/errors.h"
 
 namespace mw::cli {
 namespace {
@@ -18,7 +18,7 @@ namespace {
 namespace fs = std::filesystem;
 
 [[noreturn]] void refuse(const std::string& flag, const fs::path& path, const std::string& why) {
-  throw Error(ErrorKind::kUsage, flag + " " + path.string() + ": " + why);
+  io::fail_usage(flag + " " + path.string() + ": " + why);
 }
 
 FileNames files_of(const MeshRequest& request) {

@@ -16,7 +16,6 @@
 #include "io/file/text_numbers.h"
 #include "io/labels/merged_labels.h"
 #include "io/mesh/open_mesh.h"
-#include "kernels/core/error.h"
 
 namespace mw::cli {
 namespace {
@@ -25,7 +24,7 @@ std::chrono::milliseconds parse_delay(const std::string& text) {
   constexpr double kMaxSeconds = 1e6;
   const double seconds = parse_number(text);
   if (seconds < 0 || seconds > kMaxSeconds) {
-    throw Error(ErrorKind::kUsage, "expected seconds from 0 to 1000000");
+    io::fail_usage("expected seconds from 0 to 1000000");
   }
   return std::chrono::milliseconds(static_cast<std::int64_t>(1000 * seconds));
 }
@@ -264,7 +263,7 @@ void add_output_options(OptionSet& options, MeshRequest& request) {
 void require_memory_for_page(const MeshRequest& request) {
   constexpr std::uint64_t kMin = 192 << 20;
   if (request.html.empty() || request.job.run.store.memory >= kMin) return;
-  throw Error(ErrorKind::kUsage, "--html: needs --memory 192MiB or more");
+  io::fail_usage("--html: needs --memory 192MiB or more");
 }
 
 void require_room_for_values(const MeshRequest& request) {
@@ -273,8 +272,7 @@ void require_room_for_values(const MeshRequest& request) {
       return sample.name == request.extras.materials->values;
     };
     if (std::any_of(request.job.samples.begin(), request.job.samples.end(), is_it)) return;
-    throw Error(ErrorKind::kUsage,
-                "--materials: no --sample is called '" + request.extras.materials->values + "'");
+    io::fail_usage("--materials: no --sample is called '" + request.extras.materials->values + "'");
   }
   if (!request.job.samples.empty()) io::require_place_for_values(request.output);
 }
@@ -288,21 +286,19 @@ void require_single_vertices_for_curves(const MeshRequest& request) {
   const engine::ConnectOptions& connect = request.job.connect;
   if (request.element != io::Element::kCurvedTet10) return;
   if (!connect.split.any() && !connect.cohesive.any() && !connect.open_hinges) return;
-  throw Error(ErrorKind::kUsage,
-              "--element tet10-curved: not with --split, --cohesive or --open-hinges, which double "
-              "vertices; tet10 is");
+  io::fail_usage(
+      "--element tet10-curved: not with --split, --cohesive or --open-hinges, which double "
+      "vertices; tet10 is");
 }
 
 void check_pairs(const MeshRequest& request) {
   if (request.extras.pairs.empty()) return;
   if (request.job.settings.periodic == 0) {
-    throw Error(ErrorKind::kUsage,
-                "--pairs: only a cell that repeats itself has some, give --periodic");
+    io::fail_usage("--pairs: only a cell that repeats itself has some, give --periodic");
   }
   const engine::ConnectOptions& connect = request.job.connect;
   if (!connect.split.any() && !connect.cohesive.any() && !connect.open_hinges) return;
-  throw Error(
-      ErrorKind::kUsage,
+  io::fail_usage(
       "--pairs: are not known where vertices are doubled; leave out --split, --cohesive and "
       "--open-hinges");
 }
@@ -313,16 +309,14 @@ void settle_keep(MeshRequest& request) {
   engine::KeepOptions& keep = request.job.run.keep;
   const bool updates = !request.from.empty();
   if (updates && !request.keep.empty() && request.keep != request.from) {
-    throw Error(ErrorKind::kUsage,
-                "--keep: --from updates the folder that it names, give one of the two");
+    io::fail_usage("--keep: --from updates the folder that it names, give one of the two");
   }
   if (!updates && !(keep.changed.empty() && request.delta.empty())) {
-    throw Error(ErrorKind::kUsage, std::string(keep.changed.empty() ? "--delta" : "--changed") +
-                                       ": says what changed since a run, give --from as well");
+    io::fail_usage(std::string(keep.changed.empty() ? "--delta" : "--changed") +
+                   ": says what changed since a run, give --from as well");
   }
   if (!keep.changed.empty() && !request.volume.open.object.empty()) {
-    throw Error(ErrorKind::kUsage,
-                "--changed: says nothing where --object finds the box anew, leave it out");
+    io::fail_usage("--changed: says nothing where --object finds the box anew, leave it out");
   }
   request.job.delta = request.delta.empty() ? engine::Delta::kNo : engine::Delta::kOn;
   const Index3 first = request.volume.open.crop ? request.volume.open.crop->lo : Index3{};

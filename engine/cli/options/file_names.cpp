@@ -7,10 +7,10 @@
 #include <span>
 #include <utility>
 
+#include "io/file/errors.h"
 #include "io/mesh/grouped/material_sets.h"
 #include "io/mesh/open_mesh.h"
 #include "io/volume/masks/open_masks.h"
-#include "kernels/core/error.h"
 
 namespace mw::cli {
 namespace {
@@ -23,7 +23,7 @@ bool is_same_file(const fs::path& a, const fs::path& b) {
 }
 
 [[noreturn]] void refuse_file(const NamedFile& file, const std::string& why) {
-  throw Error(ErrorKind::kUsage, file.name + " " + file.path.string() + ": " + why);
+  io::fail_usage(file.name + " " + file.path.string() + ": " + why);
 }
 
 /// Throws if one of the others is that file.

@@ -15,6 +15,7 @@
 #include "engine/cli/options/option_text.h"
 #include "engine/codt/worker_pool.h"
 #include "engine/settings/named_labels.h"
+#include "io/file/errors.h"
 #include "io/remote/http_client.h"
 #include "kernels/core/error.h"
 
@@ -24,7 +25,7 @@ namespace {
 constexpr const char* kPrefix = "MW_";
 
 [[noreturn]] void refuse(const std::string& where, const std::string& reason) {
-  throw Error(ErrorKind::kUsage, where + reason);
+  io::fail_usage(where + reason);
 }
 
 std::string key_of(const Option& option) {
@@ -201,7 +202,7 @@ void OptionSet::settle(Entry& entry) {
     const auto& choices = option.choices;
     if (!choices.empty() &&
         std::find(choices.begin(), choices.end(), entry.text) == choices.end()) {
-      throw Error(ErrorKind::kUsage, "expected one of " + joined(choices, ", "));
+      io::fail_usage("expected one of " + joined(choices, ", "));
     }
     if (option.assign) option.assign(entry.text);
   } catch (const Error& error) {
@@ -217,7 +218,7 @@ void OptionSet::require_all() const {
     const std::string name =
         flags.empty() ? "--" + entry.option.name : flags.substr(0, flags.find(','));
     const std::string value = name.starts_with('-') ? " " + entry.option.value : "";
-    throw Error(ErrorKind::kUsage, name + value + " is missing; see --help");
+    io::fail_usage(name + value + " is missing; see --help");
   }
 }
 
@@ -268,10 +269,9 @@ void refuse_unknown_variables(const std::vector<const OptionSet*>& all) {
   }
   for (const std::string& name : set_variables()) {
     if (known.contains(name) || name.starts_with("MW_TEST_")) continue;
-    throw Error(ErrorKind::kUsage,
-                name +
-                    ": no option has this environment variable; unset it, or see "
-                    "mwmesh mesh --help-all");
+    io::fail_usage(name +
+                   ": no option has this environment variable; unset it, or see "
+                   "mwmesh mesh --help-all");
   }
 }
 

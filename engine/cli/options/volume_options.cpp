@@ -14,7 +14,6 @@
 #include "io/volume/decode.h"
 #include "io/volume/file_space.h"
 #include "io/volume/open_volume.h"
-#include "kernels/core/error.h"
 
 namespace mw::cli {
 namespace {
@@ -27,7 +26,7 @@ std::array<double, 3> parse_spacing(const std::string& text) {
 
 io::MergeRule parse_rule(const std::string& text) {
   const std::size_t equals = text.find('=');
-  if (equals == text.npos) throw Error(ErrorKind::kUsage, "expected A,B=C, got '" + text + "'");
+  if (equals == text.npos) io::fail_usage("expected A,B=C, got '" + text + "'");
   const std::string to = text.substr(equals + 1);
   return {.from = parse_labels(text.substr(0, equals)),
           .to = parse_label(to),
@@ -50,7 +49,7 @@ io::SpeckRule parse_specks(const std::string& text) {
   if (fits && (joined.empty() || joined == "/6" || joined == "/26")) {
     return {.min = static_cast<std::uint64_t>(min), .diagonal = joined == "/26"};
   }
-  throw Error(ErrorKind::kUsage, "expected voxels, from 1 on, or voxels/26");
+  io::fail_usage("expected voxels, from 1 on, or voxels/26");
 }
 
 void set_order(VolumeRequest& request, const std::string& text) {
@@ -62,8 +61,7 @@ void parse_dtype(VolumeRequest& request, const std::string& text) {
   const bool is_big = text.ends_with("be"), has_order = is_big || text.ends_with("le");
   request.type = io::parse_voxel_type(text.substr(0, text.size() - (has_order ? 2 : 0)));
   if (!request.type) {
-    throw Error(ErrorKind::kUsage,
-                "expected u8 u16 u32 u64 i8 i16 i32 i64 f32 or f64; u16be is big-endian");
+    io::fail_usage("expected u8 u16 u32 u64 i8 i16 i32 i64 f32 or f64; u16be is big-endian");
   }
   if (has_order) set_order(request, is_big ? "big" : "little");
 }
@@ -90,7 +88,7 @@ int parse_scale(const std::string& text) {
   constexpr std::int64_t kMaxScale = 1000;
   const std::int64_t scale = parse_integer(text);
   if (scale >= 0 && scale <= kMaxScale) return static_cast<int>(scale);
-  throw Error(ErrorKind::kUsage, "expected a level from 0 (the finest) to 1000");
+  io::fail_usage("expected a level from 0 (the finest) to 1000");
 }
 
 void add_place_options(OptionSet& options, VolumeRequest& request) {
@@ -232,7 +230,7 @@ std::string volume_note() {
 namespace {
 
 io::RawLayout raw_layout(const VolumeRequest& request) {
-  if (!request.type) throw Error(ErrorKind::kUsage, "--shape: a raw file needs --dtype as well");
+  if (!request.type) io::fail_usage("--shape: a raw file needs --dtype as well");
   return {.shape = *request.shape,
           .type = *request.type,
           .order = request.order.value_or(io::ByteOrder::kLittle)};
@@ -245,7 +243,7 @@ io::OpenOptions open_options(const VolumeRequest& request) {
   if (request.shape) {
     options.raw = raw_layout(request);
   } else if (request.type || request.order) {
-    throw Error(ErrorKind::kUsage, "--dtype is for raw files, which need --shape");
+    io::fail_usage("--dtype is for raw files, which need --shape");
   }
   return options;
 }

@@ -10,6 +10,7 @@
 #include "engine/cli/options/values.h"
 #include "engine/cli/picture/picture_request.h"
 #include "engine/cli/report_names.h"
+#include "io/file/errors.h"
 #include "io/file/sink/atomic_file.h"
 #include "io/mesh/grouped/grouped_sink.h"
 #include "io/mesh/open_mesh.h"
@@ -20,8 +21,7 @@ namespace {
 
 void check(const PictureRequest& request) {
   if (request.output.extension() != ".png") {
-    throw Error(ErrorKind::kUsage,
-                "-o " + request.output.string() + ": pictures are written as .png");
+    io::fail_usage("-o " + request.output.string() + ": pictures are written as .png");
   }
   FileNames files;
   files.read_mesh(request.mesh);
@@ -35,9 +35,8 @@ std::vector<bool> asked_labels(const io::LabelTable& table, const std::vector<Ra
   std::vector<bool> shown(table.size());
   for (const RawLabel label : labels) {
     if (!table.contains(label)) {
-      throw Error(ErrorKind::kUsage, "--labels: the mesh has no label " +
-                                         format_label(label, table.is_signed()) +
-                                         "; mwmesh info lists its labels");
+      io::fail_usage("--labels: the mesh has no label " + format_label(label, table.is_signed()) +
+                     "; mwmesh info lists its labels");
     }
     shown[table.dense(label)] = true;
   }

@@ -5,7 +5,7 @@
 
 #include "engine/cli/options/shared_options.h"
 #include "engine/cli/options/values.h"
-#include "kernels/core/error.h"
+#include "io/file/errors.h"
 
 namespace mw::cli {
 namespace {
@@ -13,7 +13,7 @@ namespace {
 constexpr const char* kShownGroup = "What to show";
 
 [[noreturn]] void fail_expected(const std::string& what) {
-  throw Error(ErrorKind::kUsage, "expected " + what);
+  io::fail_usage("expected " + what);
 }
 
 std::array<int, 2> parse_pixels(const std::string& text) {

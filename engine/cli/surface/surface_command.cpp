@@ -10,11 +10,11 @@
 #include "engine/cli/options/values.h"
 #include "engine/cli/report_names.h"
 #include "engine/cli/surface/surface_output.h"
+#include "io/file/errors.h"
 #include "io/mesh/grouped/grouped_sink.h"
 #include "io/mesh/open_mesh.h"
 #include "io/surface/open_surface.h"
 #include "io/surface/surface.h"
-#include "kernels/core/error.h"
 
 namespace mw::cli {
 namespace {
@@ -48,10 +48,9 @@ class SurfaceJob {
 
   [[nodiscard]] Label rank_of(RawLabel label) const {
     if (labels_->table.contains(label)) return labels_->table.dense(label);
-    throw Error(ErrorKind::kUsage, request_.mesh + ": the mesh has no label " +
-                                       format_label(label, labels_->table.is_signed()) +
-                                       "; mwmesh info " + request_.mesh +
-                                       " lists those that it has");
+    io::fail_usage(request_.mesh + ": the mesh has no label " +
+                   format_label(label, labels_->table.is_signed()) + "; mwmesh info " +
+                   request_.mesh + " lists those that it has");
   }
 
   /// Returns the ranks of the labels that were asked for, or of all.
@@ -85,8 +84,8 @@ class SurfaceJob {
     const auto& [one, other] = *request_.pair;
     io::ShellPlan plan = plans_.of_pair(rank_of(one), rank_of(other));
     if (plan.parts.empty()) {
-      throw Error(ErrorKind::kUsage, request_.mesh + ": labels " + text_of(one) + " and " +
-                                         text_of(other) + " share no triangle");
+      io::fail_usage(request_.mesh + ": labels " + text_of(one) + " and " + text_of(other) +
+                     " share no triangle");
     }
     return {std::move(plan)};
   }
@@ -111,9 +110,9 @@ class SurfaceJob {
 
   void require_facets(const io::ShellPlan& plan, const std::string& what) const {
     if (!plan.parts.empty()) return;
-    throw Error(ErrorKind::kUsage, request_.mesh + ": " + what +
-                                       " has no interfaces, as no other label is there; --labels "
-                                       "without --open gives a surface that closes at the box");
+    io::fail_usage(request_.mesh + ": " + what +
+                   " has no interfaces, as no other label is there; --labels "
+                   "without --open gives a surface that closes at the box");
   }
 
   void write(const std::vector<io::ShellPlan>& plans, io::SurfaceSink& sink) {

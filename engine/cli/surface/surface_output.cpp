@@ -31,7 +31,7 @@ std::filesystem::path replaceable(const std::filesystem::path& path) {
   std::error_code ignored;
   const auto status = std::filesystem::status(path, ignored);
   if (std::filesystem::exists(status) && !std::filesystem::is_regular_file(status)) {
-    throw Error(ErrorKind::kUsage, path.string() + ": cannot create: exists and is no file");
+    io::fail_usage(path.string() + ": cannot create: exists and is no file");
   }
   return std::filesystem::is_symlink(path, ignored) ? std::filesystem::weakly_canonical(path)
                                                     : path;

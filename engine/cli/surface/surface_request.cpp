@@ -9,8 +9,8 @@
 #include "engine/cli/options/shared_options.h"
 #include "engine/cli/options/values.h"
 #include "engine/cli/surface/surface_output.h"
+#include "io/file/errors.h"
 #include "io/surface/open_surface.h"
-#include "kernels/core/error.h"
 
 namespace mw::cli {
 namespace {
@@ -18,7 +18,7 @@ namespace {
 constexpr const char* kSurfaceGroup = "Which surfaces";
 
 [[noreturn]] void fail(const std::string& message) {
-  throw Error(ErrorKind::kUsage, message);
+  io::fail_usage(message);
 }
 
 std::vector<RawLabel> parse_label_list(const std::string& text) {

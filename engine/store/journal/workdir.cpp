@@ -50,7 +50,7 @@ bool is_ours(const std::string& name) {
 }
 
 [[noreturn]] void refuse(const fs::path& path, const std::string& why) {
-  throw Error(ErrorKind::kUsage, path.string() + ": " + why);
+  io::fail_usage(path.string() + ": " + why);
 }
 
 using Lines = std::map<std::string, std::string>;

@@ -10,6 +10,7 @@
 #include "engine/team/output/part_rows.h"
 #include "engine/team/shared_lists.h"
 #include "engine/team/team.h"
+#include "io/file/errors.h"
 
 namespace mw::engine {
 namespace {
@@ -206,9 +207,9 @@ bool join_output(Team& team, io::SharedMesh* mesh) {
   const std::string place = team.gather(says ? mesh->place() : std::string()).at(0);
   if (place.empty()) return false;
   if (mesh == nullptr) {
-    throw Error(ErrorKind::kUsage,
-                "this process writes no part of the mesh, which rank 0 wants; "
-                "start all of them with one command line");
+    io::fail_usage(
+        "this process writes no part of the mesh, which rank 0 wants; "
+        "start all of them with one command line");
   }
   if (!team.is_first()) mesh->join(place);
   return true;

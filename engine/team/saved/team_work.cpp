@@ -64,7 +64,7 @@ std::string file_of_others(const fs::path& folder) {
 }
 
 [[noreturn]] void refuse(const fs::path& folder, const std::string& why) {
-  throw Error(ErrorKind::kUsage, folder.string() + ": " + why);
+  io::fail_usage(folder.string() + ": " + why);
 }
 
 /// Makes the folder, and those above it, unless it is there.

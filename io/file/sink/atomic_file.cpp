@@ -28,10 +28,9 @@ std::filesystem::path resolve(const std::filesystem::path& target) {
   std::error_code ignored;
   const auto status = std::filesystem::status(target, ignored);
   if (std::filesystem::exists(status) && !std::filesystem::is_regular_file(status)) {
-    throw Error(ErrorKind::kUsage,
-                target.string() +
-                    ": cannot create: exists and is not a regular file; give the "
-                    "path of a file");
+    fail_usage(target.string() +
+               ": cannot create: exists and is not a regular file; give the "
+               "path of a file");
   }
   constexpr int kMostLinks = 40;  // as many as Linux follows
   std::filesystem::path file = target;
@@ -45,7 +44,7 @@ std::filesystem::path resolve(const std::filesystem::path& target) {
 
 AtomicFile::AtomicFile(const std::filesystem::path& target) : target_(resolve(target)) {
   if (!target_.has_filename()) {
-    throw Error(ErrorKind::kUsage, target.string() + ": cannot create: no file name in the path");
+    fail_usage(target.string() + ": cannot create: no file name in the path");
   }
   buffer_.reserve(kBufferBytes);  // first: a failure after make_partial() leaves its file
   PartialOutput partial = make_partial(target_, PartialKind::kFile);
@@ -178,10 +177,9 @@ std::filesystem::path free_target(const std::filesystem::path& target) {
   const bool is_free = !exists || (std::filesystem::is_directory(name, failed) &&
                                    std::filesystem::is_empty(name, failed));
   if (is_free && !failed && name.has_filename()) return name;
-  throw Error(ErrorKind::kUsage,
-              target.string() +
-                  ": is written as a new folder, and there is something already; "
-                  "remove it or give another name");
+  fail_usage(target.string() +
+             ": is written as a new folder, and there is something already; "
+             "remove it or give another name");
 }
 
 }  // namespace

@@ -51,10 +51,9 @@ void check_jacobians(std::string_view file, const GroupedMesh& mesh) {
   const double share = mesh.element() == Element::kCurvedTet10 ? kLeastJacobian : 1;
   const double least = share * mesh.least_volume6();
   if (least >= kLeastOfCalculix) return;
-  throw Error(ErrorKind::kUsage,
-              text(file, ": --deck: CalculiX takes tets with a Jacobian below ", kLeastOfCalculix,
-                   " for flat, and this mesh has ", least,
-                   "; mesh it with --spacing in a smaller unit, micrometres for instance"));
+  fail_usage(file, ": --deck: CalculiX takes tets with a Jacobian below ", kLeastOfCalculix,
+             " for flat, and this mesh has ", least,
+             "; mesh it with --spacing in a smaller unit, micrometres for instance");
 }
 
 }  // namespace

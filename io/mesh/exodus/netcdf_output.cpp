@@ -9,7 +9,6 @@
 
 #include "io/file/errors.h"
 #include "kernels/core/assert.h"
-#include "kernels/core/error.h"
 
 namespace mw::io {
 namespace {
@@ -81,8 +80,7 @@ int NetcdfOutput::add_variable(const std::string& name, Type type,
 void NetcdfOutput::close_variable() {
   if (!open_) return;
   if (open_->bytes > kMaxVariableBytes) {
-    throw Error(ErrorKind::kUsage,
-                text(name_, ": the mesh is too large for the format; write .vtkhdf"));
+    fail_usage(name_, ": the mesh is too large for the format; write .vtkhdf");
   }
   std::string bytes = open_->head;
   append_list_head(bytes, kAttributes, open_->attributes.members);

@@ -117,9 +117,8 @@ void write_physical_names(MshEncoder& out, const GroupedMesh& mesh, const LabelN
 void check_element_data(const MshEncoder& out, std::uint64_t elements) {
   constexpr std::uint64_t kMost = std::numeric_limits<std::int32_t>::max();
   if (out.ascii() || elements <= kMost) return;
-  throw Error(ErrorKind::kUsage,
-              text(out.name(), ": values of elements have numbers up to ", kMost, " in binary, ",
-                   elements, " are needed; write text (--ascii) or .vtkhdf"));
+  fail_usage(out.name(), ": values of elements have numbers up to ", kMost, " in binary, ",
+             elements, " are needed; write text (--ascii) or .vtkhdf");
 }
 
 void write_element_data(MshEncoder& out, GroupedMesh& mesh) {

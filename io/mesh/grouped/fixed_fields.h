@@ -44,8 +44,8 @@ namespace mw::io {
                                                   std::size_t columns, int digits) {
   std::string out = fixed_real(value, columns, digits);
   if (out.size() <= columns) return out;
-  throw Error(ErrorKind::kUsage, text(file, ": ", value, " has too large an exponent for ", columns,
-                                      " columns; choose another unit or format"));
+  fail_usage(file, ": ", value, " has too large an exponent for ", columns,
+             " columns; choose another unit or format");
 }
 
 /// Returns the shortest text that reads back as the same number where that fits into the columns,

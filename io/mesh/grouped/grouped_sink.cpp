@@ -40,9 +40,9 @@ GroupedSink::GroupedSink(const std::filesystem::path& folder, std::unique_ptr<Gr
 
 void GroupedSink::begin(const MeshHeader& header) {
   if (mesh_.element_ == Element::kCurvedTet10 && header.record.has_doubles) {
-    throw Error(ErrorKind::kUsage,
-                "tet10-curved: not for a mesh with doubled vertices (--split, --cohesive, "
-                "--open-hinges); tet10 is");
+    fail_usage(
+        "tet10-curved: not for a mesh with doubled vertices (--split, --cohesive, "
+        "--open-hinges); tet10 is");
   }
   mesh_.header_ = header;
   mesh_.header_.record.curved = mesh_.element_ == Element::kCurvedTet10;

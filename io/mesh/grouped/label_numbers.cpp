@@ -60,8 +60,7 @@ LabelNumbers::LabelNumbers(const LabelTable& table, NumberRange range) : numbers
     if (fits(table, rank, range)) taken.insert(static_cast<std::int64_t>(table.raw(rank)));
   }
   if (table.size() > static_cast<std::uint64_t>(range.max - range.min) + 1) {
-    throw Error(ErrorKind::kUsage,
-                text(table.size(), " labels are more than this format has numbers; write .vtkhdf"));
+    fail_usage(table.size(), " labels are more than this format has numbers; write .vtkhdf");
   }
   std::int64_t last = taken.empty() ? range.min - 1 : *taken.rbegin();
   std::int64_t low = range.min - 1;
@@ -83,8 +82,8 @@ LabelNumbers::LabelNumbers(const LabelTable& table, NumberRange range) : numbers
 
 void check_number(std::string_view file, std::uint64_t largest, const NumberLimit& limit) {
   if (largest <= limit.max) return;
-  throw Error(ErrorKind::kUsage, text(file, ": ", limit.subject, " numbers up to ", limit.max, ", ",
-                                      largest, " are needed; write ", limit.others));
+  fail_usage(file, ": ", limit.subject, " numbers up to ", limit.max, ", ", largest,
+             " are needed; write ", limit.others);
 }
 
 void check_digits(std::string_view file, const GroupedMesh& mesh, int digits) {
@@ -92,10 +91,9 @@ void check_digits(std::string_view file, const GroupedMesh& mesh, int digits) {
   if (largest == 0) return;
   const double last_digit = std::pow(10.0, std::floor(std::log10(largest)) - (digits - 1));
   if (0.5 * last_digit <= mesh.shortest_edge() / 64) return;
-  throw Error(ErrorKind::kUsage,
-              text(file, ": the format has ", digits, " digits, too few for edges of ",
-                   mesh.shortest_edge(), " at coordinates of ", largest,
-                   "; set --origin nearer to 0, or write .inp, .exo or .vtkhdf"));
+  fail_usage(file, ": the format has ", digits, " digits, too few for edges of ",
+             mesh.shortest_edge(), " at coordinates of ", largest,
+             "; set --origin nearer to 0, or write .inp, .exo or .vtkhdf");
 }
 
 std::filesystem::path label_table_path(const std::filesystem::path& mesh) {

@@ -16,7 +16,7 @@ std::size_t column_of(const GroupedMesh& mesh, const std::string& name) {
   const std::vector<std::string>& names = mesh.header().values;
   const auto at = std::find(names.begin(), names.end(), name);
   if (at != names.end()) return static_cast<std::size_t>(at - names.begin());
-  throw Error(ErrorKind::kUsage, text("--materials ", name, ": tets have no values of that name"));
+  fail_usage("--materials ", name, ": tets have no values of that name");
 }
 
 double volume_of(GroupedMesh& mesh, std::uint64_t tet) {

@@ -157,12 +157,12 @@ class PairsWriter : public GroupedWriter {
       const char* const why = record.promises ? ": the mesh was not made with --periodic"
                                               : ": the mesh's file does not tell whether it was "
                                                 "made with --periodic; take the run's own file";
-      throw Error(ErrorKind::kUsage, name_ + why);
+      fail_usage(name_ + why);
     }
     if (record.has_doubles) {
-      throw Error(ErrorKind::kUsage, name_ +
-                                         ": vertices of the mesh were doubled (--split, "
-                                         "--cohesive, --open-hinges), so pairs are not known");
+      fail_usage(name_ +
+                 ": vertices of the mesh were doubled (--split, "
+                 "--cohesive, --open-hinges), so pairs are not known");
     }
     const PeriodicPairs found = periodic_pairs(mesh, axes);
     const bool is_whole = record.only_labels.empty() && record.without_labels.empty() &&
@@ -260,8 +260,7 @@ PeriodicPairs periodic_pairs(GroupedMesh& mesh, unsigned axes) {
 
 std::unique_ptr<GroupedWriter> open_pairs_writer(const std::filesystem::path& path) {
   if (path.extension() != ".csv" && path.extension() != ".inp") {
-    throw Error(ErrorKind::kUsage,
-                path.string() + ": pairs of nodes are written as .csv, or as equations in .inp");
+    fail_usage(path.string() + ": pairs of nodes are written as .csv, or as equations in .inp");
   }
   return std::make_unique<PairsWriter>(path);
 }

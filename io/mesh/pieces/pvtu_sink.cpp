@@ -68,8 +68,7 @@ PvtuSink::PvtuSink(const std::filesystem::path& path, std::uint64_t pieces)
 
 void PvtuSink::begin(const MeshHeader& header) {
   if (pieces_ > header.tets) {
-    throw Error(ErrorKind::kUsage,
-                text(name_, ": ", pieces_, " pieces of ", header.tets, " tets; ask for fewer"));
+    fail_usage(name_, ": ", pieces_, " pieces of ", header.tets, " tets; ask for fewer");
   }
   header_ = header;
   MeshDataSink::begin(header);

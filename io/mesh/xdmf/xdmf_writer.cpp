@@ -158,10 +158,9 @@ std::string xdmf_cells_text(const XdmfFacts& facts) {
 /// take what is behind a ':' for a path in that file.
 const std::filesystem::path& checked_name(const std::filesystem::path& path) {
   if (path.filename().string().find(':') == std::string::npos) return path;
-  throw Error(ErrorKind::kUsage,
-              path.string() +
-                  ": a ':' in the name of an .xdmf file would end the name of the .h5 "
-                  "file beside it in references to that; give a name without one");
+  fail_usage(path.string() +
+             ": a ':' in the name of an .xdmf file would end the name of the .h5 "
+             "file beside it in references to that; give a name without one");
 }
 
 }  // namespace

@@ -52,9 +52,9 @@ void each_slab(Index3 shape, SliceRange range, Visit visit) {
 
 void refuse_overlap_rule(const std::string& file, const OpenOptions& options) {
   if (options.overlap == Overlap::kRefused) return;
-  throw Error(ErrorKind::kUsage, text("--overlap: ", file,
-                                      " has one label a voxel, so that none overlap; it is for "
-                                      "masks"));
+  fail_usage("--overlap: ", file,
+             " has one label a voxel, so that none overlap; it is for "
+             "masks");
 }
 
 MaskMerger::MaskMerger(const VolumeInfo& frame, Overlap overlap, std::string name)

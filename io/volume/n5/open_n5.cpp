@@ -90,8 +90,8 @@ Place dataset_folder(const Place& container, const std::string& dataset) {
   const bool leaves = std::find(inside.begin(), inside.end(), "..") != inside.end();
   Place folder = container / inside.string();
   if (!leaves && folder.is_folder().value_or(true)) return folder;
-  throw Error(ErrorKind::kUsage, text("--dataset ", dataset, ": not in ", container.string(),
-                                      "; it has ", Search(container).names()));
+  fail_usage("--dataset ", dataset, ": not in ", container.string(), "; it has ",
+             Search(container).names());
 }
 
 int count_levels(const Place& pyramid) {
@@ -104,8 +104,8 @@ Place level_in(const Place& pyramid, int level) {
   const auto folder = [&](int i) { return pyramid / text("s", i); };
   if (level >= 0 && has_array(folder(level))) return folder(level);
   const int count = count_levels(pyramid);
-  throw Error(ErrorKind::kUsage, text("--scale ", level, ": ", pyramid.string(), " has ", count,
-                                      " levels, 0 (the finest) to ", count - 1));
+  fail_usage("--scale ", level, ": ", pyramid.string(), " has ", count,
+             " levels, 0 (the finest) to ", count - 1);
 }
 
 Place array_or_pyramid(const Place& container, const OpenOptions& options) {
@@ -135,8 +135,7 @@ Place find_n5_array(const Place& container, const OpenOptions& options) {
   const Place folder = array_or_pyramid(container, options);
   if (kind_of(folder) == Kind::kPyramid) return level_in(folder, options.scale.value_or(0));
   if (options.scale.value_or(0) == 0) return folder;
-  throw Error(ErrorKind::kUsage,
-              text("--scale ", *options.scale, ": ", folder.string(), " has one resolution"));
+  fail_usage("--scale ", *options.scale, ": ", folder.string(), " has one resolution");
 }
 
 namespace {

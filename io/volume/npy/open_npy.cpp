@@ -232,8 +232,8 @@ void NpyWriter::write(std::span<const RawLabel> labels) {
     const auto chunk = labels.first(std::min(labels.size(), kChunkVoxels));
     const std::size_t held = encode_voxels(chunk, type_, bytes);
     if (held < chunk.size()) {
-      throw Error(ErrorKind::kUsage, text(name_, ": label ", chunk[held], " does not fit into ",
-                                          name(type_), "; choose a wider voxel type"));
+      fail_usage(name_, ": label ", chunk[held], " does not fit into ", name(type_),
+                 "; choose a wider voxel type");
     }
     file_.append(std::span(bytes).first(chunk.size() * size));
     written_ += chunk.size();
@@ -243,8 +243,7 @@ void NpyWriter::write(std::span<const RawLabel> labels) {
 
 void NpyWriter::finish() {
   if (written_ != expected_) {
-    throw Error(ErrorKind::kUsage,
-                text(name_, ": ", written_, " voxels written, the shape has ", expected_));
+    fail_usage(name_, ": ", written_, " voxels written, the shape has ", expected_);
   }
   file_.commit();
 }

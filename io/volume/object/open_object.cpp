@@ -74,8 +74,7 @@ class SeedSearch {
 ObjectView open_object(ScaledVolume scaled, ObjectLabels labels, const Box3& bounds) {
   sort_distinct(labels);
   if (std::binary_search(labels.begin(), labels.end(), kNotTheObject)) {
-    throw Error(ErrorKind::kUsage,
-                text("--object: label ", kNotTheObject, " stands for all that is not the object"));
+    fail_usage("--object: label ", kNotTheObject, " stands for all that is not the object");
   }
   ObjectCells seeds = SeedSearch(scaled, labels, bounds).find();
   FoundObject found = follow_object(*scaled.volume, labels, std::move(seeds), bounds);

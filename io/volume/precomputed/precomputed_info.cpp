@@ -36,8 +36,8 @@ JsonFields scale_of_key(const JsonFields& info, const std::string& key) {
     JsonFields scale = info.element("scales", i);
     if (scale.text("key") == key) return scale;
   }
-  throw Error(ErrorKind::kUsage, text("--dataset ", key, ": ", info.file(),
-                                      " has no scale of this key; it has ", keys_of(info)));
+  fail_usage("--dataset ", key, ": ", info.file(), " has no scale of this key; it has ",
+             keys_of(info));
 }
 
 JsonFields wanted_scale(const JsonFields& info, const OpenOptions& options) {
@@ -45,16 +45,14 @@ JsonFields wanted_scale(const JsonFields& info, const OpenOptions& options) {
   if (count == 0) info.fail("scales", "there is none", "get a whole copy of the file");
   if (!options.dataset.empty()) {
     if (!options.scale) return scale_of_key(info, options.dataset);
-    throw Error(ErrorKind::kUsage,
-                "--dataset and --scale both choose a scale of a precomputed volume: give one");
+    fail_usage("--dataset and --scale both choose a scale of a precomputed volume: give one");
   }
   const int number = options.scale.value_or(0);
   if (number >= 0 && static_cast<std::size_t>(number) < count) {
     return info.element("scales", static_cast<std::size_t>(number));
   }
-  throw Error(ErrorKind::kUsage,
-              text("--scale ", number, ": ", info.file(), " has ", count,
-                   " scales, 0 (the finest) to ", count - 1, ": ", keys_of(info)));
+  fail_usage("--scale ", number, ": ", info.file(), " has ", count, " scales, 0 (the finest) to ",
+             count - 1, ": ", keys_of(info));
 }
 
 VoxelType type_of(const JsonFields& info) {

@@ -16,10 +16,9 @@ namespace {
 
 void check_options(const std::filesystem::path& path, const OpenOptions& options) {
   if (options.overlap == Overlap::kRefused) return;
-  throw Error(ErrorKind::kUsage,
-              text("--overlap: ", path.string(),
-                   " is read as probabilities or distances, of which the best wins; it is for "
-                   "masks"));
+  fail_usage("--overlap: ", path.string(),
+             " is read as probabilities or distances, of which the best wins; it is for "
+             "masks");
 }
 
 void check_numbers_of(const ScoreComponent& component) {

@@ -24,10 +24,6 @@ struct Level {
   std::vector<std::string> labels;  ///< those of the image
 };
 
-[[noreturn]] void fail_usage(const std::string& what) {
-  throw Error(ErrorKind::kUsage, what);
-}
-
 /// Returns what to do about a further axis, or an image that is not one of labels.
 std::string way_out_of_image(const std::vector<std::string>& labels) {
   if (labels.empty()) return "store one channel and one time as an array of its own";
@@ -106,8 +102,8 @@ std::size_t level_number(const Multiscale& multiscale, const std::string& file,
   if (number >= 0 && static_cast<std::size_t>(number) < count) {
     return static_cast<std::size_t>(number);
   }
-  fail_usage(text("--scale ", number, ": ", file, " has ", count, " scales, 0 (the finest) to ",
-                  count - 1));
+  fail_usage("--scale ", number, ": ", file, " has ", count, " scales, 0 (the finest) to ",
+             count - 1);
 }
 
 std::unique_ptr<LabelVolume> open_image(const ZarrNode& group, const OpenOptions& options) {
@@ -146,8 +142,8 @@ std::optional<Level> level_of(const ZarrNode& array) {
 
 std::unique_ptr<LabelVolume> open_lone_array(const ZarrNode& node, const OpenOptions& options) {
   if (options.scale.value_or(0) != 0) {
-    fail_usage(text("--scale ", *options.scale, ": ", node.folder.string(),
-                    " is one array, without levels"));
+    fail_usage("--scale ", *options.scale, ": ", node.folder.string(),
+               " is one array, without levels");
   }
   const std::optional<Level> level = level_of(node);
   return open_array(node, level ? &*level : nullptr, options);
@@ -192,8 +188,8 @@ std::unique_ptr<LabelVolume> open_zarr(const Place& folder, const OpenOptions& o
     fail_input(folder.string(), {}, "no metadata of Zarr in it (zarr.json, .zarray, .zgroup)",
                folder.refusal_or("get a whole copy of the store"));
   }
-  fail_usage(text("--dataset ", options.dataset, ": ", folder.string(), " has none of this name; ",
-                  folder.refusal_or("it has " + contents(folder))));
+  fail_usage("--dataset ", options.dataset, ": ", folder.string(), " has none of this name; ",
+             folder.refusal_or("it has " + contents(folder)));
 }
 
 std::size_t count_zarr_scales(const Place& folder, const OpenOptions& options) {
