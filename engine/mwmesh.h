@@ -260,9 +260,9 @@ struct Options {
   /// edit reaches are then meshed again.  The mesh is that of a run that begins afresh; the report
   /// tells what the edit did ("delta"), unless no run was complete there.
   bool from_kept = false;
-  /// With from_kept, boxes of voxels that hold all changes since the last run that returned, and
-  /// that alone are read; if empty, everything may have changed.  A run that threw may have kept
-  /// its labels all the same, so its boxes must be there, too.
+  /// With from_kept, boxes of voxels, counted as without a crop, that hold all changes since the
+  /// last run that returned, and that alone are read; if empty, everything may have changed.  A run
+  /// that threw may have kept its labels all the same, so its boxes must be there, too.
   std::vector<Box> changed{};
   /// Images whose values tets get, as `mwmesh mesh --sample` has them: "NAME=FILE" or
   /// "NAME=FILE:mode", several joined by ';'.  The voxels of a .npy file are those of the volume,

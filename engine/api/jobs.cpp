@@ -51,7 +51,8 @@ engine::LabelChoice choice_of(const mwmesh::Options& options, const io::InputSte
   return choice;
 }
 
-engine::RunHooks run_hooks(const mwmesh::Options& options, const mwmesh::Hooks& hooks) {
+engine::RunHooks run_hooks(const io::VolumeInfo& labels, const mwmesh::Options& options,
+                           const mwmesh::Hooks& hooks) {
   engine::RunHooks out{.threads = threads_of(options)};
   out.store.memory = memory_of(options);
   out.store.workdir = checked_path(options.workdir, "workdir");
@@ -62,8 +63,8 @@ engine::RunHooks run_hooks(const mwmesh::Options& options, const mwmesh::Hooks& 
                                    : engine::KeepUse::kBegin;
   if (options.keep_bytes > 0) out.keep.bytes = options.keep_bytes;
   for (const mwmesh::Box& box : options.changed) {
-    out.keep.changed.push_back(
-        {{box.lo[0], box.lo[1], box.lo[2]}, {box.hi[0], box.hi[1], box.hi[2]}});
+    const Box3 voxels = io_box(box);
+    out.keep.changed.push_back({voxels.lo - labels.first, voxels.hi - labels.first});
   }
   if (hooks.progress) {
     out.progress = [&hooks](const engine::RunProgress& at) {
@@ -142,7 +143,7 @@ engine::MeshJob mesh_job(const io::VolumeInfo& labels, const mwmesh::Settings& s
       .is_measured = options.report,
       .delta = options.from_kept && options.report ? engine::Delta::kIfKnown : engine::Delta::kNo,
       .folder = io::scratch_folder(),
-      .run = run_hooks(options, hooks),
+      .run = run_hooks(labels, options, hooks),
       .stop = stop_function(hooks)};
 }
 

@@ -92,7 +92,7 @@ class KeptInput {
     open_before(job);
     changed_ = {{{0, 0, 0}, opened.info().shape}};
     const bool reads_all = job.certify == Certify::kOn;  // it vouches for the whole input
-    const bool is_patched = before_ && !options.changed.empty() && !reads_all;
+    const bool is_patched = before_ && !options.changed.empty() && !reads_all && !is_renumbered_;
     if (is_patched) changed_ = options.changed;
     if (is_patched) patched_.emplace(counted_, *before_, folder_->with_incomplete(changed_));
   }
@@ -120,45 +120,65 @@ class KeptInput {
   /// REQUIRES: knows_delta().
   [[nodiscard]] io::Json delta(const io::LabelVolume& after, const MeshJob& job,
                                const MeshSize& size) const {
-    MeshSize old_size;
-    std::istringstream text(before_->note());
-    const bool is_known = !(text >> old_size.vertices >> old_size.tets).fail();
     const PatchedVolume unpatched(counted_, *before_, {});
-    const io::PreparedInput before(unpatched, steps_in(text),
+    const io::PreparedInput before(unpatched, note_.steps,
                                    io::SpeckLimits::of_budget(job.run.store.memory));
     VerifyTask task{.options = {},
                     .threads = thread_count(job.run.threads),
                     .folder = folder_->path(),
                     .between = job.stop};
     task.memory_bytes = std::min(task.memory_bytes, job.run.store.memory / 8);
-    return delta_json(delta_of(before.volume(), after, task),
-                      is_known ? std::optional(old_size) : std::nullopt, size);
+    VolumeDelta delta = delta_of(before.volume(), after, task);
+    delta.is_renumbered = is_renumbered_;
+    return delta_json(delta, note_.size, size);
   }
 
   /// Must be called once the run is complete.
   void finish(const io::InputSteps& steps, const MeshSize& size) {
     if (folder_ == nullptr) return;
-    append_note(*after_, io::text(size.vertices, " ", size.tets, "\n") + text_of(steps));
+    const std::uint64_t numbering = counted_.info().numbering;
+    append_note(*after_,
+                io::text(size.vertices, " ", size.tets, " ", numbering, "\n") + text_of(steps));
     after_->commit();
     folder_->end_change();
   }
 
  private:
-  /// Reads the lines behind the first one.
-  static io::InputSteps steps_in(std::istringstream& text) {
+  /// What finish() says of a run beside its labels.
+  struct Note {
+    std::optional<MeshSize> size;
+    std::uint64_t numbering = 0;
+    io::InputSteps steps;
+  };
+
+  static Note parse_note(const std::string& note) {
+    Note out;
+    MeshSize size;
+    std::istringstream text(note);
+    if (!(text >> size.vertices >> size.tets >> out.numbering).fail()) out.size = size;
     std::string rest;
-    std::getline(text, rest);
+    std::getline(text, rest);  // the end of the first line
     std::getline(text, rest, '\0');
-    return steps_of(text ? rest : std::string());
+    out.steps = steps_of(text ? rest : std::string());
+    return out;
   }
 
   void open_before(const MeshJob& job) {
     const KeepOptions& options = job.run.keep;
     if (options.changed.empty() && job.delta == Delta::kNo) return;
     const std::filesystem::path file = folder_->path() / kLabelsFile;
-    before_ = KeptLabels::open(file, counted_.info().shape);
-    if (before_) return;
     const std::string folder = folder_->path().string();
+    before_ = KeptLabels::open(file, counted_.info().shape);
+    if (before_) {
+      note_ = parse_note(before_->note());
+      is_renumbered_ = note_.numbering != counted_.info().numbering;
+      if (options.say && is_renumbered_ && !options.changed.empty()) {
+        options.say(folder +
+                    ": labels have other numbers than in the last run here, since these depend on "
+                    "all masks; all labels are read, not only --changed");
+      }
+      return;
+    }
     if (std::error_code ignored; std::filesystem::exists(file, ignored)) {
       io::fail_usage(folder +
                      ": was kept of a volume of another shape; give that volume, edited, or "
@@ -176,6 +196,8 @@ class KeptInput {
   CountedVolume counted_;
   std::shared_ptr<KeepFolder> folder_;
   std::optional<KeptLabels> before_;
+  Note note_;                   ///< of the run before
+  bool is_renumbered_ = false;  ///< one number stood for something else before
   std::vector<Box3> changed_;
   std::optional<PatchedVolume> patched_;
   std::unique_ptr<io::AtomicFile> after_;
@@ -367,7 +389,10 @@ std::vector<LabelPair> sized_interfaces(const MeshJob& job, const io::LabelTable
   return out;
 }
 
-report::FinishedRun mesh(const io::LabelVolume& opened, const MeshJob& asked, io::MeshSink& sink) {
+namespace {
+
+report::FinishedRun mesh_and_keep(const io::LabelVolume& opened, const MeshJob& asked,
+                                  io::MeshSink& sink) {
   MeshJob job = asked;
   CertificatePlan plan = plan_certificate(job);
   const report::ResourceMeter meter;
@@ -465,6 +490,7 @@ report::FinishedRun mesh(const io::LabelVolume& opened, const MeshJob& asked, io
   if (job.delivered) job.delivered();
   if (job.delta != Delta::kNo && kept.knows_delta()) {
     run.delta = kept.delta(input.volume(), job, size);
+    if (job.tell) job.tell(*run.delta);
   }
   kept.finish(job.steps, size);
   if (run.engine.keep) run.engine.keep->voxels_read = kept.voxels_read();
@@ -477,6 +503,16 @@ report::FinishedRun mesh(const io::LabelVolume& opened, const MeshJob& asked, io
   if (certifier) run.certificate = certifier->report();
   run.resources = meter.read();
   return run;
+}
+
+}  // namespace
+
+report::FinishedRun mesh(const io::LabelVolume& opened, const MeshJob& job, io::MeshSink& sink) {
+  try {
+    return mesh_and_keep(opened, job, sink);
+  } catch (const DamagedWork& damage) {
+    fail_damaged(damage, job.run);
+  }
 }
 
 }  // namespace mw::engine

@@ -45,10 +45,13 @@ struct MeshJob {
   /// Threads, memory, work folder, other processes and callbacks.  mesh() sets what is written and
   /// the identity of the run.
   RunHooks run{.threads = 0};
-  /// These three do not change the result.
+  /// These four do not change the result.
   std::function<void()> stop = [] {};                    ///< called often, by any thread; may throw
   std::function<void(std::size_t labels)> labels_known;  ///< optional; called before marches
   std::function<void()> delivered;  ///< optional; called when all of the mesh is in the sink
+  /// Optional; given FinishedRun::delta while the folder still has the labels before, so that the
+  /// same job tells it again where this throws.
+  std::function<void(const io::Json& delta)> tell;
 };
 
 /// What a certificate takes of a run's memory budget, which is a quarter at most.

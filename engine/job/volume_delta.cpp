@@ -128,6 +128,7 @@ VolumeDelta delta_of(const io::LabelVolume& before, const io::LabelVolume& after
     out.labels.push_back({label, fact(was, label), fact(is, label)});
   }
   out.contacts = contact_changes(before, after);
+  out.box = {out.box.lo + after.info().first, out.box.hi + after.info().first};
   if (out.labels_signed) sort_signed(out);
   return out;
 }
@@ -136,6 +137,7 @@ io::Json delta_json(const VolumeDelta& delta, const std::optional<MeshSize>& bef
                     const MeshSize& after) {
   io::Json out = io::Json::object();
   out["voxels_changed"] = delta.voxels;
+  out["renumbered"] = delta.is_renumbered;
   out["box"] = nullptr;
   if (delta.voxels > 0) {
     out["box"] = {{"from", report::index_json(delta.box.lo)},

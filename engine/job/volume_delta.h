@@ -37,10 +37,11 @@ struct ContactChange {
 
 struct VolumeDelta {
   std::uint64_t voxels = 0;             ///< how many changed
-  Box3 box;                             ///< holds all that changed
+  Box3 box;                             ///< holds all that changed, in voxels of the file
   std::vector<LabelChange> labels;      ///< ascending
   std::vector<ContactChange> contacts;  ///< ascending
   bool labels_signed = false;
+  bool is_renumbered = false;  ///< labels were given other numbers (VolumeInfo::numbering)
 };
 
 /// Compares two volumes of the same shape, in several passes over both.  Of task, it looks at

@@ -246,13 +246,6 @@ void keep_work(RunContext& run, const std::exception_ptr& error) {
   if (can_go_on && run.hooks.store.kept && !damaged) run.hooks.store.kept();
 }
 
-/// Throws the error with the way out of damaged work.
-[[noreturn]] void explain(const DamagedWork& damage, const RunHooks& hooks) {
-  const auto& folder = hooks.keep.folder.empty() ? hooks.store.workdir : hooks.keep.folder;
-  throw Error(damage.kind(), io::text(damage.what(), "; the disk or ", folder.string(),
-                                      " is damaged: delete that folder and start again"));
-}
-
 RunReport run_and_explain(const io::DenseVolume& volume, const MeshSettings& settings,
                           io::MeshSink& sink, const RunHooks& hooks) {
   try {
@@ -266,11 +259,17 @@ RunReport run_and_explain(const io::DenseVolume& volume, const MeshSettings& set
     }
     return std::move(run.report);
   } catch (const DamagedWork& damage) {
-    explain(damage, hooks);
+    fail_damaged(damage, hooks);
   }
 }
 
 }  // namespace
+
+void fail_damaged(const DamagedWork& damage, const RunHooks& hooks) {
+  const auto& folder = hooks.keep.folder.empty() ? hooks.store.workdir : hooks.keep.folder;
+  throw Error(damage.kind(), io::text(damage.what(), "; the disk or ", folder.string(),
+                                      " is damaged: delete that folder and start again"));
+}
 
 RunReport mesh_volume(const io::DenseVolume& volume, const MeshSettings& settings,
                       io::MeshSink& sink, const RunHooks& hooks) {

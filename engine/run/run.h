@@ -135,4 +135,7 @@ void check_keep(const RunHooks& hooks, const MeshSettings& settings);
 RunReport mesh_volume(const io::DenseVolume& volume, const MeshSettings& settings,
                       io::MeshSink& sink, const RunHooks& hooks = {});
 
+/// Throws the error again with the way out of damaged work.
+[[noreturn]] void fail_damaged(const DamagedWork& damage, const RunHooks& hooks);
+
 }  // namespace mw::engine

@@ -40,6 +40,9 @@ struct VolumeInfo {
   Index3 first{0, 0, 0};  ///< which voxel of the file is the first of these
   bool is_placed = true;  ///< false: the format cannot say where voxels are
   LabelNames names;       ///< what the file calls labels
+  /// A hash of what the numbers of labels stand for, where these were given when the volume was
+  /// opened, as to masks in the order of their files; else 0.
+  std::uint64_t numbering = 0;
   std::string note;  ///< what was taken for what the file leaves open, for people; mostly empty
 };
 

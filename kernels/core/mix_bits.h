@@ -4,6 +4,7 @@
 #pragma once
 
 #include <cstdint>
+#include <string_view>
 
 namespace mw {
 
@@ -13,6 +14,13 @@ namespace mw {
   x = (x ^ (x >> 30)) * 0xbf58476d1ce4e5b9U;
   x = (x ^ (x >> 27)) * 0x94d049bb133111ebU;
   return x ^ (x >> 31);
+}
+
+/// Mixes a text into a hash of what came before it.
+[[nodiscard]] constexpr std::uint64_t mix_text(std::string_view text, std::uint64_t before = 0) {
+  std::uint64_t hash = mix_bits(before ^ text.size());
+  for (const char c : text) hash = mix_bits(hash ^ static_cast<unsigned char>(c));
+  return hash;
 }
 
 }  // namespace mw

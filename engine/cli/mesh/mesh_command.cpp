@@ -141,10 +141,16 @@ report::FinishedRun mesh_into(const MeshRequest& request, const io::LabelVolume&
     is_delivered = job.delta == engine::Delta::kOn;
     if (is_delivered) work = way_to_delta(request);
   };
+  job.tell = [&](const io::Json& delta) {
+    files.delta.value().append(delta.dump_indented() + "\n");
+    files.delta->commit();
+    is_delivered = false;
+  };
   try {
     return engine::mesh(volume, job, files.all());
   } catch (const Error& error) {
-    if (!is_delivered) throw;
+    // Where labels, or what was kept of them, cannot be read, the same command fails again.
+    if (!is_delivered || error.kind() == ErrorKind::kInput) throw;
     throw Error(error.kind(), error.what() + ("; " + work));
   } catch (const Interrupted&) {
     throw Interrupted{work};
@@ -222,17 +228,6 @@ int threads_at_hand(int asked) {
   return given;
 }
 
-void write_delta(const MeshRequest& request, const report::FinishedRun& run, io::AtomicFile& file) {
-  try {
-    file.append(run.delta.value().dump_indented() + "\n");
-    file.commit();
-  } catch (const Error& error) {
-    throw Error(error.kind(), io::text(error.what(), "; ", request.from.string(),
-                                       " has the new labels now, so what changed cannot be told "
-                                       "again"));
-  }
-}
-
 /// Writes what follows once the mesh is complete; each file adds its name to `complete`.
 void write_side_files(const MeshRequest& request, report::FinishedRun& run, MeshFiles& files,
                       const OptionSet& options, std::vector<std::string>& complete) {
@@ -245,10 +240,6 @@ void write_side_files(const MeshRequest& request, report::FinishedRun& run, Mesh
     const report::ResourceMeter meter;
     run.digest = files.digest->digest();
     run.resources.peak_rss_bytes = meter.read().peak_rss_bytes;
-  }
-  if (files.delta) {  // first of those with content, since it cannot be made again
-    write_delta(request, run, *files.delta);
-    complete.push_back(request.delta.string());
   }
   if (files.report) {
     report::write_run_report(*files.report, run, request.output, options.json());
@@ -264,6 +255,7 @@ void write_side_files(const MeshRequest& request, report::FinishedRun& run, Mesh
 void deliver_rest(const MeshRequest& request, report::FinishedRun& run, MeshFiles& files,
                   const OptionSet& options) {
   std::vector<std::string> complete{request.output.string()};
+  if (files.delta) complete.push_back(request.delta.string());
   try {
     write_side_files(request, run, files, options, complete);
   } catch (const Error& error) {

@@ -5,6 +5,7 @@
 import os
 import tempfile
 import threading
+import warnings
 
 import numpy as np
 
@@ -37,7 +38,8 @@ class Session:
         labels, as :func:`mesh` takes them; the session works on a copy.
     keep
         a new folder for what is kept, which stays afterwards and is also that of ``mwmesh mesh
-        --from``: after another run in it, an update reads the whole array.  None: a temporary one,
+        --from``: after another run in it, an update reads the whole array, and its delta, which
+        is about the labels of that run, comes with a RuntimeWarning.  None: a temporary folder,
         which goes with the session.
     from_kept
         whether to begin with what an earlier session or run has left in keep; the array is read
@@ -142,6 +144,8 @@ class Session:
         from . import mesh
         if self._kept is not None and self._kept != self._labels_kept():
             arguments.pop("changed", None)  # another run was here: all labels are read
+            warnings.warn(f"{self._keep}: another run was here since the last update; the delta "
+                          "tells what changed since that run", RuntimeWarning, stacklevel=4)
         made = mesh(self._array, keep=self._keep,
                     **{**self._settings, "order": "colour", **arguments})
         self._kept = self._labels_kept()

@@ -54,12 +54,6 @@ std::string with_number(const std::string& name, const std::string& number, int 
   return name.substr(0, max_bytes - behind.size()) + behind;
 }
 
-std::uint64_t hash_of(std::string_view name) {
-  std::uint64_t hash = name.size();
-  for (const char c : name) hash = mix_bits(hash ^ static_cast<unsigned char>(c));
-  return hash;
-}
-
 }  // namespace
 
 std::string plain_volume_name(const LabelTable& table, Label rank) {
@@ -121,7 +115,7 @@ void PlainNames::tell_pairs_apart(const Taken& taken) {
     for_each_pair([&](const Pair& pair) {
       const std::string name = in_capitals(name_of(pair));
       if (taken.contains(name)) change(pair);
-      names.add({hash_of(name), static_cast<std::uint64_t>(pair.kind), pair.from, pair.to});
+      names.add({mix_text(name), static_cast<std::uint64_t>(pair.kind), pair.from, pair.to});
     });
     std::uint64_t last = 0;
     bool is_first = true;

@@ -11,6 +11,7 @@
 #include "io/file/source/file_source.h"
 #include "io/volume/checks.h"
 #include "io/volume/raw_array.h"
+#include "kernels/core/mix_bits.h"
 
 namespace mw::io {
 namespace {
@@ -145,14 +146,16 @@ void MaskMerger::add(const Mask& mask) {
   value_ = mask.value;
   const Set own = new_set({static_cast<std::uint16_t>(names_.size())});
   names_.push_back({.label = names_.size() + 1, .name = mask.name, .colour = mask.colour});
+  info_.numbering = mix_text(mask.file, info_.numbering);
   for (const SliceRange& range : mask.slices.value_or(std::vector{SliceRange{0, info_.shape.z}})) {
     each_slab(info_.shape, range, [&](const Box3& slab) { add_slab(mask, own, slab); });
   }
   if (refused_.voxels != 0) refuse_overlap(mask);
 }
 
-/// Returns the label of each set, and adds names of those that have several masks.
-std::vector<RawLabel> MaskMerger::label_sets(std::vector<LabelName>& names) const {
+/// Returns the label of each set, and adds those that have several masks to names and numbering.
+std::vector<RawLabel> MaskMerger::label_sets(std::vector<LabelName>& names,
+                                             std::uint64_t& numbering) const {
   std::vector<RawLabel> labels(sets_.size());
   std::vector<std::size_t> several;
   for (std::size_t set = 1; set < sets_.size(); ++set) {
@@ -168,13 +171,15 @@ std::vector<RawLabel> MaskMerger::label_sets(std::vector<LabelName>& names) cons
       joined += (joined.empty() ? "" : " + ") + names_[mask].name;
     }
     names.push_back({.label = labels[set], .name = joined, .colour = {}});
+    for (const std::uint16_t mask : sets_[set]) numbering = mix_bits(numbering ^ (mask + 1U));
+    numbering = mix_bits(numbering);  // the set ends
   }
   return labels;
 }
 
 std::unique_ptr<LabelVolume> MaskMerger::finish() {
   std::vector<LabelName> names = names_;
-  std::vector<RawLabel> labels = label_sets(names);
+  std::vector<RawLabel> labels = label_sets(names, info_.numbering);
   if (overlaps_ != 0) {
     info_.note += text(info_.note.empty() ? "" : "; ", name_, ": ", overlaps_,
                        " voxels are in several masks");

@@ -73,7 +73,8 @@ class MaskMerger {
   [[nodiscard]] Set joined(Set present, Set own);
   void add_slab(const Mask& mask, Set own, const Box3& slab);
   void refuse_overlap(const Mask& mask) const;
-  [[nodiscard]] std::vector<RawLabel> label_sets(std::vector<LabelName>& names) const;
+  [[nodiscard]] std::vector<RawLabel> label_sets(std::vector<LabelName>& names,
+                                                 std::uint64_t& numbering) const;
 
   VolumeInfo info_;
   Overlap overlap_;

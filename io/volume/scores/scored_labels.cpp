@@ -8,6 +8,7 @@
 
 #include "io/file/errors.h"
 #include "kernels/core/assert.h"
+#include "kernels/core/mix_bits.h"
 
 namespace mw::io {
 namespace {
@@ -58,6 +59,7 @@ ScoredLabels::ScoredLabels(std::vector<ScoreComponent> components, VoxelValues v
   info_.scaled = false;
   info_.format += values == VoxelValues::kDistances ? " distances" : " probabilities";
   info_.names = std::move(names);
+  for (const ScoreComponent& c : components_) info_.numbering = mix_text(c.name, info_.numbering);
 }
 
 void ScoredLabels::read_scores(RawLabel label, const Box3& box, std::span<double> out) const {

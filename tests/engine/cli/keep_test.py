@@ -339,6 +339,84 @@ class Keep(unittest.TestCase):
         self.refused(3, "delete that folder", "mesh", "v.npy", "-o", "m.vtu", *SETTINGS, "--from",
                      "k")
 
+    def test_damage_of_kept_labels_is_told(self):
+        for name in ("labels", "changing"):
+            self.mesh("--keep", name)
+            damaged = content_of("labels/labels")[:-40] + b"x" * 40
+            with open(f"{name}/{name}", "wb") as file:
+                file.write(damaged)
+            with self.subTest(name):
+                self.refused(3, f"or {name} is damaged: delete that folder", "mesh", "v.npy", "-o",
+                             "m.vtu", *SETTINGS, "--from", name, "--changed", "0,0,0,1,1,1",
+                             "--delta", "d.json")
+
+    def save_mask(self, name, *boxes):
+        """Writes a NRRD that is 1 in boxes (x0, y0, z0, x1, y1, z1)."""
+        mask = np.zeros((22, 26, 30), np.uint8)
+        for x0, y0, z0, x1, y1, z1 in boxes:
+            mask[z0:z1, y0:y1, x0:x1] = 1
+        os.makedirs("v.npy", exist_ok=True)  # what mesh() meshes is a folder
+        header = ("NRRD0004\ntype: uchar\ndimension: 3\nsizes: 30 26 22\nencoding: raw\n"
+                  "endian: little\n\n")
+        with open(f"v.npy/{name}.nrrd", "wb") as file:
+            file.write(header.encode() + mask.tobytes())
+
+    def test_masks_that_get_other_numbers(self):
+        """All labels are read, whatever --changed says."""
+        os.remove("v.npy")
+        boxes = {"a": (2, 2, 2, 12, 12, 12), "b": (18, 14, 3, 28, 24, 12),
+                 "c": (20, 10, 5, 26, 18, 20)}
+        for name, box in boxes.items():
+            self.save_mask(name, box)
+        options = ("--overlap", "all", "--background", "0")
+        self.mesh("--keep", "k", "--order", "colour", *options)
+        edits = {"b": (boxes["b"], (4, 4, 4, 7, 7, 7)), "aa": ((26, 2, 18, 29, 6, 21),)}
+        for name, edit in edits.items():  # "a + b" comes before "b + c", and "aa" before "b"
+            self.save_mask(name, *edit)
+            said = self.mesh("--from", "k", "--changed", ",".join(map(str, edit[-1])), "--delta",
+                             "d.json", *options).stderr
+            self.assertIn("labels have other numbers", said)
+            self.done("mesh", "v.npy", "-o", "fresh.vtu", "--order", "colour", *SETTINGS, *options)
+            self.assertEqual(content_of("m.vtu"), content_of("fresh.vtu"))
+            with open("d.json", encoding="utf-8") as file:
+                self.assertTrue(json.load(file)["renumbered"])
+        self.save_mask("c", boxes["c"], (2, 20, 2, 6, 24, 6))
+        said = self.mesh("--from", "k", "--changed", "2,20,2,6,24,6", "--delta", "d.json",
+                         *options).stderr
+        self.assertNotIn("other numbers", said)
+        with open("d.json", encoding="utf-8") as file:
+            self.assertFalse(json.load(file)["renumbered"])
+
+    def test_boxes_of_a_crop_count_voxels_of_the_file(self):
+        crop = ("--crop", "4,3,2,30,26,22")
+        self.mesh("--keep", "k", *crop)
+        self.volume[5:8, 6:9, 7:10] = 3
+        self.save()
+        self.mesh("--from", "k", "--changed", "7,6,5,10,9,8", "--delta", "d.json", *crop)
+        with open("d.json", encoding="utf-8") as file:
+            delta = json.load(file)
+        self.assertEqual(delta["box"], {"from": [7, 6, 5], "to": [10, 9, 8]})
+        self.assertEqual(delta["voxels_changed"], 27)
+
+    def test_a_delta_that_is_not_written_is_told_again(self):
+        self.mesh("--keep", "k")
+        self.volume[5:8, 6:9, 7:10] = 3
+        self.save()
+        # The place of the delta is taken by a folder once the run has begun to mesh.
+        with subprocess.Popen([PROGRAM, "mesh", "v.npy", "-o", "m.vtu", *SETTINGS, "--from", "k",
+                               "--delta", "d.json"], stdout=subprocess.DEVNULL,
+                              stderr=subprocess.PIPE, text=True) as run:
+            while run.poll() is None and not os.path.exists("k/changing"):
+                pass
+            os.makedirs("d.json/taken")
+            said = run.communicate()[1]
+        self.assertNotEqual(run.returncode, 0, said)
+        self.assertIn("still has the labels before", said)
+        os.removedirs("d.json/taken")
+        self.mesh("--from", "k", "--delta", "d.json")
+        with open("d.json", encoding="utf-8") as file:
+            self.assertEqual(json.load(file)["box"], {"from": [7, 6, 5], "to": [10, 9, 8]})
+
 
 if __name__ == "__main__":
     unittest.main()

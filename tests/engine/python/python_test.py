@@ -1129,7 +1129,8 @@ class Sessions(InFolder):
         mine = mwmesh.Session(grains(), keep=self.path("kept"), window=8)
         other = mwmesh.Session(grains(), keep=self.path("kept"), from_kept=True, window=8)
         other.update(((1, 1, 1), (3, 3, 3)), 77)
-        mine.update(((6, 6, 6), (8, 8, 8)), 5)
+        with self.assertWarnsRegex(RuntimeWarning, "another run was here"):
+            mine.update(((6, 6, 6), (8, 8, 8)), 5)
         self.expect_fresh(mine)
 
     def test_the_byte_order_of_arrays_does_not_matter(self):
