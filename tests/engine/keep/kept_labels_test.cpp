@@ -57,8 +57,8 @@ TEST(PatchedVolume, IsTheNewVolumeWhereTheBoxesHaveAllChanges) {
     test::SmallVolume after = before;
     Box3 changed;
     const std::string done = test::Editor(random).edit(after, changed);
-    SCOPED_TRACE(done + " in " + std::to_string(x) + "," + std::to_string(y) + "," +
-                 std::to_string(z));
+    SCOPED_TRACE(done + " in " + std::to_string(shape.x) + "," + std::to_string(shape.y) + "," +
+                 std::to_string(shape.z));
     const MemoryVolume volume(after, {});
     const PatchedVolume patched(volume, *kept, {changed}), unpatched(volume, *kept, {});
     for (int k = 0; k < 5; ++k) {

@@ -142,9 +142,11 @@ bool counts_whole_things(const std::string& check) {
          check == "P2 faces" || check == "P2 labels";
 }
 
-/// Tiles name other offenders first.
+/// Tiles name other offenders first, and none has a vertex that is in no tet, so that it is not
+/// seen to be where another one is.
 std::string without_names(const std::string& detail) {
-  return std::regex_replace(detail, std::regex(R"( \([^)]*\))"), "");
+  const std::regex varies(R"(\d+ vertices where another one is[^;]*; | \([^)]*\))");
+  return std::regex_replace(detail, varies, "");
 }
 
 void expect_same(const AuditReport& tiled, const AuditReport& whole) {

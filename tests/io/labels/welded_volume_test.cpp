@@ -104,7 +104,7 @@ TEST(WeldedVolume, FillsWhatTheRuleSays) {
     const WeldedVolume welds(volume, {givers.begin(), givers.end()}, kEnough);
     WeldFacts facts;
     for (;;) {
-      const auto filled = Round({x, y, z}, labels, givers).filled();
+      const auto filled = Round(shape, labels, givers).filled();
       if (filled.empty()) break;
       ++facts.rounds;
       facts.voxels += filled.size();
