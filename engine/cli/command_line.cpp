@@ -42,6 +42,7 @@ class Reader {
   CommandLine read(std::vector<std::string> arguments) {
     CommandLine line{.command = command_};
     refuse_names_like_flags(arguments);
+    refuse_empty_values(arguments);
     std::reverse(arguments.begin(), arguments.end());  // the library takes them from the end
     try {
       app_.parse(arguments);
@@ -69,6 +70,16 @@ class Reader {
       if (word == "--") return;
       if (word.size() < 3 || (!word.starts_with("-v") && !word.starts_with("-h"))) continue;
       refuse(word + ": unknown flag; a file of that name is ./" + word, command_);
+    }
+  }
+
+  /// Refuses `--report=`, for whose value the library would take the next argument.
+  void refuse_empty_values(const std::vector<std::string>& arguments) const {
+    for (const std::string& word : arguments) {
+      if (word == "--") return;
+      const std::size_t equals = word.find('=');
+      if (!word.starts_with("--") || equals + 1 != word.size()) continue;
+      refuse(word.substr(0, equals) + ": empty value", command_);
     }
   }
 

@@ -196,11 +196,22 @@ void print_samples(const report::FinishedRun& run) {
 }
 
 void print_certificate(const report::FinishedRun& run) {
-  const std::string checked =
-      std::string("topology, partition, radius ratio") +
-      (run.why_no_volumes.empty() ? ", distance and volumes hold" : " and distance hold");
-  std::cout << "certificate " << (run.certificate ? checked : "none: " + run.why_no_certificate)
-            << "\n";
+  if (!run.certificate) {
+    std::cout << "certificate none: " << run.why_no_certificate << "\n";
+    return;
+  }
+  const std::vector<audit::Check>& checks = run.certificate->checks;
+  const bool has_bound = std::any_of(checks.begin(), checks.end(), [](const audit::Check& check) {
+    return check.name == "P4 distance";
+  });
+  std::vector<std::string> held{"topology", "partition"};
+  if (run.radius_ratio_floor > 0) held.emplace_back("radius ratio");
+  if (has_bound) held.emplace_back("distance");
+  if (run.why_no_volumes.empty()) held.emplace_back("volumes");
+  const std::string last = held.back();
+  held.pop_back();
+  std::cout << "certificate " << joined(held, ", ") << " and " << last << " hold"
+            << (has_bound ? "" : "; distance had no bound") << "\n";
 }
 
 std::string name_of(RawLabel label, const report::FinishedRun& run) {

@@ -314,6 +314,20 @@ class Mesh:
         triangles = facets.triangles[here]
         return triangles if rank_a < rank_b else facets.others[here]
 
+    def _lie_on_box(self, triangles):
+        """Returns for each triangle whether it lies on a side of the box of the volume."""
+        box = json.loads(self._core.record or "{}").get("box")
+        if box is None:  # as of meshes of others: that of the points
+            low = self.points.min(axis=0)
+            box = {"origin": low, **dict(zip("xyz", np.diag(self.points.max(axis=0) - low)))}
+        on_side = np.zeros(len(triangles), dtype=bool)
+        for axis in "xyz":
+            edge = np.array(box[axis])
+            share = (self.points[triangles] - box["origin"]) @ edge / (edge @ edge)
+            for end in (0, 1):
+                on_side |= (np.abs(share - end) <= 1e-9).all(axis=1)
+        return on_side
+
     def surface(self, label, closed=True):
         """Returns the surface of a label; closed: with its facets on the sides of the box.
 
@@ -325,7 +339,9 @@ class Mesh:
         """
         rank = self._rank(label)
         facets = self._facets()
-        out = (facets.label == rank) & (closed | (facets.other >= 0))
+        out = facets.label == rank
+        if not closed:
+            out[out] &= ~self._lie_on_box(facets.triangles[out])
         back = facets.other == rank
         triangles = np.concatenate([facets.triangles[out], facets.others[back]])
         rows, corners = np.unique(triangles, return_inverse=True)

@@ -304,21 +304,46 @@ std::array<bool, 3> are_cells(const FieldMap& fields) {
   return out;
 }
 
-/// Reads `axis mins`, which say where the volume begins where `space origin` does not.
-void parse_axis_mins(const FieldMap& fields, FileSpace& space, std::string_view file) {
-  const auto found = fields.find("axismins");
-  if (found == fields.end() || space.first || fields.contains("spacedirections")) return;
-  auto numbers = parse_numbers<double>(found->second, "axis mins", file);
+/// Returns the numbers of a field that has one for each axis; nothing where they are not known.
+std::optional<Vector3> numbers_of_axes(const FieldMap& fields, const std::string& key,
+                                       std::string_view field, std::string_view file) {
+  const auto found = fields.find(key);
+  if (found == fields.end()) return std::nullopt;
+  auto numbers = parse_numbers<double>(found->second, field, file);
   const std::vector<bool> spatial = is_spatial(fields);
   for (std::size_t i = spatial.size() == numbers.size() ? spatial.size() : 0; i-- > 0;) {
     if (!spatial[i]) numbers.erase(numbers.begin() + static_cast<std::ptrdiff_t>(i));
   }
   const auto is_unknown = [](double x) { return std::isnan(x); };
-  if (std::all_of(numbers.begin(), numbers.end(), is_unknown)) return;
-  if (numbers.size() != 3) fail_input(file, "NRRD field 'axis mins'", "not three numbers");
+  if (std::all_of(numbers.begin(), numbers.end(), is_unknown)) return std::nullopt;
+  if (numbers.size() != 3) {
+    fail_input(file, text("NRRD field '", field, "'"), "not three numbers");
+  }
+  return Vector3{numbers[0], numbers[1], numbers[2]};
+}
+
+/// Takes the size of voxels from `axis mins` and `axis maxs` where no other field has it.
+void parse_axis_ends(const FieldMap& fields, FileSpace& space, std::string_view file) {
+  if (fields.contains("spacings") || fields.contains("spacedirections")) return;
+  const auto mins = numbers_of_axes(fields, "axismins", "axis mins", file);
+  const auto maxs = numbers_of_axes(fields, "axismaxs", "axis maxs", file);
+  const auto sizes = numbers_of_axes(fields, "sizes", "sizes", file);
+  if (!mins || !maxs || !sizes) return;
+  const std::array<bool, 3> cells = are_cells(fields);
+  for (std::size_t i = 0; i < 3; ++i) {
+    const double steps = (*sizes)[i] - (cells[i] ? 0 : 1);
+    if (steps > 0) space.steps[i][i] = ((*maxs)[i] - (*mins)[i]) / steps;
+  }
+  space.steps_field = "NRRD fields 'axis mins' and 'axis maxs'";
+}
+
+/// Reads `axis mins`, which say where the volume begins where `space origin` does not.
+void parse_axis_mins(const FieldMap& fields, FileSpace& space, std::string_view file) {
+  if (space.first || fields.contains("spacedirections")) return;
+  space.first = numbers_of_axes(fields, "axismins", "axis mins", file);
+  if (!space.first) return;
   const std::array<bool, 3> cells = are_cells(fields);
   space.first_field = "NRRD field 'axis mins'";
-  space.first = Vector3{numbers[0], numbers[1], numbers[2]};
   space.first_is_centre = std::none_of(cells.begin(), cells.end(), [](bool is) { return is; });
   if (space.first_is_centre) return;
   for (std::size_t i = 0; i < 3; ++i) {
@@ -389,6 +414,7 @@ FileSpace parse_space(const FieldMap& fields, std::string_view file) {
   if (const auto found = fields.find("spaceorigin"); found != fields.end()) {
     space.first = three_numbers(found->second, "space origin", file);
   }
+  parse_axis_ends(fields, space, file);
   parse_axis_mins(fields, space, file);
   parse_frame(fields, space);
   return space;

@@ -55,6 +55,11 @@ TEST_F(UsageTest, HelpOfMeshIsShort) {
   EXPECT_EQ(run("mesh --help").out.find("--edge-variance"), std::string::npos);
 }
 
+TEST_F(UsageTest, AnEmptyValueTakesNoOtherArgument) {
+  expect_failure(2, "mesh seg.nii.gz -o o.vtu --report= --ascii", "--report: empty value");
+  expect_failure(2, "mesh seg.nii.gz -o o.vtu --names= --threads 1", "--names: empty value");
+}
+
 TEST_F(UsageTest, UnknownCommandsAndFlagsAreNamed) {
   expect_failure(2, "mehs seg.nii.gz -o o.vtu",
                  "mehs: unknown command; did you mean mesh?; see mwmesh --help");

@@ -398,6 +398,20 @@ class Figures(unittest.TestCase):
         with self.assertRaises(mwmesh.UsageError):
             self.mesh.surface(77)
 
+    def test_an_open_surface_ends_at_the_box_alone(self):
+        """Facets towards labels that were left out are no side of the box."""
+        volume = np.zeros((12, 12, 12), np.uint8)
+        volume[:, 3:9, 3:9] = 1  # a bar through the box, between z = 0 and 12
+        whole = mwmesh.mesh(volume, surface="voxel")
+        part = mwmesh.mesh(volume, surface="voxel", background=0)
+        moved = mwmesh.mesh(volume, surface="voxel", background=0, affine=np.diag([2, 3, 4, 1]))
+        for mesh in (whole, part, moved):
+            points, triangles = mesh.surface(1, closed=False)
+            self.assertEqual(len(triangles), len(whole.surface(1, closed=False).triangles))
+            self.assertLess(len(triangles), len(mesh.surface(1).triangles))
+            height = points[triangles][:, :, 2]
+            self.assertTrue((np.ptp(height, axis=1) > 0).all())  # none lies on a side along z
+
     def test_arrays_are_views_that_outlive_the_mesh(self):
         points, total = self.mesh.points, self.mesh.points.sum()
         for array in (points, self.mesh.tets, self.mesh.labels, self.mesh.label_list()):

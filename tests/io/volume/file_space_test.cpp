@@ -303,6 +303,26 @@ TEST(NrrdSpace, AxesOfSeveralUnitsAreRefused) {
   EXPECT_EQ(open_volume(unknown)->info().space.unit, "");
 }
 
+TEST(NrrdSpace, AxisMinsAndMaxsAreTheEndsOfAxes) {
+  const TempDir dir;
+  const auto space = [&](const std::string& fields) {
+    const auto path = dir.file("a.nrrd",
+                               "NRRD0005\ntype: uchar\ndimension: 3\nsizes: 2 5 1\n"
+                               "encoding: raw\n" +
+                                   fields + "\nABCDEFGHIJ");
+    return open_volume(path)->info().space;
+  };
+  const std::string ends = "axis mins: 10 20 30\naxis maxs: 14 40 33\n";
+  const VolumeSpace cells = space(ends);
+  EXPECT_EQ(cells.origin, (Vector3{10, 20, 30}));
+  EXPECT_EQ(cells.spacing, (Vector3{2, 4, 3}));
+  const VolumeSpace nodes = space(ends + "centers: node node cell\n");
+  EXPECT_EQ(nodes.spacing, (Vector3{4, 5, 3}));
+  EXPECT_EQ(nodes.origin, (Vector3{8, 17.5, 30}));
+  EXPECT_EQ(space(ends + "spacings: 1 1 1\n").spacing, (Vector3{1, 1, 1}));
+  EXPECT_EQ(space("axis mins: 10 20 30\n").spacing, (Vector3{1, 1, 1}));
+}
+
 TEST(NrrdSpace, AxisMinsAreWhereTheVolumeBegins) {
   const TempDir dir;
   const auto origin = [&](const std::string& fields) {
