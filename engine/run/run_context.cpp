@@ -76,12 +76,16 @@ struct KnownStages {
   constexpr double kCacheShare = 0.25;              // of --memory, for chunks that were unpacked
   constexpr std::uint64_t kUsualBlock = 2U << 20U;  // to write it
   const MemoryBudget& budget = run.budget;
+  const std::uint64_t least =
+      std::max(budget.memory_with(always + stages.reading, stages.buffers > 0 ? kCacheShare : 0),
+               budget.memory_with(always + stages.writing, run.hooks.store.buffers_grow));
   const std::uint64_t enough = std::max(
-      {budget.memory_with(always + stages.reading, stages.buffers > 0 ? kCacheShare : 0),
+      {least,
        budget.memory_with(always + stages.writing + kUsualBlock, run.hooks.store.buffers_grow),
        budget.memory_with(
            always + usual_window_bytes(run.layout.grid(0), run.settings.sizes.limits_edges()))});
-  budget.refuse("--memory " + io::mebibytes(enough) + " is enough for most labels");
+  budget.refuse("--memory " + io::mebibytes(enough) + " is enough for most labels, and for none " +
+                "is less than " + io::mebibytes(least));
 }
 
 /// Reserves what the program takes.

@@ -21,11 +21,13 @@ class MemoryProgramTest : public ProgramTest {
                 " --seed 1 -o v.npy");
   }
 
-  /// The figure after "--memory " in a message; 0: none.
+  /// The least budget that a message names; 0: none.
   static std::uint64_t advised_mebibytes(const std::string& message) {
-    constexpr std::string_view kOption = "--memory ";
-    const std::size_t at = message.find(kOption);
-    return at == message.npos ? 0 : std::stoull(message.substr(at + kOption.size()));
+    for (const std::string_view before : {"is less than ", "--memory "}) {
+      const std::size_t at = message.find(before);
+      if (at != message.npos) return std::stoull(message.substr(at + before.size()));
+    }
+    return 0;
   }
 
   /// Runs with less memory than works, then with the least that is asked for, until it is done;

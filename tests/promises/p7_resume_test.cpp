@@ -113,9 +113,12 @@ std::uint64_t advised_memory(const Trial& trial, const StoreOptions& store,
   } catch (const Error& e) {
     EXPECT_EQ(e.kind(), ErrorKind::kResource) << e.what();
     const std::string message = e.what();
-    const std::size_t at = message.find("--memory ");
-    EXPECT_NE(at, std::string::npos) << message;
-    return at == std::string::npos ? 0 : std::stoull(message.substr(at + 9)) << 20;
+    for (const std::string_view before : {"is less than ", "--memory "}) {
+      const std::size_t at = message.find(before);
+      if (at != std::string::npos) return std::stoull(message.substr(at + before.size())) << 20;
+    }
+    ADD_FAILURE() << message;
+    return 0;
   }
 }
 

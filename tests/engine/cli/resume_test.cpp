@@ -119,9 +119,12 @@ TEST_F(ResumeProgramTest, StaysWithinTheBudgetThatItAsksFor) {
   const std::string mesh = "mesh n.npy -o n.vtu --window 16 ";
   const ProgramRun refused = run(mesh + "--memory 10MiB");
   EXPECT_EQ(refused.code, 4);
-  const std::size_t at = refused.err.find("--memory ");
+  const std::string before = "is less than ";
+  const std::size_t at = refused.err.find(before);
   ASSERT_NE(at, std::string::npos) << refused.err;
-  const std::string min = refused.err.substr(at, refused.err.find('\n', at) - at);
+  const std::size_t end = refused.err.find('\n', at);
+  const std::string min =
+      "--memory " + refused.err.substr(at + before.size(), end - at - before.size());
   EXPECT_EQ(files(), (std::set<std::string>{"n.npy"}));
   ProgramRun done = run(mesh + min + " --report r.json");
   if (done.code == 4) {  // a window of the second march needs more than the first of the first

@@ -248,8 +248,8 @@ TEST_F(UsageTest, NeedsSomeStack) {
 
 /// What the search for specks holds counts, too; the budget of a user who does as told is enough.
 TEST_F(UsageTest, NamesABudgetThatIsEnough) {
-  expect_done("synth noise --shape 24,24,24 --count 50 --seed 1 -o n.npy");
-  const std::string mesh = "mesh n.npy -o n.vtu --drop-specks 3 --memory ";
+  expect_done("synth noise --shape 32,32,32 --count 200 --seed 1 -o n.npy");
+  const std::string mesh = "mesh n.npy -o n.vtu --drop-specks 5 --memory ";
   const ProgramRun refused = run(mesh + "45MiB");
   ASSERT_EQ(refused.code, 4) << refused.err;
   const std::string::size_type at = refused.err.find("--memory ");

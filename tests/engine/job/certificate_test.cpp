@@ -130,7 +130,7 @@ TEST(CertificatePlan, IsDroppedWhereTheRunWouldNotFitBesideIt) {
   EXPECT_EQ(engine::beside_others(plan, job, most + 1).threads, 1);
   EXPECT_NE(engine::beside_others(plan, job, kGibibyte).why_not.find("needs --memory 1112MiB"),
             std::string::npos);
-  job.certify = Certify::kOn;
+  job.certify = engine::Certify::kOn;
   EXPECT_EQ(engine::beside_others(plan, job, kGibibyte).why_not, "");
 }
 
