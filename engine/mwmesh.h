@@ -77,10 +77,11 @@ struct Space {
 };
 
 /// Returns the space of an array whose indices of voxels `affine` (three rows of a 4 x 4 matrix)
-/// takes to the world; as in NIfTI, they stand for centres.  frame is "own", "ras" or "lps", or
-/// "voxel" to keep nothing but the edges of a voxel.  spacing has these edges where a file states
-/// them beside the matrix.
-/// ERRORS: kInput for numbers that are not finite, and for axes that are 0 or not at right angles.
+/// takes to the world; as in NIfTI, they stand for centres, while the affine of `mwmesh info
+/// --json` takes corners, and is to get half of each of its first three columns added to the last.
+/// frame is "own", "ras" or "lps", or "voxel" to keep nothing but the edges of a voxel.  spacing
+/// has these edges where a file states them beside the matrix. ERRORS: kInput for numbers that are
+/// not finite, and for axes that are 0 or not at right angles.
 [[nodiscard]] Space space_of_affine(const std::array<std::array<double, 4>, 3>& affine,
                                     const std::string& frame = "own",
                                     const std::optional<Vector>& spacing = {});
@@ -306,7 +307,7 @@ struct Mesh {
   /// alike except for capitals; others are written as such names ("Stress XX" as "Stress_XX").
   std::map<std::string, std::vector<double>> values{};
   /// JSON, the keys of `mwmesh mesh --report`; empty when there is none.  Its "settings" are those
-  /// of Settings, with threads, memory and workdir.
+  /// of Settings without preset, with threads, memory and workdir.
   std::string report{};
   std::string record{};  ///< one line of JSON about the run that made it, which files keep
   /// Whether each eight tets in turn are the straight parts of a curved tet, as from read_mesh().
@@ -351,9 +352,9 @@ struct FileOptions {
   std::filesystem::path pairs{};
 };
 
-/// Meshes the volume into a file of any format of `mwmesh convert`, which appears under its name
-/// only once the mesh is whole.  Returns the report.
-/// ERRORS: also kUsage for what the format has no place for.
+/// Meshes the volume into a file of any format that `mwmesh convert` writes, which appears under
+/// its name only once the mesh is whole.  Returns the report. ERRORS: also kUsage for what the
+/// format has no place for.
 std::string mesh_to_file(const std::filesystem::path& path, const Volume& volume,
                          const Settings& settings, const Options& options, const Hooks& hooks,
                          const FileOptions& file);

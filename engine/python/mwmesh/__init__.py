@@ -234,20 +234,22 @@ def mesh(volume, *, progress=None, **arguments):
         (x, y, z), or one number for all: edges of a voxel, and the first corner of the first voxel.
     affine
         a 4 x 4 matrix that takes the indices (x, y, z) of voxels, at their centres, to the world;
-        it replaces spacing and origin.
+        it replaces spacing and origin.  That of ``mwmesh info --json`` is about their first corners:
+        add half of each of its first three columns to the last one.
     axes
         how arrays are indexed: "zyx" (as in .npy, HDF5, Zarr, TIFF), or "xyz" (as in NIfTI; the
         default with an affine and for nibabel images).
     frame, unit, names
-        "ras" or "lps", or "voxel" to keep nothing but the spacing; "mm", "um" and so on; {label: name}, a list of the names of labels 0, 1, 2
-        and so on, or a file of ``mwmesh mesh --names``, which may have colours.  Labels are given
-        by number or by name, wherever they are.
+        "ras" or "lps", or "voxel" to keep nothing but the spacing ("own" for arrays and "file" for
+        files: the frame that they have); "mm", "um" and so on; {label: name}, a list of the names
+        of labels 0, 1, 2 and so on, or a file of ``mwmesh mesh --names``, which may have colours.
+        Labels are given by number or by name, wherever they are, except for object.
     dataset, scale, crop, overlap, values, object, trust_paths, cache
         for files: the array to read, the level of a pyramid, the box ((x0, y0, z0), (x1, y1, z1))
         to keep, which label a voxel of several masks gets ("first", "last", or "all": one for each
         set of masks), what the numbers are ("labels", or "probabilities" of classes or signed
         "distances" of labels, whose crossings then place the interfaces), labels that alone matter
-        and that the mesh is to have (a number or a list; all others become 0; coarser scales tell
+        and that the mesh is to have (a number or a list of numbers; all others become 0; coarser scales tell
         where to read), whether files that headers name may be outside of their folder, and a folder
         that keeps what servers send for later runs ("DIR", or "DIR,SIZE" with the most bytes).
     merge, drop_specks, weld
@@ -311,7 +313,8 @@ def mesh_to_file(volume, path, *, element="tet4", materials=None, deck=False, pa
 
 
 def read(path):
-    """Reads a mesh from a file of any format of ``mwmesh convert``."""
+    """Reads a mesh from a file of any format that ``mwmesh convert`` reads: .vtkhdf, .vtu, .mesh,
+    .msh, .msh2 and .pvtu."""
     return Mesh._of(_core.read_mesh(path_bytes(path, "path")))
 
 

@@ -99,7 +99,7 @@ class Verdict:
         self.passed = verdict.passed
         #: (name, passed, detail) of each check.
         self.checks = verdict.checks
-        #: The keys of ``mwmesh verify --report``.
+        #: The keys of ``mwmesh verify --report`` without version, settings and performance.
         self.report = json.loads(verdict.report)
 
     def __bool__(self):
@@ -143,7 +143,8 @@ class Mesh:
 
     def _begin(self):
         report = self._core.report
-        #: The keys of ``mwmesh mesh --report``; None where there is none.
+        #: The keys of ``mwmesh mesh --report``; None where there is none.  Its "settings" are those
+        #: of :func:`settings` without preset, with threads, memory and workdir.
         self.report = json.loads(report) if report else None
         self._known = {}
 
