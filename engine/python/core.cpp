@@ -36,7 +36,8 @@ VoxelType voxel_type(const py::dtype& type) {
     if (code == name) return voxel;
   }
   throw Error(ErrorKind::kUsage, "array: labels of type " + py::repr(type).cast<std::string>() +
-                                     ": expected integers, or floats that are whole numbers");
+                                     ": expected integers, or floats of 32 or 64 bits that are "
+                                     "whole numbers; convert others, as with astype(\"float32\")");
 }
 
 /// A volume, and the array that it reads, indexed [x, y, z], which lives as long as the volume.

@@ -13,6 +13,8 @@ from ._values import (check_names, name_rows, numbers, path_bytes, switch, text,
 
 #: Arrays are indexed [z, y, x], as .npy, HDF5, Zarr and TIFF have them, unless told otherwise.
 AXES = ("zyx", "xyz")
+#: The frames of arrays and images; files have "file" for "own".
+FRAMES = ("own", "ras", "lps", "voxel")
 #: The arguments that say which part of a source the volume is, and where it lies.
 PLACE = ("spacing", "origin", "affine", "frame", "unit", "axes", "dataset", "scale", "crop",
          "overlap", "values", "object", "trust_paths", "cache")
@@ -171,6 +173,8 @@ def _volume(source, spacing, origin, affine, frame, unit, axes, dataset, scale, 
     axes = axes or ("xyz" if affine is not None else "zyx")
     if axes not in AXES:
         raise unexpected("axes", "zyx or xyz", axes)
+    if frame and frame not in FRAMES:
+        raise unexpected("frame", "own, ras, lps or voxel", frame)
     if not hasattr(source, "shape") or not hasattr(source, "dtype"):
         source = np.asarray(source)
     if len(source.shape) != 3:

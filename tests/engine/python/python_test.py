@@ -1038,6 +1038,14 @@ class Errors(InFolder):
                       np.broadcast_to(np.uint8(3), (8, 8, 8))):
             self.assertEqual(mwmesh.mesh(array).digest, mwmesh.mesh(array.copy()).digest)
 
+    def test_types_and_frames_that_are_not_taken(self):
+        self.check(mwmesh.UsageError, 'convert others, as with astype', grains().astype(np.float16))
+        for place in ({}, {"affine": np.eye(4)}):
+            self.check(mwmesh.UsageError, "frame: expected own, ras, lps or voxel, got 'xyz'",
+                       grains(), frame="xyz", **place)
+        for frame in ("own", "ras", "lps", "voxel"):
+            mwmesh.mesh(grains(), frame=frame)
+
     def test_masked_arrays(self):
         masked = np.ma.masked_equal(grains(), 2)
         self.check(mwmesh.UsageError, "is masked; fill it", masked)
