@@ -80,12 +80,14 @@ std::array<Vector3, 3> axes_of(std::string_view file, const FileSpace& space) {
   for (std::size_t i = 0; i < 3; ++i) {
     const double cosine = dot(axes[i], axes[(i + 1) % 3]);
     if (std::abs(cosine) <= kMaxShear) continue;
-    fail_input(file, space.steps_field,
-               text("the axes ", std::string_view("xyz").substr(i, 1), " and ",
-                    std::string_view("xyz").substr((i + 1) % 3, 1),
-                    " of the array are not at right angles in the world (cosine ", cosine,
-                    "): a sheared volume has no quality or distance that could be promised"),
-               "resample it onto a grid with right angles, or give --frame voxel");
+    fail_input(
+        file, space.steps_field,
+        text("the axes ", std::string_view("xyz").substr(i, 1), " and ",
+             std::string_view("xyz").substr((i + 1) % 3, 1),
+             " of the array are not at right angles in the world (cosine ", cosine,
+             "): a sheared volume has no quality or distance that could be promised"),
+        "resample it onto a grid with right angles, or, where it is the volume to mesh, give "
+        "--frame voxel");
   }
   return straightened(axes);
 }

@@ -381,9 +381,11 @@ namespace {
 void check_rotation(const NiftiHeader& header, std::string_view file) {
   constexpr double kRounding = 1e-4;
   if (!(header.quaternion > 1 + kRounding)) return;
-  fail_input(file, "quatern_b, quatern_c, quatern_d",
-             text("their length is ", header.quaternion, ", and that of a rotation is at most 1"),
-             "correct the qform, or give --frame voxel, which does without it");
+  fail_input(
+      file, "quatern_b, quatern_c, quatern_d",
+      text("their length is ", header.quaternion, ", and that of a rotation is at most 1"),
+      "correct the qform, or, where it is the volume to mesh, give --frame voxel, which does "
+      "without it");
 }
 
 }  // namespace

@@ -345,6 +345,11 @@ class Samples(unittest.TestCase):
         self.assertIn("missing.npy", text)
         text = refused("mesh", "v.nii", "-o", "m.vtu", "--frame", "voxel", "--sample=x=v.nii")
         self.assertIn("--frame voxel", text)
+        sheared = np.eye(4)
+        sheared[0, 1] = 0.3
+        nibabel.save(nibabel.Nifti1Image(self.labels.T.astype(np.uint8), sheared), "sheared.nii")
+        text = refused("mesh", "v.nii", "-o", "m.vtu", "--sample=x=sheared.nii", code=3)
+        self.assertIn("where it is the volume to mesh, give --frame voxel", text)
         for unit in ("mm", "micron"):
             image = nibabel.Nifti1Image(self.labels.T.astype(np.uint8), np.eye(4))
             image.header.set_xyzt_units(unit)
