@@ -113,6 +113,10 @@ class Reader {
       return name + ": unknown flag" + engine::did_you_mean(name, known_flags());
     }
     if (!unknown.empty()) return unknown.front() + ": one argument too many";
+    const auto twice = std::find_if(flags_.begin(), flags_.end(), [](const Flag& given) {
+      return !given.is_switch() && !given.option->repeats && given.parsed->count() > 1;
+    });
+    if (twice != flags_.end()) return twice->parsed->get_name() + ": is given more than once";
     return error.what();
   }
 

@@ -70,6 +70,9 @@ TEST_F(UsageTest, UnknownCommandsAndFlagsAreNamed) {
   // Though a flag that must be there is missing then.
   expect_failure(2, "synth voronoi --shap 3,3,3 --labels 2 --seed 1 -o w.npy",
                  "--shap: unknown flag");
+  expect_failure(2, "mesh v.npy -o v.vtu --threads 1 --threads 2",
+                 "--threads: is given more than once; see mwmesh mesh --help");
+  expect_failure(2, "mesh v.npy -o v.vtu --threads", "--threads: 1 required");
 }
 
 TEST_F(UsageTest, RefusesUnknownWords) {
