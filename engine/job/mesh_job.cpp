@@ -350,19 +350,31 @@ ConnectTask connect_task(const MeshJob& job, const io::LabelTable& table) {
   return out;
 }
 
+/// Says how to go on after an error of usage that was found once work had been saved: what is
+/// written was refused, and the same command would be refused again.
+std::string way_after_refusal(const RunHooks& hooks) {
+  if (!hooks.keep.folder.empty()) return way_on(hooks);
+  const std::string folder = hooks.store.workdir.string();
+  return "the work so far is in " + folder +
+         "; change what is written (format, --parts) and add --workdir " + folder +
+         " and --resume, or delete that folder to mesh with other settings";
+}
+
 /// Marches, and says where the work is when a run that ends early leaves some.
 RunReport march(const io::DenseVolume& labels, const MeshJob& job, io::MeshSink& sink,
                 RunHooks run) {
-  std::string work;
+  bool is_kept = false;
   run.store.kept = [&] {
-    work = "; " + way_on(job.run);
+    is_kept = true;
     if (job.run.store.kept) job.run.store.kept();
   };
   try {
     return mesh_volume(labels, job.settings, sink, run);
   } catch (const Error& error) {
-    if (work.empty()) throw;
-    throw Error(error.kind(), error.what() + work);
+    if (!is_kept) throw;
+    const bool is_refused = error.kind() == ErrorKind::kUsage;
+    throw Error(error.kind(), error.what() + ("; " + (is_refused ? way_after_refusal(job.run)
+                                                                 : way_on(job.run))));
   }
 }
 

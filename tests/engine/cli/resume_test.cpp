@@ -74,6 +74,22 @@ TEST_F(ResumeProgramTest, OutputMayChangeBeforeItGoesOn) {
   EXPECT_EQ(read("other.vtu"), read("whole.vtu"));
 }
 
+/// The same command would be refused again.
+TEST_F(ResumeProgramTest, AdvisesWhatHelpsAfterAFormatRefused) {
+  make_noise("6,6,6");
+  const std::string far = " --window 8 --origin 1.6e8,0,0";
+  expect_done("mesh n.npy -o whole.vtu" + far);
+  const ProgramRun refused = run("mesh n.npy -o n.bdf" + far);
+  EXPECT_EQ(refused.code, 2);
+  EXPECT_NE(refused.err.find("the work so far is in n.bdf.work; change what is written (format, "
+                             "--parts) and add --workdir n.bdf.work and --resume, or delete that"),
+            std::string::npos)
+      << refused.err;
+  expect_done("mesh n.npy -o n.vtu --workdir n.bdf.work --resume" + far);
+  EXPECT_EQ(read("n.vtu"), read("whole.vtu"));
+  EXPECT_FALSE(files().contains("n.bdf.work"));
+}
+
 /// Work that is damaged cannot be gone on from: the message says one thing.
 TEST_F(ResumeProgramTest, AdvisesOneThingAfterDamage) {
   make_noise();
