@@ -43,6 +43,7 @@ namespace {
 constexpr long kOk = 200;
 constexpr long kPartial = 206;
 constexpr long kForbidden = 403;
+constexpr long kNotFound = 404;
 constexpr long kRangeBeyondEnd = 416;
 /// The most bytes that are read of an error's body before the connection is closed.
 constexpr std::uint64_t kMaxErrorBody = 64U << 10U;
@@ -172,6 +173,10 @@ struct HttpClient::Exchange {
   std::chrono::seconds wanted_wait{0};        ///< what the server asks for
 
   [[nodiscard]] bool is_part() const { return sink == nullptr; }
+  /// Returns whether the status is one behind which what was asked for comes.
+  [[nodiscard]] bool has_body() const {
+    return headers.status == kOk || (is_part() && headers.status == kPartial);
+  }
   /// Returns the whole file's size, or nothing when the answer does not tell it.
   [[nodiscard]] std::optional<std::uint64_t> file_bytes() const;
   [[nodiscard]] Verdict perform(CURL* curl, const HttpLimits& limits,
@@ -297,10 +302,8 @@ HttpClient::Verdict HttpClient::Exchange::judge(CURLcode code) const {
     return Verdict::retry(ErrorKind::kInput, kPackedPart, kBrokenServer);
   }
   // The body behind a status that is an error does not matter.
-  if (code != CURLE_OK && !(code == CURLE_WRITE_ERROR && headers.status >= 300)) {
-    return judge_failure(code);
-  }
-  if (headers.status != kOk && headers.status != kPartial) return judge_status();
+  if (code != CURLE_OK && (code != CURLE_WRITE_ERROR || has_body())) return judge_failure(code);
+  if (!has_body()) return judge_status();
   return is_part() ? judge_part() : Verdict{};
 }
 
@@ -334,7 +337,13 @@ HttpClient::Verdict HttpClient::Exchange::judge_failure(CURLcode code) const {
 HttpClient::Verdict HttpClient::Exchange::judge_status() const {
   const long status = headers.status;
   const std::string reason = text("the server answers with status ", status);
-  if (status == 404 || (status == kForbidden && may_be_refused)) return {};
+  if (status == kNotFound || (status == kForbidden && may_be_refused)) return {};
+  if (status == kPartial) {
+    return Verdict::retry(ErrorKind::kInput,
+                          "the server answers with a part (status 206), and the whole file was "
+                          "asked for",
+                          kBrokenServer);
+  }
   if (status == 401 || status == kForbidden) {
     return Verdict::failure(reason + (status == 401 ? " (unauthorized)" : " (forbidden)"),
                             way_past_refusal(address));
@@ -503,7 +512,7 @@ Presence HttpClient::whole(Exchange& exchange) const {
   run(exchange);
   if (exchange.is_too_large) return Presence::kTooLarge;
   if (exchange.headers.status == kForbidden) return Presence::kRefused;
-  return exchange.headers.status == kOk ? Presence::kThere : Presence::kAbsent;
+  return exchange.headers.status == kNotFound ? Presence::kAbsent : Presence::kThere;
 }
 
 Presence HttpClient::get(const std::string& address, std::uint64_t max, BodySink& sink) const {
@@ -530,8 +539,7 @@ std::optional<RemotePart> HttpClient::get_part(const std::string& address, std::
   if (out.empty()) return RemotePart{};
   Exchange exchange{.address = address, .offset = offset, .out = out};
   run(exchange);
-  const long status = exchange.headers.status;
-  if (status != kOk && status != kPartial) return std::nullopt;
+  if (exchange.headers.status == kNotFound) return std::nullopt;
   return RemotePart{.bytes = exchange.taken,
                     .file_bytes = *exchange.file_bytes(),
                     .version = exchange.headers.version()};

@@ -53,12 +53,12 @@ struct RemotePart {
 };
 
 /// Requests are repeated, with growing waits, after 408, 416, 425, 429, 5xx, failed connections,
-/// bodies that end early and wrong parts.  The authorization is that of kAuthorizationVariable,
-/// else of .netrc; it goes to the host of the address only, not to where that redirects, and is in
-/// no message.
-/// ERRORS (all members): mw::Error(kInput), naming the address, when the server refuses, redirects
-/// without end, or sends what was not asked for; kResource when it does not answer.
-/// Thread safety: any; more threads than connections wait for each other.
+/// bodies that end early, wrong parts, and parts where the whole file was asked for.  The
+/// authorization is that of kAuthorizationVariable, else of .netrc; it goes to the host of the
+/// address only, not to where that redirects, and is in no message. ERRORS (all members):
+/// mw::Error(kInput), naming the address, when the server refuses, redirects without end, or sends
+/// what was not asked for; kResource when it does not answer. Thread safety: any; more threads than
+/// connections wait for each other.
 class HttpClient {
  public:
   /// ERRORS: mw::Error(kUsage) when kAuthorizationVariable has more than one line.
@@ -68,7 +68,8 @@ class HttpClient {
   HttpClient& operator=(const HttpClient&) = delete;
 
   /// Fetches a file; a body of more than max bytes, unpacked, is given up while it arrives.
-  /// ENSURES: with kThere the body had at most max bytes, all of which are in the sink.
+  /// ENSURES: with kThere the status was 200 and the body had at most max bytes, all of which are
+  /// in the sink; with kAbsent the status was 404.
   [[nodiscard]] Presence get(const std::string& address, std::uint64_t max, BodySink& sink) const;
   /// Likewise, but status 403 is no error: stores whose folders nobody may list answer so where
   /// there is no such file.

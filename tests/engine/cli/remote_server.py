@@ -9,7 +9,7 @@ import threading
 import time
 
 #: What may go wrong with an answer that is otherwise right.
-FAULTS = ("503", "429", "reset", "short", "wrong range", "whole", "slow", "empty")
+FAULTS = ("503", "429", "reset", "short", "wrong range", "whole", "slow", "empty", "unasked part")
 
 
 class Server:
@@ -103,6 +103,9 @@ class _Handler(http.server.BaseHTTPRequestHandler):
             status = 206
             facts["Content_Range"] = f"bytes {first + shift}-{last + shift}/{len(content)}"
             content = content[first:last + 1]
+        elif fault == "unasked part":
+            status = 206
+            facts["Content_Range"] = f"bytes 0-{len(content) - 1}/{len(content)}"
         if fault in ("short", "empty"):
             self.close_connection = True
             facts["Content_Length"] = str(len(content))

@@ -1,0 +1,161 @@
+// SPDX-FileCopyrightText: The mwmesh authors
+// SPDX-License-Identifier: Apache-2.0
+// What the client makes of each status: no answer but 404 is a file that is not there.
+#include "io/remote/http_client.h"
+
+#include <arpa/inet.h>
+#include <gtest/gtest.h>
+#include <netinet/in.h>
+#include <sys/socket.h>
+#include <unistd.h>
+
+#include <array>
+#include <atomic>
+#include <thread>
+
+#include "io/file/errors.h"
+#include "tests/expect_error.h"
+
+namespace mw::io {
+namespace {
+
+/// A server on the loopback that gives the same answer to all requests, one a connection.
+class OneAnswer {
+ public:
+  explicit OneAnswer(std::string answer) : answer_(std::move(answer)) {
+    sockaddr_in place{};
+    place.sin_family = AF_INET;
+    place.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
+    socklen_t size = sizeof place;
+    listener_ = ::socket(AF_INET, SOCK_STREAM | SOCK_CLOEXEC, 0);
+    auto* const address = reinterpret_cast<sockaddr*>(&place);
+    EXPECT_EQ(::bind(listener_, address, size), 0);
+    EXPECT_EQ(::listen(listener_, 8), 0);
+    EXPECT_EQ(::getsockname(listener_, address, &size), 0);
+    address_ = text("http://127.0.0.1:", ntohs(place.sin_port), "/file");
+    thread_ = std::thread([this] { serve(); });
+  }
+  ~OneAnswer() {
+    ::shutdown(listener_, SHUT_RDWR);
+    thread_.join();
+    ::close(listener_);
+  }
+  OneAnswer(const OneAnswer&) = delete;
+  OneAnswer& operator=(const OneAnswer&) = delete;
+
+  [[nodiscard]] const std::string& address() const { return address_; }
+  [[nodiscard]] int requests() const { return requests_; }
+
+ private:
+  void serve() {
+    for (;;) {
+      const int client = ::accept(listener_, nullptr, nullptr);
+      if (client < 0) return;
+      answer(client);
+      ::close(client);
+    }
+  }
+  void answer(int client) {
+    std::string request;
+    std::array<char, 4096> bytes{};
+    while (request.find("\r\n\r\n") == request.npos) {
+      const ssize_t got = ::recv(client, bytes.data(), bytes.size(), 0);
+      if (got <= 0) return;
+      request.append(bytes.data(), static_cast<std::size_t>(got));
+    }
+    ++requests_;
+    for (std::size_t sent = 0; sent < answer_.size();) {
+      const ssize_t some =
+          ::send(client, answer_.data() + sent, answer_.size() - sent, MSG_NOSIGNAL);
+      if (some <= 0) return;
+      sent += static_cast<std::size_t>(some);
+    }
+  }
+
+  std::string answer_;
+  std::string address_;
+  int listener_ = -1;
+  std::atomic<int> requests_ = 0;
+  std::thread thread_;
+};
+
+std::string answer_of(int status, const std::string& body, const std::string& header = {}) {
+  return text("HTTP/1.1 ", status, " Words\r\nConnection: close\r\n", header,
+              "Content-Length: ", body.size(), "\r\n\r\n", body);
+}
+
+class TextSink : public BodySink {
+ public:
+  void restart() override { text_.clear(); }
+  void take(std::span<const std::byte> bytes) override {
+    for (const std::byte b : bytes) text_ += static_cast<char>(b);
+  }
+  [[nodiscard]] const std::string& text() const { return text_; }
+
+ private:
+  std::string text_;
+};
+
+constexpr std::uint64_t kMax = 1 << 20;
+
+HttpLimits quick() {
+  return {.attempts = 3,
+          .first_wait = std::chrono::milliseconds(1),
+          .max_wait = std::chrono::seconds(0)};
+}
+
+void expect_unasked_part(const std::string& answer) {
+  const OneAnswer server(answer);
+  const HttpClient client(quick());
+  TextSink body;
+  const std::vector<std::string> pieces{server.address(), "status 206", "3 attempts"};
+  expect_error(ErrorKind::kInput, pieces, [&] { (void)client.get(server.address(), kMax, body); });
+  expect_error(ErrorKind::kInput, pieces,
+               [&] { (void)client.probe(server.address(), kMax, body); });
+  EXPECT_EQ(server.requests(), 6);
+}
+
+TEST(HttpClientTest, APartThatNobodyAskedForIsNoMissingFile) {
+  const std::string body(100, 'x');
+  expect_unasked_part(answer_of(206, body, "Content-Range: bytes 0-99/100\r\n"));
+  expect_unasked_part(answer_of(206, body, "Content-Range: bytes 0-99/32768\r\n"));
+  expect_unasked_part(answer_of(206, body));
+  expect_unasked_part(answer_of(206, ""));
+  expect_unasked_part(answer_of(206, std::string(1 << 18, 'x')));
+}
+
+TEST(HttpClientTest, NoStatusBut404IsAFileThatIsNotThere) {
+  const HttpClient client(quick());
+  std::array<std::byte, 4> out{};
+  for (int status = 200; status < 600; ++status) {
+    const OneAnswer server(answer_of(status, status == 204 || status == 304 ? "" : "body"));
+    TextSink body;
+    const auto get = [&] { return client.get(server.address(), kMax, body); };
+    const auto get_part = [&] { return client.get_part(server.address(), 0, out); };
+    if (status == 404) {
+      EXPECT_EQ(get(), Presence::kAbsent);
+      EXPECT_FALSE(get_part());
+    } else if (status == 200) {
+      EXPECT_EQ(get(), Presence::kThere);
+      EXPECT_EQ(body.text(), "body");
+      EXPECT_TRUE(get_part());
+    } else {
+      EXPECT_THROW((void)get(), Error) << status;
+      EXPECT_THROW((void)get_part(), Error) << status;
+    }
+  }
+}
+
+/// They have more bytes than are read of an error's body, which ends the transfer early.
+TEST(HttpClientTest, OtherStatusesWithLongBodiesAreNamed) {
+  const HttpClient client(quick());
+  for (const int status : {201, 203, 410}) {
+    const OneAnswer server(answer_of(status, std::string(1 << 18, 'x')));
+    TextSink body;
+    expect_error(ErrorKind::kInput, {text("status ", status)},
+                 [&] { (void)client.get(server.address(), kMax, body); });
+  }
+}
+
+}  // namespace
+}  // namespace mw::io
