@@ -132,6 +132,7 @@ engine::MeshJob mesh_job(const io::VolumeInfo& labels, const mwmesh::Settings& s
       .size_image = std::move(sizes),
       .samples = samples_of(options),
       .choice = std::move(choice),
+      .ends_around_object = !options.object.empty(),
       .connect = {.parts = engine::parse_parts(options.parts),
                   .split = options.split.empty() ? engine::SplitRule{}
                                                  : engine::parse_split(options.split),

@@ -13,6 +13,7 @@
 #include "engine/job/certificate.h"
 #include "engine/job/count_pilot.h"
 #include "engine/job/halving.h"
+#include "engine/job/object_box.h"
 #include "engine/job/steps_text.h"
 #include "engine/job/unpacking.h"
 #include "engine/job/volume_delta.h"
@@ -415,6 +416,7 @@ report::FinishedRun mesh_and_keep(const io::LabelVolume& opened, const MeshJob& 
   job.settings = before_halvings(asked.settings, halvings);
   check(opened.info(), job.settings);
   check_keep(job.run, job.settings);
+  check_object_box(opened.info(), job);
   const io::LabelScores* const scores = opened.scores();
   if (scores != nullptr) check_scored(job);
   check_unpacking(opened, reading_room(job, scores != nullptr));

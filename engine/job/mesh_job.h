@@ -36,6 +36,9 @@ struct MeshJob {
   std::shared_ptr<const io::LabelVolume> size_image;  ///< SizeRules::image, opened
   std::vector<SampleImage> samples;                   ///< opened; their values go with the mesh
   LabelChoice choice;
+  /// Whether the volume ends around an object (io::OpenOptions::object), so that an edit may change
+  /// its box.
+  bool ends_around_object = false;
   ConnectOptions connect;  ///< what is left out of the mesh, and doubled in it, when it is written
   bool finds_parts = false;  ///< whether parts and hinges are counted where the mesh stays as it is
   Certify certify = Certify::kAuto;

@@ -339,8 +339,9 @@ void settle_job(MeshRequest& request) {
   store.memory = request.memory ? *request.memory : engine::default_memory_budget();
   request.volume.open.cache_bytes = cache_bytes(store.memory);
   job.steps = request.volume.steps;
+  job.ends_around_object = !request.volume.object.empty();
   const bool has_choice = job.choice.labels || job.choice.background;
-  if (!request.volume.open.object.empty() && !has_choice) {
+  if (job.ends_around_object && !has_choice) {
     job.choice.labels = io::merged_labels(request.volume.open.object, job.steps.merge);
   }
   job.folder = request.output.parent_path();

@@ -166,6 +166,18 @@ std::optional<std::string> saved_value(const fs::path& path, const std::string& 
   return value_of(lines_of(settings_in(path / kSettingsFile)), name);
 }
 
+std::string place_differences(const fs::path& path, const io::VolumeInfo& volume) {
+  const Lines is = lines_of(volume_text(volume));
+  std::string before, now;
+  for (const char* name : {"shape", "origin"}) {
+    const std::optional<std::string> was = saved_value(path, name);
+    if (!was) return {};
+    before += io::text(name, " = ", *was, "\n");
+    now += io::text(name, " = ", is.at(name), "\n");
+  }
+  return differences(before, now);
+}
+
 bool is_identity_of(const fs::path& path, const std::string& settings) {
   return settings_in(path / kSettingsFile, settings) == settings;
 }

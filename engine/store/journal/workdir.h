@@ -76,6 +76,11 @@ class Workdir : public WorkFiles {
 /// Where results_id() differs, which is the value of "results", it says that and nothing else.
 [[nodiscard]] std::string differences(const std::string& before, const std::string& now);
 
+/// Returns differences() between shape and origin of the volume and those that the settings in a
+/// folder name; empty where these do not name both.
+[[nodiscard]] std::string place_differences(const std::filesystem::path& path,
+                                            const io::VolumeInfo& volume);
+
 /// Returns a line "name = value" for shape, type and space of the volume and for each entry of
 /// setting_table().  The caller adds what it knows of the program and the labels (StoreOptions):
 /// mwmesh adds its version and results_id(), and a fingerprint of the labels after --crop, --merge

@@ -182,6 +182,26 @@ class Keep(unittest.TestCase):
         self.refused(2, "crop begins at", "mesh", "v.npy", "-o", "m.vtu", *SETTINGS, "--from", "k",
                      "--changed", "15,0,0,16,1,1", *place, "15,0,0,30,26,22")
 
+    def test_an_object_that_reaches_elsewhere_is_in_another_box(self):
+        self.volume = np.zeros((40, 40, 40), np.uint16)
+        self.volume[10:20, 10:20, 10:20] = 5
+        self.save()
+        mesh = ("mesh", "v.npy", "-o", "m.vtu", *SETTINGS, "--object", "5")
+        self.done(*mesh, "--keep", "k")
+        self.volume[13:16, 13:16, 13:16] = 7
+        self.save()
+        self.done(*mesh, "--from", "k")  # the box is the same
+        grown, moved = self.volume.copy(), np.roll(self.volume, 1, axis=0)
+        grown[20:25, 12:15, 12:15] = 5
+        for volume, said in ((grown, "(shape was 18,18,18 and is 18,18,23)"),
+                             (moved, "(origin was 6,6,6 and is 6,6,7)")):
+            np.save("v.npy", volume)
+            for more in ((), ("--delta", "d.json")):
+                self.refused(2, "the one that --object finds is no longer the same " + said, *mesh,
+                             "--from", "k", *more)
+        self.save()
+        self.done(*mesh, "--from", "k", "--delta", "d.json")
+
     def test_labels_below_zero_come_first_in_a_delta(self):
         self.volume = self.volume.astype(np.int16) - 100
         self.save()
