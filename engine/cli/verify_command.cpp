@@ -26,6 +26,7 @@ report::Verdict judge(const VerifyRequest& request) {
 }
 
 int run_verify(VerifyRequest& request, const OptionSet& options) {
+  refuse_idle_cache(options, request.volume);
   check_verify_request(request);
   const report::ResourceMeter meter;
   std::optional<io::AtomicFile> file;

@@ -125,7 +125,8 @@ int run_info(InfoJob& job, const OptionSet& options) {
   if (job.json && job.csv) io::fail_usage("--json and --csv: only one of them");
   const bool has_volume = !job.volume.path.empty();
   if (is_about_mesh(job)) {
-    if (!has_volume) refuse_volume_flags(options, job.file.string());
+    has_volume ? refuse_idle_cache(options, job.volume)
+               : refuse_volume_flags(options, job.file.string());
     tell_of_mesh(job);
     return kExitDone;
   }
@@ -134,6 +135,7 @@ int run_info(InfoJob& job, const OptionSet& options) {
     io::fail_usage("--betti, --contacts and --csv: FILE must be a mesh then");
   }
   job.volume.path = job.file;
+  refuse_idle_cache(options, job.volume);
   const VolumeFacts facts(job.volume);
   job.json ? print_volume_json(facts) : print_volume(facts);
   return kExitDone;

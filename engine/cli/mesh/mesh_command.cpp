@@ -314,7 +314,18 @@ int mesh(const MeshRequest& request, const OptionSet& options) {
   return kExitDone;
 }
 
+/// Throws for --workdir as a flag where nothing is written there.  A variable or a config file may
+/// name the folder for whatever runs need one.
+void refuse_idle_workdir(const MeshRequest& request, const OptionSet& options) {
+  if (!options.is_flag("workdir") || (request.keep.empty() && request.from.empty())) return;
+  throw Error(ErrorKind::kUsage,
+              io::text("--workdir: is not used beside ", request.from.empty() ? "--keep" : "--from",
+                       ", whose folder has all that memory does not hold; leave it out"));
+}
+
 int run_mesh(MeshRequest& request, const OptionSet& options) {
+  refuse_idle_workdir(request, options);
+  refuse_idle_cache(options, request.volume);
   for (std::string& file : engine::size_tables(options.text("size"))) {
     request.size_tables.push_back(std::move(file));
   }

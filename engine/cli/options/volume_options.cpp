@@ -11,6 +11,7 @@
 #include "io/file/errors.h"
 #include "io/file/text_numbers.h"
 #include "io/names/read_names.h"
+#include "io/remote/address.h"
 #include "io/volume/decode.h"
 #include "io/volume/file_space.h"
 #include "io/volume/open_volume.h"
@@ -246,6 +247,13 @@ io::OpenOptions open_options(const VolumeRequest& request) {
     io::fail_usage("--dtype is for raw files, which need --shape");
   }
   return options;
+}
+
+void refuse_idle_cache(const OptionSet& options, const VolumeRequest& request) {
+  const std::string path = request.path.string();
+  if (!options.is_flag("cache") || io::is_remote_address(path)) return;
+  throw Error(ErrorKind::kUsage, "--cache: keeps what servers send, and " + path +
+                                     " comes from no server; leave it out");
 }
 
 std::uint64_t cache_bytes(std::uint64_t memory) {

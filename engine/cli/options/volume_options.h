@@ -39,6 +39,11 @@ void add_step_options(OptionSet& options, VolumeRequest& request);
 /// ERRORS: mw::Error(kUsage) when values contradict each other.
 [[nodiscard]] io::OpenOptions open_options(const VolumeRequest& request);
 
+/// Throws for --cache as a flag where the volume is on a disk, so that nothing would be kept.  A
+/// variable or a config file may name the folder for whatever volumes are remote.
+/// ERRORS: mw::Error(kUsage) naming the volume.
+void refuse_idle_cache(const OptionSet& options, const VolumeRequest& request);
+
 /// Opens the volume of the request with the names of its labels; its steps are left to
 /// io::PreparedInput.
 [[nodiscard]] std::unique_ptr<io::LabelVolume> open(const VolumeRequest& request);

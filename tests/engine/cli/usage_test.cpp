@@ -120,6 +120,25 @@ TEST_F(UsageTest, RefusesContradictions) {
   expect_failure(2, "mesh -hello.npy -o w.vtu", "./-hello.npy");
 }
 
+/// A variable may name a folder once for all runs; a flag is meant for the run at hand.
+TEST_F(UsageTest, RefusesFoldersThatTheRunDoesNotUse) {
+  make_volume();
+  const std::string mesh = "mesh v.npy -o v.vtu";
+  expect_failure(2, mesh + " --keep k --workdir w", "--workdir: is not used beside --keep");
+  expect_done(mesh + " --keep k", "MW_WORKDIR=w");
+  expect_failure(2, mesh + " --from k --workdir w", "--workdir: is not used beside --from");
+  expect_done(mesh + " --from k", "MW_WORKDIR=w");
+  EXPECT_FALSE(files().contains("w"));
+  const std::string why = "--cache: keeps what servers send, and v.npy comes from no server";
+  for (const std::string& command :
+       {mesh, std::string("info v.npy"), std::string("info v.vtu v.npy"),
+        std::string("verify v.npy v.vtu")}) {
+    expect_failure(2, command + " --cache c", why);
+    expect_done(command, "MW_CACHE=c");
+  }
+  EXPECT_FALSE(files().contains("c"));
+}
+
 TEST_F(UsageTest, RefusesTetgenWithoutItsWorker) {
   make_volume();
   const std::string mesh = "mesh v.npy -o v.vtu --optimizer tetgen";
