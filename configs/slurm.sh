@@ -76,12 +76,14 @@ may_go_on() {
 main() {
   (($# >= 2)) || die "give VOLUME and OUT.vtkhdf"
   [[ -n "${SLURM_JOB_ID:-}" ]] || die "start it by sbatch"
-  local volume="$1" output="$2" code=0 resume=()
+  local volume="$1" output="$2" code=0 resume=() work=()
   shift 2
   workdir="${MESH_WORKDIR:-$output.work}"
   [[ -s "$workdir/epochs" ]] && resume=(--resume)
+  # What --keep or --from names has all the work, and the program then refuses a work folder.
+  [[ " $*" == *" --keep"[\ =]* || " $*" == *" --from"[\ =]* ]] || work=(--workdir "$workdir")
   trap warn USR1 TERM
-  launch "${MESH_PROGRAM:-mwmesh-mpi}" mesh "$volume" -o "$output" --workdir "$workdir" \
+  launch "${MESH_PROGRAM:-mwmesh-mpi}" mesh "$volume" -o "$output" "${work[@]}" \
     --memory "$(node_memory)" --threads "$(cores)" "${resume[@]}" --progress none \
     --report "$output.json" "$@" &
   job=$!

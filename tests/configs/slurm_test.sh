@@ -83,6 +83,11 @@ try_real_program() {
   MESH_LAUNCHER=srun MESH_WORKDIR=work MESH_RESTARTS=1 MESH_PROGRAM="$mwmesh" run --order colour
   expect "a mesh" "$code $(ls o.vtkhdf o.vtkhdf.json)" "0 o.vtkhdf
 o.vtkhdf.json"
+  # A folder of --keep stands in for the work folder.
+  MESH_PROGRAM="$mwmesh" run --keep kept
+  expect "--keep" "$code $(ls kept/windows)" "0 kept/windows"
+  MESH_PROGRAM="$mwmesh" run --from=kept
+  expect "--from" "$code" 0
 }
 
 try_exit_codes
