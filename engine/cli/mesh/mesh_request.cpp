@@ -339,7 +339,7 @@ void settle_job(MeshRequest& request) {
   store.memory = request.memory ? *request.memory : engine::default_memory_budget();
   request.volume.open.cache_bytes = cache_bytes(store.memory);
   job.steps = request.volume.steps;
-  job.ends_around_object = !request.volume.object.empty();
+  job.ends_around_object = !request.volume.open.object.empty();
   const bool has_choice = job.choice.labels || job.choice.background;
   if (job.ends_around_object && !has_choice) {
     job.choice.labels = io::merged_labels(request.volume.open.object, job.steps.merge);
