@@ -23,7 +23,7 @@ void note_signal(int /*signal*/) {
   interrupted = true;
 }
 
-/// Handles the signals that end a run, except those that whoever started the program has ignored.
+/// Handles the signals that end a run, except those that the caller of the program had it ignore.
 void handle(void (*handler)(int)) {
   for (const int signal : {SIGINT, SIGTERM, SIGHUP}) {
     struct sigaction before {};
