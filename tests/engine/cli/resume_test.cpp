@@ -74,7 +74,7 @@ TEST_F(ResumeProgramTest, OutputMayChangeBeforeItGoesOn) {
   EXPECT_EQ(read("other.vtu"), read("whole.vtu"));
 }
 
-/// The same command would be refused again.
+/// Without a change the command would be refused again.
 TEST_F(ResumeProgramTest, AdvisesWhatHelpsAfterAFormatRefused) {
   make_noise("6,6,6");
   const std::string far = " --window 8 --origin 1.6e8,0,0";
