@@ -268,7 +268,8 @@ RunHooks run_hooks(const MeshJob& job, const report::FinishedRun& run, std::uint
   RunHooks out = job.run;
   out.store.memory = memory;
   out.store.identity = identity_of(run);
-  out.keep.identity += std::string("version = ") + version() + "\n";
+  // What did not change is known by its place in the box that is meshed.
+  out.keep.identity += io::text("version = ", version(), "\n", first_voxel_text(run.volume));
   out.progress = [&job](const RunProgress& at) {
     job.stop();
     if (job.run.progress) job.run.progress(at);

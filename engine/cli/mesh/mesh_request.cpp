@@ -321,10 +321,6 @@ void settle_keep(MeshRequest& request) {
   request.job.delta = request.delta.empty() ? engine::Delta::kNo : engine::Delta::kOn;
   const Index3 first = request.volume.open.crop ? request.volume.open.crop->lo : Index3{};
   for (Box3& box : keep.changed) box = {box.lo - first, box.hi - first};
-  if (request.volume.open
-          .crop) {  // boxes that did not change are known by their place in the volume
-    keep.identity = io::text("crop begins at = ", first.x, ",", first.y, ",", first.z, "\n");
-  }
   keep.folder = updates ? request.from : request.keep;
   keep.use = updates                        ? engine::KeepUse::kUpdate
              : request.job.run.store.resume ? engine::KeepUse::kGoOn

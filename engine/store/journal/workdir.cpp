@@ -166,10 +166,15 @@ std::optional<std::string> saved_value(const fs::path& path, const std::string& 
   return value_of(lines_of(settings_in(path / kSettingsFile)), name);
 }
 
+std::string first_voxel_text(const io::VolumeInfo& volume) {
+  const Index3 first = volume.first;
+  return io::text("first voxel = ", first.x, ",", first.y, ",", first.z, "\n");
+}
+
 std::string place_differences(const fs::path& path, const io::VolumeInfo& volume) {
-  const Lines is = lines_of(volume_text(volume));
+  const Lines is = lines_of(volume_text(volume) + first_voxel_text(volume));
   std::string before, now;
-  for (const char* name : {"shape", "origin"}) {
+  for (const char* name : {"shape", "origin", "first voxel"}) {
     const std::optional<std::string> was = saved_value(path, name);
     if (!was) return {};
     before += io::text(name, " = ", *was, "\n");

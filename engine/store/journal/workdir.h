@@ -76,8 +76,11 @@ class Workdir : public WorkFiles {
 /// Where results_id() differs, which is the value of "results", it says that and nothing else.
 [[nodiscard]] std::string differences(const std::string& before, const std::string& now);
 
-/// Returns differences() between shape and origin of the volume and those that the settings in a
-/// folder name; empty where these do not name both.
+/// Returns the line "first voxel = X,Y,Z", which says where in the file the volume begins.
+[[nodiscard]] std::string first_voxel_text(const io::VolumeInfo& volume);
+
+/// Returns differences() between shape, origin and first voxel of the volume and those that the
+/// settings in a folder name; empty where these do not name all.
 [[nodiscard]] std::string place_differences(const std::filesystem::path& path,
                                             const io::VolumeInfo& volume);
 

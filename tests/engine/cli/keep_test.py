@@ -179,7 +179,7 @@ class Keep(unittest.TestCase):
     def test_a_crop_elsewhere_is_another_run(self):
         place = ("--origin", "0,0,0", "--crop")
         self.mesh("--keep", "k", *place, "0,0,0,15,26,22")
-        self.refused(2, "crop begins at", "mesh", "v.npy", "-o", "m.vtu", *SETTINGS, "--from", "k",
+        self.refused(2, "first voxel was 0,0,0 and is 15,0,0", "mesh", "v.npy", "-o", "m.vtu", *SETTINGS, "--from", "k",
                      "--changed", "15,0,0,16,1,1", *place, "15,0,0,30,26,22")
 
     def test_an_object_that_reaches_elsewhere_is_in_another_box(self):
@@ -188,17 +188,20 @@ class Keep(unittest.TestCase):
         self.save()
         mesh = ("mesh", "v.npy", "-o", "m.vtu", *SETTINGS, "--object", "5")
         self.done(*mesh, "--keep", "k")
+        at_zero = (*mesh, "--origin", "0,0,0")
+        self.done(*at_zero, "--keep", "k0")
         self.volume[13:16, 13:16, 13:16] = 7
         self.save()
         self.done(*mesh, "--from", "k")  # the box is the same
         grown, moved = self.volume.copy(), np.roll(self.volume, 1, axis=0)
         grown[20:25, 12:15, 12:15] = 5
         for volume, said in ((grown, "(shape was 18,18,18 and is 18,18,23)"),
-                             (moved, "(origin was 6,6,6 and is 6,6,7)")):
+                             (moved, "(first voxel was 6,6,6 and is 6,6,7; origin was")):
             np.save("v.npy", volume)
             for more in ((), ("--delta", "d.json")):
                 self.refused(2, "the one that --object finds is no longer the same " + said, *mesh,
                              "--from", "k", *more)
+        self.refused(2, "no longer the same (first voxel was", *at_zero, "--from", "k0")
         self.save()
         self.done(*mesh, "--from", "k", "--delta", "d.json")
 
