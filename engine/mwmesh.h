@@ -80,8 +80,8 @@ struct Space {
 /// takes to the world; as in NIfTI, they stand for centres, while the affine of `mwmesh info
 /// --json` takes corners, and is to get half of each of its first three columns added to the last.
 /// frame is "own", "ras" or "lps", or "voxel" to keep nothing but the edges of a voxel.  spacing
-/// has these edges where a file states them beside the matrix. ERRORS: kInput for numbers that are
-/// not finite, and for axes that are 0 or not at right angles.
+/// has these edges where a file states them beside the matrix.
+/// ERRORS: kInput for numbers that are not finite, and for axes that are 0 or not at right angles.
 [[nodiscard]] Space space_of_affine(const std::array<std::array<double, 4>, 3>& affine,
                                     const std::string& frame = "own",
                                     const std::optional<Vector>& spacing = {});
@@ -353,8 +353,8 @@ struct FileOptions {
 };
 
 /// Meshes the volume into a file of any format that `mwmesh convert` writes, which appears under
-/// its name only once the mesh is whole.  Returns the report. ERRORS: also kUsage for what the
-/// format has no place for.
+/// its name only once the mesh is whole.  Returns the report.
+/// ERRORS: also kUsage for what the format has no place for.
 std::string mesh_to_file(const std::filesystem::path& path, const Volume& volume,
                          const Settings& settings, const Options& options, const Hooks& hooks,
                          const FileOptions& file);
