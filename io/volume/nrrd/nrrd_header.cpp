@@ -327,8 +327,9 @@ void parse_axis_ends(const FieldMap& fields, FileSpace& space, std::string_view 
   if (fields.contains("spacings") || fields.contains("spacedirections")) return;
   const auto mins = numbers_of_axes(fields, "axismins", "axis mins", file);
   const auto maxs = numbers_of_axes(fields, "axismaxs", "axis maxs", file);
+  if (!mins || !maxs) return;
   const auto sizes = numbers_of_axes(fields, "sizes", "sizes", file);
-  if (!mins || !maxs || !sizes) return;
+  if (!sizes) return;
   const std::array<bool, 3> cells = are_cells(fields);
   for (std::size_t i = 0; i < 3; ++i) {
     const double steps = (*sizes)[i] - (cells[i] ? 0 : 1);
