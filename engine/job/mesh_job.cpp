@@ -94,8 +94,9 @@ class KeptInput {
     changed_ = {{{0, 0, 0}, opened.info().shape}};
     const bool reads_all = job.certify == Certify::kOn;  // it vouches for the whole input
     const bool is_patched = before_ && !options.changed.empty() && !reads_all && !is_renumbered_;
-    if (is_patched) changed_ = options.changed;
-    if (is_patched) patched_.emplace(counted_, *before_, folder_->with_incomplete(changed_));
+    if (!is_patched) return;
+    changed_ = options.changed;
+    patched_.emplace(counted_, *before_, folder_->with_incomplete(changed_));
   }
 
   /// Must be called before the run keeps anything: from here on its labels may be in the folder.

@@ -12,11 +12,10 @@ void check_object_box(const io::VolumeInfo& volume, const MeshJob& job) {
   if (!job.ends_around_object || folder.empty()) return;
   const std::string different = place_differences(folder, volume);
   if (different.empty()) return;
-  throw Error(ErrorKind::kUsage,
-              io::text(folder.string(), ": was kept of another box: the one that --object finds ",
-                       "is no longer the same (", different,
-                       "); delete the folder and begin it by --keep; with --labels and a wider "
-                       "--crop instead of --object, the box stays from edit to edit"));
+  io::fail_usage(folder.string(), ": was kept of another box: the one that --object finds ",
+                 "is no longer the same (", different,
+                 "); delete the folder and begin it by --keep; with --labels and a wider "
+                 "--crop instead of --object, the box stays from edit to edit");
 }
 
 }  // namespace mw::engine

@@ -318,9 +318,8 @@ int mesh(const MeshRequest& request, const OptionSet& options) {
 /// name the folder for whatever runs need one.
 void refuse_idle_workdir(const MeshRequest& request, const OptionSet& options) {
   if (!options.is_flag("workdir") || (request.keep.empty() && request.from.empty())) return;
-  throw Error(ErrorKind::kUsage,
-              io::text("--workdir: is not used beside ", request.from.empty() ? "--keep" : "--from",
-                       ", whose folder has all that memory does not hold; leave it out"));
+  io::fail_usage("--workdir: is not used beside ", request.from.empty() ? "--keep" : "--from",
+                 ", whose folder has all that memory does not hold; leave it out");
 }
 
 int run_mesh(MeshRequest& request, const OptionSet& options) {

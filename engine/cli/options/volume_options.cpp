@@ -252,8 +252,8 @@ io::OpenOptions open_options(const VolumeRequest& request) {
 void refuse_idle_cache(const OptionSet& options, const VolumeRequest& request) {
   const std::string path = request.path.string();
   if (!options.is_flag("cache") || io::is_remote_address(path)) return;
-  throw Error(ErrorKind::kUsage, "--cache: keeps what servers send, and " + path +
-                                     " comes from no server; leave it out");
+  io::fail_usage("--cache: keeps what servers send, and ", path,
+                 " comes from no server; leave it out");
 }
 
 std::uint64_t cache_bytes(std::uint64_t memory) {

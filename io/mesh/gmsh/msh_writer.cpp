@@ -26,19 +26,19 @@ void for_each_boundary(const GroupedMesh& mesh, const LabelNumbers& labels, Visi
     if (group.second != kExterior) uses.add({group.second, 2 * g + 1});
   }
   Label rank = 0;
-  std::vector<std::int32_t> tags;
-  uses.each([&](const std::array<std::uint64_t, 2>& use) {
-    for (; rank < use[0]; ++rank) {
+  std::vector<std::int32_t> tags;  // of the label `rank`
+  const auto visit_up_to = [&](std::uint64_t end) {
+    for (; rank < end; ++rank) {
       visit(tags);
       tags.clear();
     }
+  };
+  uses.each([&](const std::array<std::uint64_t, 2>& use) {
+    visit_up_to(use[0]);
     const std::int32_t tag = surface_tag(labels, use[1] / 2);
     tags.push_back(use[1] % 2 == 0 ? tag : -tag);
   });
-  for (; rank < mesh.table().size(); ++rank) {
-    visit(tags);
-    tags.clear();
-  }
+  visit_up_to(mesh.table().size());
 }
 
 }  // namespace

@@ -161,7 +161,7 @@ std::string PlainNames::pair_text(const Pair& pair) const {
 }
 
 std::string PlainNames::name_of(const Pair& pair) const {
-  constexpr std::size_t kOfCount = 12;
+  constexpr std::size_t kOfCount = 12;  // room for "_" before the number and "_2" behind it
   const std::string wanted = pair_text(pair);
   const bool is_short = wanted.size() <= rule_.max_bytes;
   const auto found = renamed_.find(pair);

@@ -323,17 +323,17 @@ std::optional<Vector3> numbers_of_axes(const FieldMap& fields, const std::string
 }
 
 /// Takes the size of voxels from `axis mins` and `axis maxs` where no other field has it.
-void parse_axis_ends(const FieldMap& fields, FileSpace& space, std::string_view file) {
+void parse_axis_ends(const FieldMap& fields, Index3 shape, FileSpace& space,
+                     std::string_view file) {
   if (fields.contains("spacings") || fields.contains("spacedirections")) return;
   const auto mins = numbers_of_axes(fields, "axismins", "axis mins", file);
   const auto maxs = numbers_of_axes(fields, "axismaxs", "axis maxs", file);
   if (!mins || !maxs) return;
-  const auto sizes = numbers_of_axes(fields, "sizes", "sizes", file);
-  if (!sizes) return;
   const std::array<bool, 3> cells = are_cells(fields);
+  const std::array<std::int64_t, 3> voxels{shape.x, shape.y, shape.z};
   for (std::size_t i = 0; i < 3; ++i) {
-    const double steps = (*sizes)[i] - (cells[i] ? 0 : 1);
-    if (steps > 0) space.steps[i][i] = ((*maxs)[i] - (*mins)[i]) / steps;
+    const std::int64_t steps = voxels[i] - (cells[i] ? 0 : 1);
+    if (steps > 0) space.steps[i][i] = ((*maxs)[i] - (*mins)[i]) / static_cast<double>(steps);
   }
   space.steps_field = "NRRD fields 'axis mins' and 'axis maxs'";
 }
@@ -408,14 +408,14 @@ void parse_unit(const FieldMap& fields, NrrdHeader& header) {
   header.units_differ = std::all_of(units.begin(), units.end(), is_named);
 }
 
-FileSpace parse_space(const FieldMap& fields, std::string_view file) {
+FileSpace parse_space(const FieldMap& fields, Index3 shape, std::string_view file) {
   FileSpace space{.steps_field = "NRRD 'spacings' or 'space directions'",
                   .first_field = "NRRD field 'space origin'"};
   parse_steps(fields, space, file);
   if (const auto found = fields.find("spaceorigin"); found != fields.end()) {
     space.first = three_numbers(found->second, "space origin", file);
   }
-  parse_axis_ends(fields, space, file);
+  parse_axis_ends(fields, shape, space, file);
   parse_axis_mins(fields, space, file);
   parse_frame(fields, space);
   return space;
@@ -445,7 +445,7 @@ NrrdHeader parse_nrrd_header(std::string_view head, std::string_view file) {
   header.gzip = parse_encoding(fields, file);
   parse_skips(fields, header, file);
   parse_data_file(fields, header, file);
-  header.space = parse_space(fields, file);
+  header.space = parse_space(fields, header.shape, file);
   parse_unit(fields, header);
   return header;
 }
