@@ -9,6 +9,7 @@
 #include <limits>
 #include <optional>
 
+#include "kernels/core/index.h"
 #include "kernels/quality/mesh_quality.h"
 #include "kernels/surface/bend.h"
 
@@ -150,18 +151,46 @@ Point between(Point a, Point b) {
   return {a.x + (b.x - a.x) / 2, a.y + (b.y - a.y) / 2, a.z + (b.z - a.z) / 2};
 }
 
-/// Puts the vertex at its foot in the plane, or as near to it as the tets stay good enough, and
-/// restricts all further moves to the plane.
-void begin_in(const FlatPlane& plane, Mover& mover, Best& best) {
+double mean_edge(const SurfaceStar& star) {
+  double sum = 0.0;
+  for (const SurfaceTriangle& t : star.triangles()) sum += t.to_a.norm();
+  return sum / static_cast<double>(star.triangles().size());
+}
+
+/// Puts the vertex at x, whatever that costs, unless tets would be too bad there.
+bool begin_at(Point x, const Mover& mover, Best& best) {
+  const double energy = mover.all_positive(x) ? mover.energy(x, kNoLimit) : kNoLimit;
+  if (energy < kNoLimit) best = {x, energy};
+  return energy < kNoLimit;
+}
+
+/// Puts the vertex at the best of some places in the plane around its foot there.  Returns false
+/// where tets would be too bad at all of them.
+bool begin_around(Point foot, const FlatPlane& plane, double edge, const Mover& mover, Best& best) {
+  Best found{foot, kNoLimit};
+  const auto u = static_cast<int>((plane.axis + 1) % 3), v = static_cast<int>((plane.axis + 2) % 3);
+  for (const double step : kSearchSteps) {
+    for_each_index(Box3{{-1, -1, 0}, {2, 2, 1}}, [&](Index3 i) {
+      Vec3 way = Vec3::Zero();
+      way[u] = static_cast<double>(i.x);
+      way[v] = static_cast<double>(i.y);
+      found.offer(mover, mover.target(foot, step * edge * way));
+    });
+  }
+  if (found.energy < kNoLimit) best = found;
+  return found.energy < kNoLimit;
+}
+
+/// Puts the vertex at its foot in the plane, or beside that, or as near to it as the tets stay good
+/// enough, and restricts all further moves to the plane.
+void begin_in(const FlatPlane& plane, double edge, Mover& mover, Best& best) {
   mover.keep_to(plane);
   Point foot = with_coordinate(best.position, plane.axis, plane.place);
-  for (int halving = 0; halving <= kHalvingsToPlane && foot != best.position; ++halving) {
-    const double energy = mover.all_positive(foot) ? mover.energy(foot, kNoLimit) : kNoLimit;
-    if (energy < kNoLimit) {
-      best = {foot, energy};
-      return;
-    }
+  if (foot == best.position || begin_at(foot, mover, best)) return;
+  if (begin_around(foot, plane, edge, mover, best)) return;
+  for (int halving = 0; halving < kHalvingsToPlane; ++halving) {
     foot = between(best.position, foot);
+    if (foot == best.position || begin_at(foot, mover, best)) return;
   }
 }
 
@@ -185,12 +214,6 @@ std::array<Vec3, 3> frame_of(const SurfaceStar& star) {
   normal = length > 0.0 ? Vec3(normal / length) : Vec3::UnitX();
   const Vec3 across = normal.unitOrthogonal();
   return {normal, across, normal.cross(across)};
-}
-
-double mean_edge(const SurfaceStar& star) {
-  double sum = 0.0;
-  for (const SurfaceTriangle& t : star.triangles()) sum += t.to_a.norm();
-  return sum / static_cast<double>(star.triangles().size());
 }
 
 /// Takes each step along the frame that lowers the energy, long ones first.
@@ -273,7 +296,7 @@ bool Smoother::smooth(LocalVertex v) {
   const double present_energy = present.energy * (1.0 + short_edges_.value_at(Vec3::Zero()));
   Best best{start, present_energy};
   const std::optional<FlatPlane> plane = fitted ? plane_to_keep(v) : std::nullopt;
-  if (plane) begin_in(*plane, mover, best);
+  if (plane) begin_in(*plane, mean_edge(surface_), mover, best);
   const double enough = best.position == start ? (1.0 - kMinGain) * present_energy : best.energy;
   search(mover, best, options_.newton_steps);
   const bool folded =

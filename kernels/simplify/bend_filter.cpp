@@ -4,6 +4,7 @@
 #include "kernels/simplify/bend_filter.h"
 
 #include "kernels/core/assert.h"
+#include "kernels/surface/flat_plane.h"
 
 namespace mw {
 namespace {
@@ -23,6 +24,7 @@ constexpr double kFreeElsewhere = 1.0;
 
 bool BendFilter::stays_smooth(const Contraction& c) {
   Gathered &keep = star_of(c.keep, c.drop), &drop = star_of(c.drop, c.keep);
+  if (leaves_plane(c, keep.star.fan(), drop.star.fan())) return false;
   merged_.merge(keep.star, metric_.vector(mesh_.position(c.keep), c.position), drop.star,
                 metric_.vector(mesh_.position(c.drop), c.position));
   const bool two = mesh_.order(c.keep) == 2 && mesh_.order(c.drop) == 2;
@@ -32,6 +34,19 @@ bool BendFilter::stays_smooth(const Contraction& c) {
   const double after = merged_.bends_at(Vec3::Zero());
   if (after <= free) return true;
   return after <= share * (present_bends(keep) + present_bends(drop)) + free;
+}
+
+/// True if the interface triangles at both ends lie in one plane across an axis and the survivor
+/// would not.  Shapes may keep it from ever coming back.
+bool BendFilter::leaves_plane(const Contraction& c, std::span<const FanTriangle> keep,
+                              std::span<const FanTriangle> drop) const {
+  if (keep.empty() || drop.empty()) return false;
+  for (unsigned axis = 0; axis < 3; ++axis) {
+    const FlatPlane plane{.axis = axis, .place = along(mesh_.position(c.keep), axis)};
+    if (along(c.position, axis) == plane.place) continue;
+    if (has_ring(plane, mesh_, keep) && has_ring(plane, mesh_, drop)) return true;
+  }
+  return false;
 }
 
 double BendFilter::present_bends(Gathered& g) {

@@ -39,6 +39,8 @@ class BendFilter {
     }
   };
 
+  [[nodiscard]] bool leaves_plane(const Contraction& c, std::span<const FanTriangle> keep,
+                                  std::span<const FanTriangle> drop) const;
   [[nodiscard]] Gathered& star_of(LocalVertex v, LocalVertex other);
   [[nodiscard]] static double present_bends(Gathered& g);
 

@@ -302,7 +302,9 @@ std::span<const VolumeDebt> SurfaceEnergy::debts_at(const Vec3& x) {
   return debts_;
 }
 
-/// Sums, over the pairs of labels at v, the ring's curvature times the gradient of the volume.
+/// Sums, over the pairs of labels at v, the ring's curvature times the gradient of the volume.  The
+/// curvature counts up to that of v itself: beside the rim of a plate the plate would be pressed
+/// thick.
 void SurfaceEnergy::find_pressure(const CurvatureField& curvature) {
   const std::vector<SurfaceTriangle>& triangles = star_->triangles();
   for (std::size_t i = 0; i < triangles.size(); ++i) {
@@ -320,7 +322,8 @@ void SurfaceEnergy::find_pressure(const CurvatureField& curvature) {
       ring.add(curvature.at(t.a));
       ring.add(curvature.at(t.b));
     }
-    pressure_ += ring.value() * volume_gradient;
+    const double own = curvature.at(star_->vertex()).value_or(ring.value());
+    pressure_ += std::clamp(ring.value(), std::min(own, 0.0), std::max(own, 0.0)) * volume_gradient;
   }
 }
 

@@ -172,42 +172,42 @@ TEST(SmoothSurface, FlatLayersAreFlatToTheLastBit) {
 /// Thin layers between two others reach the sides of the box: pinched off there they would lose 2 %
 /// of their volume, and bend by 17 to 40 degrees.
 TEST(SmoothSurface, ThinLayersBetweenTwoOthersAreFlat) {
-  double errors = 0.0;
-  int runs = 0;
   for (int axis = 0; axis < 3; ++axis) {
     for (const std::int64_t thickness : {1, 2}) {
       for (const std::int64_t place : {7, 12, 19}) {
         const Result r = run(layers(axis, {place, place + thickness}, 32, 3));
-        EXPECT_LT(r.volume_error(), 0.03);
-        EXPECT_LT(r.report.shape->bend_p95_deg, 4.0);
-        errors += r.volume_error();
-        ++runs;
+        EXPECT_LT(r.volume_error(), 0.001);
+        EXPECT_LT(r.report.shape->bend_max_deg, 1.0);
       }
     }
   }
-  EXPECT_LT(errors / runs, 0.006);
 }
 
-/// The floor holds some vertices back: without it a plate would be flat as well.
-/// Where a plate lies decides by chance which edges are contracted, so a few are less flat.
+/// Were vertices that are flat put beside their plane, where the floor lets edges be longer, plates
+/// would be up to 3 % too thick and bend by up to 12 degrees.
 TEST(SmoothSurface, PlatesOfOneVoxelAreFlatAndNotThick) {
-  int plates = 0, flat = 0;
-  double bends = 0.0, errors = 0.0;
   for (int axis = 0; axis < 3; ++axis) {
     for (std::int64_t place = 14; place < 26; ++place) {
       const Result r = run(layers(axis, {place, place + 1}, 40));
-      const double bend = r.report.shape->bend_p95_deg;
-      EXPECT_LT(r.volume_error(), 0.06);
-      EXPECT_LT(bend, 8.0);
-      ++plates;
-      errors += r.volume_error();
-      flat += bend < 5.0 ? 1 : 0;
-      bends += bend;
+      EXPECT_LT(r.volume_error(), 0.005);
+      EXPECT_LT(r.report.shape->bend_p95_deg, 1.0);
     }
   }
-  EXPECT_GE(10 * flat, 9 * plates);
-  EXPECT_LT(bends / plates, 2.5);
-  EXPECT_LT(errors / plates, 0.025);
+}
+
+/// Layers of any thickness, on voxels of any shape.
+TEST(SmoothSurface, StacksOfThinLayersAreFlat) {
+  std::mt19937 random(334);
+  for (int i = 0; i < 12; ++i) {
+    std::vector<std::int64_t> ends;
+    for (std::int64_t end = 3 + audit::test::below(random, 6); end < 30;) {
+      ends.push_back(end);
+      end += 1 + audit::test::below(random, 4);
+    }
+    const Result r = run(layers(i % 3, ends, 33, static_cast<std::uint32_t>(ends.size()) + 1));
+    EXPECT_LT(r.volume_error(), 0.005);
+    EXPECT_LT(r.report.shape->bend_p95_deg, 1.0);
+  }
 }
 
 /// Notches in its rim would take up to a twelfth of it away.
@@ -217,7 +217,7 @@ TEST(SmoothSurface, PlatesKeepTheirRim) {
       const auto is_inside = [&](double x) { return x > from && x < from + 20; };
       return p[2] > 17 && p[2] < 18 && is_inside(p[0]) && is_inside(p[1]) ? 1U : 0U;
     }));
-    EXPECT_LT(r.volume_error(), 0.06);
+    EXPECT_LT(r.volume_error(), 0.03);
   }
 }
 

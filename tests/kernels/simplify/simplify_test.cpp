@@ -236,5 +236,43 @@ TEST(BendFilter, ComparesTheContractedMeshWithThePresentOne) {
   EXPECT_GT(free, 100);
 }
 
+/// A bend of a thousandth of a voxel is free elsewhere.
+TEST(BendFilter, KeepsInItsPlaneWhatIsFlatThere) {
+  std::mt19937 random(732);
+  int flat = 0, at_a_step = 0;
+  for (unsigned axis = 0; axis < 3; ++axis) {
+    const auto along_axis = [&](Index3 v) { return axis == 0 ? v.x : axis == 1 ? v.y : v.z; };
+    const auto beside = [&](Index3 v) { return axis == 0 ? v.y : v.x; };
+    SmallVolume volume{{8, 8, 8}, 2, {}};
+    for_each_index(volume.shape, [&](Index3 v) {
+      volume.labels.push_back(along_axis(v) < (beside(v) < 5 ? 4 : 3) ? 0 : 1);
+    });
+    const TetMesh mesh = dense_mesh(volume);
+    BendFilter filter(mesh, Metric());
+    const auto carries_the_step = [&](LocalVertex v) {
+      const Point p = mesh.position(v);
+      return axis == 0 ? p.y >= 5 * kUnitsPerVoxel : p.x >= 5 * kUnitsPerVoxel;
+    };
+    for (int k = 0; k < 6000; ++k) {
+      const auto [p, q] = random_edge(mesh, random);
+      if (p == q || mesh.order(p) != 2 || mesh.order(q) != 2) continue;
+      if (mesh.planes(p) != 0 || mesh.planes(q) != 0) continue;
+      const Point stays = mesh.position(p);
+      const Point leaves = with_coordinate(stays, axis, along(stays, axis) + 1);
+      if (along(mesh.position(q), axis) != along(stays, axis)) continue;
+      const Contraction away{.keep = p, .drop = q, .position = leaves, .moves = true};
+      if (carries_the_step(p) || carries_the_step(q)) {
+        at_a_step += filter.stays_smooth(away) ? 1 : 0;
+        continue;
+      }
+      EXPECT_TRUE(filter.stays_smooth({.keep = p, .drop = q, .position = stays}));
+      EXPECT_FALSE(filter.stays_smooth(away));
+      ++flat;
+    }
+  }
+  EXPECT_GT(flat, 100);
+  EXPECT_GT(at_a_step, 10);
+}
+
 }  // namespace
 }  // namespace mw::test
