@@ -77,9 +77,10 @@ bool kernels_may(const std::string& file, const Include& include) {
 
 bool io_may(const Include& include) {
   const std::string& name = include.name;
-  // Nodes of curved tets are found, and tets are cut, where a file is written.
+  // Nodes of curved tets are found, tets are cut and surfaces made coarser where a file is written.
   if (include.quoted) {
-    return is_below(name, {"io/", "kernels/core/", "kernels/curve/", "kernels/quality/"});
+    return is_below(
+        name, {"io/", "kernels/core/", "kernels/curve/", "kernels/decimate/", "kernels/quality/"});
   }
   return is_standard(name) || is_posix(name) ||
          is_below(name, {"blosc.h", "bzlib.h", "curl/", "dcmtk/", "draco/", "hdf5.h", "lz4.h",

@@ -8,10 +8,12 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 #include "io/file/errors.h"
 #include "io/surface/precomputed/octree_cells.h"
 #include "io/volume/precomputed/sharding.h"
+#include "kernels/decimate/surface_decimator.h"
 
 namespace mw::io {
 namespace {
@@ -19,6 +21,8 @@ namespace {
 /// The most levels of detail, and the most triangles of a level that needs no coarser one.
 constexpr int kMostLevels = 8;
 constexpr std::size_t kFewTriangles = 200;
+/// A level is of use if it has at most this share of the triangles of the one before.
+constexpr double kLeastGain = 0.8;
 
 /// The length of a cell in mean edges, and the most cells along an axis, for which cells may be
 /// longer.  No edge is longer than a cell, so that no triangle becomes many pieces.
@@ -72,6 +76,25 @@ SteppedSurface stepped(const TriangleSurface& surface, const Octree& octree, int
           std::clamp<std::int64_t>(std::llround(cells * kCellSteps), 0, extents[k] * kCellSteps);
     }
   }
+  return out;
+}
+
+SurfaceDecimator decimator_of(const TriangleSurface& surface) {
+  std::vector<Vec3> vertices;
+  vertices.reserve(surface.vertices.size());
+  for (const auto& [x, y, z] : surface.vertices) vertices.emplace_back(x, y, z);
+  std::vector<SurfaceDecimator::Triangle> triangles;
+  triangles.reserve(surface.triangles.size());
+  const auto row = [](std::uint64_t v) { return static_cast<std::uint32_t>(v); };
+  for (const auto& [a, b, c] : surface.triangles) triangles.push_back({row(a), row(b), row(c)});
+  return {vertices, std::move(triangles)};
+}
+
+TriangleSurface surface_of(const SurfaceDecimator& decimator) {
+  const SurfaceDecimator::Surface surface = decimator.surface();
+  TriangleSurface out;
+  for (const Vec3& p : surface.vertices) out.vertices.push_back({p[0], p[1], p[2]});
+  for (const auto& [a, b, c] : surface.triangles) out.triangles.push_back({a, b, c});
   return out;
 }
 
@@ -196,22 +219,21 @@ void DracoSink::write_triangles(std::span<const Triangle> triangles) {
   surface_.triangles.insert(surface_.triangles.end(), triangles.begin(), triangles.end());
 }
 
-/// Coarser levels are clustered in cubes of 2, 4, 8 mean edges, as long as that leaves a surface.
+/// Coarser levels are within 2, 4, 8 mean edges of the surface.
 void DracoSink::finish() {
   const EdgeLengths edges = edge_lengths(surface_);
   const Octree octree = octree_of(surface_, edges);
   double scale = edges.mean;
-  const Position origin{octree.origin[0], octree.origin[1], octree.origin[2]};
   std::string fragments;
   std::vector<Level> levels{add_level(surface_, octree, {}, fragments)};
   levels.back().scale = static_cast<float>(scale);
-  std::size_t triangles = surface_.triangles.size();
-  while (triangles > kFewTriangles && levels.size() < kMostLevels) {
+  SurfaceDecimator decimator = decimator_of(std::exchange(surface_, {}));
+  while (decimator.triangle_count() > kFewTriangles && levels.size() < kMostLevels) {
+    const auto before = static_cast<double>(decimator.triangle_count());
     scale *= 2;
-    const TriangleSurface coarse = clustered(surface_, origin, scale);
-    triangles = coarse.triangles.size();
-    if (triangles == 0) break;
-    levels.push_back(add_level(coarse, octree, levels, fragments));
+    decimator.decimate(scale);
+    if (static_cast<double>(decimator.triangle_count()) > kLeastGain * before) break;
+    levels.push_back(add_level(surface_of(decimator), octree, levels, fragments));
     levels.back().scale = static_cast<float>(scale);
   }
   segments_.add(segment_, fragments, manifest_of(octree, levels));
