@@ -121,7 +121,9 @@ RegionReader::RegionReader(const mwmesh::RegionVolume& region)
   if (*std::min_element(region.chunk.begin(), region.chunk.end()) < 0) {
     io::fail_usage("chunk must not be negative");
   }
-  info_.chunk = {region.chunk[0], region.chunk[1], region.chunk[2]};
+  // Chunks beyond the volume are of no use, and rounding up the largest numbers would overflow.
+  info_.chunk = {std::min(region.chunk[0], info_.shape.x), std::min(region.chunk[1], info_.shape.y),
+                 std::min(region.chunk[2], info_.shape.z)};
 }
 
 void RegionReader::read(const Box3& box, std::span<RawLabel> out) const {
