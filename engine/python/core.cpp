@@ -198,7 +198,7 @@ void add_volume(py::module_& module) {
                         .object = object,
                         .cache = cache};
         if (crop) file.crop = Box{crop->first, crop->second};
-        const py::gil_scoped_release no_gil;
+        const WithoutLock no_gil;
         return HeldVolume{Volume::open(file), nullptr};
       });
 }
@@ -314,14 +314,14 @@ void add_mesh(py::module_& module) {
       .def_readwrite("record", &Mesh::record)
       .def_readwrite("in_parts", &Mesh::in_parts)
       .def("digest", [](const Mesh& mesh) {
-        const py::gil_scoped_release no_gil;
+        const WithoutLock no_gil;
         return digest(mesh);
       });
   module.def("find_label",
              [](const Mesh& mesh, const std::string& text) { return find_label(mesh, text); });
   module.def("wedges", [](const Mesh& mesh) {
     const Wedges found = [&] {
-      const py::gil_scoped_release no_gil;
+      const WithoutLock no_gil;
       return wedges(mesh);
     }();
     const auto count = static_cast<py::ssize_t>(found.rows.size());
@@ -334,16 +334,16 @@ void add_mesh(py::module_& module) {
   });
   module.def("picture", [](const Mesh& mesh, int width, int height) {
     return py::bytes([&] {
-      const py::gil_scoped_release no_gil;
+      const WithoutLock no_gil;
       return picture(mesh, width, height);
     }());
   });
   module.def("read_mesh", [](const std::string& path) {
-    const py::gil_scoped_release no_gil;
+    const WithoutLock no_gil;
     return read_mesh(path);
   });
   module.def("write_mesh", [](const Mesh& mesh, const std::string& path, const FileOptions& file) {
-    const py::gil_scoped_release no_gil;
+    const WithoutLock no_gil;
     write_mesh(mesh, path, file);
   });
 }
@@ -396,5 +396,6 @@ PYBIND11_MODULE(_core, module) {
   add_verdict(module);
   add_runs(module);
   module.def("synth", &synth_array);
+  end_runs_at_exit();
   translate_errors(py::module_::import("mwmesh._errors"));
 }

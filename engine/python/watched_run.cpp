@@ -19,6 +19,24 @@ namespace {
 
 constexpr std::chrono::milliseconds kLook{100};
 
+// The interpreter's lock guards both.
+int lockless = 0;               ///< how many WithoutLock there are
+std::thread::id ending_thread;  ///< what ends the interpreter; may still run what it likes
+
+void refuse_at_end() {
+  if (ending_thread == std::thread::id{} || ending_thread == std::this_thread::get_id()) return;
+  throw Error(ErrorKind::kCancelled, "the interpreter ends, and this call with it");
+}
+
+void end_runs() {
+  ending_thread = std::this_thread::get_id();
+  while (lockless > 0) {
+    if (PyErr_CheckSignals() != 0) throw py::error_already_set();
+    const py::gil_scoped_release no_lock;
+    std::this_thread::sleep_for(kLook / 10);
+  }
+}
+
 /// Work that runs in a thread of its own.
 class Watched {
  public:
@@ -84,14 +102,31 @@ void tell(const py::object& progress, const std::optional<Progress>& news) {
 
 }  // namespace
 
+WithoutLock::Counted::Counted() {
+  refuse_at_end();
+  ++lockless;
+}
+
+WithoutLock::Counted::~Counted() {
+  --lockless;
+}
+
+void end_runs_at_exit() {
+  py::module_::import("atexit").attr("register")(py::cpp_function(&end_runs));
+  // A child of os.fork() has one thread, whatever ran in its parent.
+  py::module_::import("os").attr("register_at_fork")(py::arg("after_in_child") =
+                                                         py::cpp_function([] { lockless = 0; }));
+}
+
 void run_watched(const py::object& progress, const std::function<void(const Hooks&)>& work) {
   std::exception_ptr error;
   {
-    const py::gil_scoped_release no_gil;
+    const WithoutLock no_gil;
     Watched watched(work);
     while (!watched.has_ended()) {
       const std::optional<Progress> news = watched.news();
       const py::gil_scoped_acquire gil;
+      refuse_at_end();
       if (PyErr_CheckSignals() != 0) throw py::error_already_set();
       tell(progress, news);
     }

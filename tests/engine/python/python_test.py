@@ -877,6 +877,30 @@ class Runs(InFolder):
         self.assertIn("stopped", rest)
         self.assertLess(time.monotonic() - start, 60)
 
+    def test_daemon_threads_end_with_the_interpreter(self):
+        # A thread that asks for the lock too late is ended by force, which aborts the program.
+        work = {"a mesh": "mwmesh.mesh(voxels, threads=1, window=16)",
+                "digests": "[mesh._core.digest() for _ in range(9999)]",
+                "meshes": "[mwmesh.mesh(voxels[:9], threads=1) for _ in range(9999)]"}
+        for name, call in work.items():
+            with self.subTest(name):
+                script = ("import mwmesh, os, sys, threading, time\n"
+                          "class Slow:\n"  # the end takes long enough for the thread to see it
+                          "  def __del__(self, sleep=time.sleep): sleep(.3)\n"
+                          "slow = Slow()\n"
+                          "begun = threading.Event()\n"
+                          "voxels = mwmesh.synth('voronoi', (70, 70, 70), 90, 3)\n"
+                          "mesh = mwmesh.mesh(voxels[:30], report=False, certify='off')\n"
+                          f"def work():\n  begun.set()\n  {call}\n"
+                          "threading.Thread(target=work, daemon=True).start()\n"
+                          "begun.wait()\n"
+                          "time.sleep(.05)\n"
+                          "child = os.fork()\n"  # it waits for no thread, as it has one alone
+                          "if child == 0: sys.exit()\n"
+                          "sys.exit(os.waitstatus_to_exitcode(os.waitpid(child, 0)[1]))\n")
+                done = subprocess.run([sys.executable, "-c", script], capture_output=True, timeout=600)
+                self.assertEqual(done.returncode, 0, done.stderr)
+
     def test_resume(self):
         volume = grains((60, 60, 60), 40)
         options = {"window": 16, "workdir": self.path("work"), "threads": 1}
