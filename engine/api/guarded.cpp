@@ -7,6 +7,7 @@
 #include <cctype>
 #include <string_view>
 
+#include "engine/settings/setting_table.h"
 #include "io/file/errors.h"
 
 namespace mw::api {
@@ -14,6 +15,21 @@ namespace {
 
 bool is_letter(char c) {
   return std::islower(static_cast<unsigned char>(c)) != 0;
+}
+
+/// Returns whether the library has a setting or an option of this name, or a member that stands for
+/// it.  Other flags are those of commands that a message tells.
+bool is_of_library(std::string_view flag) {
+  constexpr std::string_view kOptions[] = {
+      "background", "cache",       "certify", "changed", "cohesive", "crop",   "dataset",
+      "deck",       "drop-specks", "element", "frame",   "from",     "keep",   "keep-bytes",
+      "labels",     "materials",   "memory",  "merge",   "names",    "object", "open-hinges",
+      "origin",     "overlap",     "pairs",   "parts",   "preset",   "report", "resume",
+      "sample",     "scale",       "spacing", "split",   "threads",  "values", "trust-paths",
+      "weld",       "workdir"};
+  const auto& settings = engine::setting_table();
+  return std::ranges::find(kOptions, flag) != std::end(kOptions) ||
+         std::ranges::find(settings, flag, &engine::Setting::name) != settings.end();
 }
 
 mwmesh::ErrorKind kind_of(ErrorKind kind) {
@@ -41,7 +57,7 @@ std::string library_words(std::string message) {
                      [](char c) { return !is_letter(c) && c != '-'; }) -
         message.begin());
     const bool starts_word = at == 0 || message[at - 1] == ' ' || message[at - 1] == '(';
-    if (!starts_word || end == at + 2 || !is_letter(message[at + 2])) {
+    if (!starts_word || !is_of_library(std::string_view(message).substr(at + 2, end - at - 2))) {
       at += 2;
       continue;
     }

@@ -15,7 +15,8 @@
 namespace mw::api {
 
 /// Returns the message in words for a caller of functions: "--max-distance" becomes "max_distance",
-/// and "--from" becomes "from_kept".
+/// and "--from" becomes "from_kept".  Flags that the library has nothing for stay as they are: they
+/// belong to commands.
 [[nodiscard]] std::string library_words(std::string message);
 
 [[nodiscard]] mwmesh::Error library_error(const Error& error);

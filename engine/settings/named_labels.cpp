@@ -71,7 +71,7 @@ std::string listed(const std::vector<std::string>& names) {
   }
   if (known.empty()) {
     io::fail_usage("no label has a name, and so none is called '" + name +
-                   "'; give numbers, or names with --names FILE");
+                   "'; give numbers, or give labels names (--names)");
   }
   const std::vector<std::string> near = near_words(name, known);
   const char* const which = near.empty() ? "; names are " : "; near it: ";

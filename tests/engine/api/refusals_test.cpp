@@ -143,6 +143,10 @@ TEST(LibraryErrors, AreWordedForCallers) {
   failure(ErrorKind::kResource, [] { (void)synth("noise", {1 << 20, 1 << 20, 1 << 20}, 2, 1); });
   EXPECT_EQ(mw::api::library_words("go on by --from, or (--from)"),
             "go on by from_kept, or (from_kept)");
+  for (const char* command : {"with gdcmconv --raw", "'mwmesh convert --pieces N'",
+                              "raw files with --shape and --dtype", "text (--ascii)"}) {
+    EXPECT_EQ(mw::api::library_words(command), command);
+  }
   const auto labels = grains();
   EXPECT_THAT(
       failure(ErrorKind::kUsage, [&] { (void)mesh(volume_of(labels), {}, {.keep_bytes = 9}); }),

@@ -168,7 +168,7 @@ TEST_F(NamesTest, StandForLabelsInOptions) {
   }
   same("--size '\"a,b=c\"=4'", "--size 3=4");
   expect_failure(2, mesh + "c.vtu --labels 1-3", "expected a label of at most 64 bits, got '1-3'");
-  expect_failure(2, "mesh v.npy -o c.vtu --labels liver", "give numbers, or names with --names");
+  expect_failure(2, "mesh v.npy -o c.vtu --labels liver", "give labels names (--names)");
 }
 
 /// A raw volume of random labels beside what a loop over its voxels finds.
