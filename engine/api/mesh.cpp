@@ -84,19 +84,34 @@ std::string report_text(const mw::report::FinishedRun& run, const std::filesyste
   return out;
 }
 
+/// Does the job.  Where a run that is cancelled leaves work, the error says so: the engine says it of
+/// its own errors alone.
+mw::report::FinishedRun run(const io::LabelVolume& labels, engine::MeshJob job,
+                            io::MeshSink& sink) {
+  bool is_kept = false;
+  job.run.store.kept = [&] { is_kept = true; };
+  try {
+    return engine::mesh(labels, job, sink);
+  } catch (const Error& error) {
+    if (!is_kept || error.kind() != ErrorKind::kCancelled) throw;
+    throw Error(error.kind(),
+                error.what() + ("; " + mw::api::library_words(engine::way_on(job.run))));
+  }
+}
+
 /// Meshes into the sink.  Returns the report, in which the mesh is called `path`.
 std::string run_into(io::MeshSink& sink, const std::filesystem::path& path, const Volume& volume,
                      const engine::MeshJob& job) {
   const io::LabelVolume& labels = VolumeAccess::labels(volume);
   if (!job.is_measured) {
-    (void)engine::mesh(labels, job, sink);
+    (void)run(labels, job, sink);
     return {};
   }
   io::DigestSink digest(job.folder);
   io::TeeSink both(sink, digest);
-  mw::report::FinishedRun run = engine::mesh(labels, job, both);
-  run.digest = digest.digest();
-  return report_text(run, path, job);
+  mw::report::FinishedRun done = run(labels, job, both);
+  done.digest = digest.digest();
+  return report_text(done, path, job);
 }
 
 Verdict library_verdict(const mw::report::Verdict& verdict) {

@@ -259,7 +259,9 @@ TEST(Library, TellsProgressAndCanBeCancelled) {
   const Hooks stop{.progress = [&](const Progress& at) { enough = at.done >= half; },
                    .cancel = [&] { return enough.load(); }};
   Options options{.workdir = folder.path() / "work"};
-  failure(ErrorKind::kCancelled, [&] { (void)mesh(volume, settings, options, stop); });
+  EXPECT_THAT(
+      failure(ErrorKind::kCancelled, [&] { (void)mesh(volume, settings, options, stop); }),
+      HasSubstr("; the work so far is in " + options.workdir.string() + ", add resume to go on"));
   ASSERT_TRUE(std::filesystem::exists(options.workdir));
   EXPECT_THAT(failure(ErrorKind::kUsage, [&] { (void)mesh(volume, settings, options); }),
               HasSubstr("add resume to go on"));
