@@ -25,6 +25,16 @@ namespace mw::api {
 [[nodiscard]] const std::filesystem::path& checked_path(const std::filesystem::path& path,
                                                         const char* name = "path");
 
+/// Calls work(), which settles one option; its errors name that option.
+template <class Work>
+auto naming(const char* option, const Work& work) {
+  try {
+    return work();
+  } catch (const Error& error) {
+    throw Error(error.kind(), std::string(option) + ": " + error.what());
+  }
+}
+
 /// Calls work(); its errors become mwmesh::Error.
 template <class Work>
 auto guarded(const Work& work) {

@@ -35,11 +35,19 @@ io::Json value_json(const engine::Setting& setting, const std::string& text) {
 /// Returns the images that tets get values from, which are not opened yet.
 std::vector<engine::SampleImage> samples_of(const mwmesh::Options& options) {
   if (options.sample.empty()) return {};
-  try {
-    return engine::parse_samples(options.sample);
-  } catch (const Error& error) {
-    throw Error(error.kind(), std::string("--sample: ") + error.what());
+  return naming("sample", [&] { return engine::parse_samples(options.sample); });
+}
+
+engine::ConnectOptions connect_options(const mwmesh::Options& options) {
+  engine::ConnectOptions out{.open_hinges = options.open_hinges};
+  out.parts = naming("parts", [&] { return engine::parse_parts(options.parts); });
+  if (!options.split.empty()) {
+    out.split = naming("split", [&] { return engine::parse_split(options.split); });
   }
+  if (!options.cohesive.empty()) {
+    out.cohesive = naming("cohesive", [&] { return engine::parse_cohesive(options.cohesive); });
+  }
+  return out;
 }
 
 /// Returns which labels the mesh is to have; those of an object are what its steps make of them.
@@ -47,6 +55,7 @@ engine::LabelChoice choice_of(const mwmesh::Options& options, const io::InputSte
   engine::LabelChoice choice = label_choice(options);
   if (!options.object.empty() && !choice.labels && !choice.background) {
     choice.labels = io::merged_labels(options.object, steps.merge);
+    choice.labels_option = "--object";
   }
   return choice;
 }
@@ -133,12 +142,7 @@ engine::MeshJob mesh_job(const io::VolumeInfo& labels, const mwmesh::Settings& s
       .samples = samples_of(options),
       .choice = std::move(choice),
       .ends_around_object = !options.object.empty(),
-      .connect = {.parts = engine::parse_parts(options.parts),
-                  .split = options.split.empty() ? engine::SplitRule{}
-                                                 : engine::parse_split(options.split),
-                  .open_hinges = options.open_hinges,
-                  .cohesive = options.cohesive.empty() ? io::CohesiveRule{}
-                                                       : engine::parse_cohesive(options.cohesive)},
+      .connect = connect_options(options),
       .finds_parts = options.report,
       .certify = certify_of(options.certify),
       .is_measured = options.report,

@@ -84,8 +84,8 @@ std::string report_text(const mw::report::FinishedRun& run, const std::filesyste
   return out;
 }
 
-/// Does the job.  Where a run that is cancelled leaves work, the error says so: the engine says it of
-/// its own errors alone.
+/// Does the job.  Where a run that is cancelled leaves work, the error says so: the engine says it
+/// of its own errors alone.
 mw::report::FinishedRun run(const io::LabelVolume& labels, engine::MeshJob job,
                             io::MeshSink& sink) {
   bool is_kept = false;

@@ -117,7 +117,7 @@ std::unique_ptr<io::MeshSink> open_file(const std::filesystem::path& path,
                                         bool has_wedges) {
   io::MeshExtras extras{.deck = file.deck, .wedges = has_wedges, .pairs = file.pairs};
   if (!file.materials.empty()) {
-    extras.materials = engine::parse_materials(file.materials);
+    extras.materials = naming("materials", [&] { return engine::parse_materials(file.materials); });
   } else if (has_values) {
     io::require_place_for_values(path);
   }

@@ -57,7 +57,10 @@ Volume Volume::open(const VolumeFile& file) {
                             .values = voxel_values(file.values),
                             .object = file.object,
                             .trust_paths = file.trust_paths};
-    if (!file.cache.empty()) options.cache = mw::engine::parse_cache_folder(file.cache);
+    if (!file.cache.empty()) {
+      options.cache =
+          mw::api::naming("cache", [&] { return mw::engine::parse_cache_folder(file.cache); });
+    }
     if (file.crop) options.crop = mw::api::io_box(*file.crop);
     if (file.scale && *file.scale < 0) {
       throw mw::Error(mw::ErrorKind::kUsage, "scale: levels count from 0, the finest");

@@ -59,7 +59,7 @@ WantedLabel wanted_labels(const LabelChoice& choice, const io::LabelTable& table
     if (table.size() == 1) io::fail_usage("--background: it is the only label");
     return [left_out = *choice.background](RawLabel label) { return label != left_out; };
   }
-  for (const RawLabel label : *choice.labels) require_label(label, table, "--labels");
+  for (const RawLabel label : *choice.labels) require_label(label, table, choice.labels_option);
   const io::LabelTable kept(*choice.labels, table.is_signed());
   return [kept](RawLabel label) { return kept.contains(label); };
 }

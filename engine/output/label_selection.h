@@ -33,6 +33,7 @@ class LabelSelection {
 struct LabelChoice {
   std::optional<std::vector<RawLabel>> labels;  ///< the only ones that are kept
   std::optional<RawLabel> background;           ///< the only one that is left out
+  const char* labels_option = "--labels";       ///< what errors about `labels` name
 };
 
 /// ERRORS: mw::Error(kUsage) when both are given.

@@ -339,6 +339,7 @@ void settle_job(MeshRequest& request) {
   const bool has_choice = job.choice.labels || job.choice.background;
   if (job.ends_around_object && !has_choice) {
     job.choice.labels = io::merged_labels(request.volume.open.object, job.steps.merge);
+    job.choice.labels_option = "--object";
   }
   job.folder = request.output.parent_path();
   job.is_measured = !request.report.empty() || !request.html.empty();

@@ -12,6 +12,7 @@ namespace {
 
 using namespace test;
 using testing::HasSubstr;
+using testing::StartsWith;
 
 using LibraryPathsTest = mw::cli::ProgramTest;
 
@@ -154,6 +155,28 @@ TEST(LibraryErrors, AreWordedForCallers) {
   EXPECT_THAT(
       failure(ErrorKind::kUsage, [&] { (void)mesh(volume_of(labels), {}, {.from_kept = true}); }),
       HasSubstr("from_kept: needs the folder"));
+}
+
+TEST(LibraryErrors, NameTheOption) {
+  const auto labels = grains();
+  const Volume volume = volume_of(labels);
+  const std::pair<const char*, Options> runs[] = {{"parts: expected", {.parts = "0"}},
+                                                  {"split: expected", {.split = "1|x"}},
+                                                  {"cohesive: expected", {.cohesive = "1"}},
+                                                  {"sample: expected", {.sample = "a"}},
+                                                  {"object: the volume has no", {.object = {99}}}};
+  for (const auto& [start, options] : runs) {
+    EXPECT_THAT(failure(ErrorKind::kUsage, [&] { (void)mesh(volume, {}, options); }),
+                StartsWith(start));
+  }
+  for (const char* materials : {"hu=0", "hu=", "hu=5:1:0"}) {
+    EXPECT_THAT(
+        failure(ErrorKind::kUsage, [&] { write_mesh({}, "m.inp", {.materials = materials}); }),
+        StartsWith("materials: "));
+  }
+  EXPECT_THAT(
+      failure(ErrorKind::kUsage, [] { (void)Volume::open({.path = "v", .cache = "/dir,x"}); }),
+      StartsWith("cache: expected a size"));
 }
 
 TEST_F(LibraryPathsTest, FailsAsAnErrorWherePathsCannotBeLookedAt) {
