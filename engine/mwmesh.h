@@ -80,8 +80,10 @@ struct Space {
 /// takes to the world; as in NIfTI, they stand for centres, while the affine of `mwmesh info
 /// --json` takes corners, and is to get half of each of its first three columns added to the last.
 /// frame is "own", "ras" or "lps", or "voxel" to keep nothing but the edges of a voxel.  spacing
-/// has these edges where a file states them beside the matrix.
-/// ERRORS: kInput for numbers that are not finite, and for axes that are 0 or not at right angles.
+/// has these edges where a file states them beside the matrix; it counts for axes that lie along
+/// none of the world's, and only where it is that of the matrix to five digits.
+/// ERRORS: kInput for numbers that are not finite, for axes that are 0 or not at right angles, and
+/// for a spacing that is not positive; kUsage for another frame.
 [[nodiscard]] Space space_of_affine(const std::array<std::array<double, 4>, 3>& affine,
                                     const std::string& frame = "own",
                                     const std::optional<Vector>& spacing = {});

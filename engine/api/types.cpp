@@ -11,18 +11,19 @@
 #include "io/file/errors.h"
 #include "io/mesh/field_names.h"
 #include "io/mesh/open_mesh.h"
+#include "io/volume/checks.h"
 #include "io/volume/file_space.h"
 #include "io/volume/open_volume.h"
 
 namespace mw::api {
 namespace {
 
-io::WorldFrame frame_of(const std::string& name) {
+io::WorldFrame frame_of(const std::string& name, const char* expected = "own, ras or lps") {
   for (const io::WorldFrame frame :
        {io::WorldFrame::kOwn, io::WorldFrame::kRas, io::WorldFrame::kLps}) {
     if (name == io::name(frame)) return frame;
   }
-  io::fail_usage("frame " + name + ": expected own, ras or lps");
+  io::fail_usage("frame ", name, ": expected ", expected);
 }
 
 void check_axes(const std::array<mwmesh::Vector, 3>& axes) {
@@ -199,13 +200,17 @@ Space space_of_affine(const std::array<std::array<double, 4>, 3>& affine, const 
     mw::api::check_affine(affine);
     const bool is_voxel = frame == "voxel";
     mw::io::FileSpace told{.first = mw::io::Vector3{affine[0][3], affine[1][3], affine[2][3]},
-                           .frame = is_voxel ? mw::io::WorldFrame::kOwn : mw::api::frame_of(frame),
+                           .frame = is_voxel ? mw::io::WorldFrame::kOwn
+                                             : mw::api::frame_of(frame, "own, ras, lps or voxel"),
                            .steps_field = "affine",
                            .first_field = "affine"};
     for (std::size_t i = 0; i < 3; ++i) {
       for (std::size_t k = 0; k < 3; ++k) told.steps[i][k] = affine[k][i];
     }
-    if (spacing) told.lengths = *spacing;
+    if (spacing) {
+      for (const double edge : *spacing) mw::io::check_spacing("affine", "spacing", edge);
+      told.lengths = *spacing;
+    }
     mw::io::OpenOptions options;
     if (is_voxel) options.frame = mw::io::FrameChoice::kVoxel;
     return mw::api::library_space(mw::io::placed(mw::api::kArray, told, options));

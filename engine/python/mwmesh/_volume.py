@@ -47,7 +47,8 @@ def _image_spacing(image):
     """Returns the edges of a voxel where the header states them beside the affine, as in NIfTI."""
     if "pixdim" not in getattr(image, "header", ()):
         return None
-    return [abs(float(str(np.float32(edge)))) for edge in image.header["pixdim"][1:4]]
+    edges = [abs(float(str(np.float32(edge)))) for edge in image.header["pixdim"][1:4]]
+    return edges if all(0 < edge < np.inf for edge in edges) else None
 
 
 def _image_unit(image):

@@ -131,6 +131,19 @@ TEST(LibrarySpace, OfAnAffine) {
                         }),
                 HasSubstr("affine: column 2"));
   }
+  const std::array<std::array<double, 4>, 3> turned{
+      {{0.6, -0.8, 0, 0}, {0.8, 0.6, 0, 0}, {0, 0, 1, 0}}};
+  const Vector stated{1 + 1e-6, 1, 2};
+  EXPECT_EQ(space_of_affine(turned, "own", stated).spacing, (Vector{1 + 1e-6, 1, 1}));
+  for (const double bad : {0.0, -1.0, std::nan(""), HUGE_VAL}) {
+    EXPECT_THAT(failure(ErrorKind::kInput,
+                        [&] {
+                          (void)space_of_affine(turned, "own", Vector{1, bad, 1});
+                        }),
+                HasSubstr("spacing"));
+  }
+  EXPECT_THAT(failure(ErrorKind::kUsage, [&] { (void)space_of_affine(turned, "x"); }),
+              HasSubstr("expected own, ras, lps or voxel"));
 }
 
 TEST(LibraryErrors, AreWordedForCallers) {

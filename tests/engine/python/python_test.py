@@ -219,6 +219,8 @@ class SameMesh(InFolder):
             self.assertEqual(made.digest, mwmesh.mesh(nibabel.load(self.path("v.nii.gz"))).digest)
             self.assertEqual(made.digest, mwmesh.mesh(self.labels.T, affine=affine,
                                                       frame="ras").digest)
+            image.header["pixdim"][1:4] = 0  # some programs leave the affine alone to tell
+            self.assertEqual(made.digest, mwmesh.mesh(image).digest)
             low = (affine @ [-0.5, -0.5, -0.5, 1])[:3]
             high = (affine @ [21.5, 17.5, 19.5, 1])[:3]
             np.testing.assert_allclose(made.points.min(axis=0), np.minimum(low, high))
