@@ -92,6 +92,18 @@ def _chunk(array):
     return [int(c if np.ndim(c) == 0 else c[0]) for c in chunks]
 
 
+def _region_labels(values, first):
+    """Returns the labels of a region [z, y, x], of which first is the first voxel, as 64 bits."""
+    if values.dtype.kind == "f":
+        with np.errstate(invalid="ignore"):
+            wrong = np.argwhere(values.astype(np.int64) != values)
+        if len(wrong):
+            voxel = tuple(int(a + b) for a, b in zip(first, wrong[0][::-1]))
+            raise InputError(f"array: voxel {voxel}: value {values[tuple(wrong[0])]} is no whole "
+                             "number of 64 bits; is this an image, or probabilities?")
+    return whole_numbers(values, "array")
+
+
 def _check_sign(labels, dtype):
     """Refuses labels of a region that the array's type cannot have; the core, which has the bits
     of labels alone, refuses those that are too large for it."""
@@ -113,7 +125,7 @@ def _region_volume(array, axes, space):
             values = np.asarray(unmasked(array[z0:z1, y0:y1, x0:x1]))
         else:
             values = np.asarray(unmasked(array[x0:x1, y0:y1, z0:z1])).T
-        labels = whole_numbers(values, "array")
+        labels = _region_labels(values, (x0, y0, z0))
         _check_sign(labels, array.dtype)
         return np.ascontiguousarray(labels)
 

@@ -280,7 +280,7 @@ class Regions(unittest.TestCase):
         for number in (1, 2, 3):
             with self.assertRaises(KeyError):
                 mwmesh.mesh(Watched(grains(), number))
-        with self.assertRaises(mwmesh.UsageError):
+        with self.assertRaises(mwmesh.InputError):
             mwmesh.mesh(Watched(grains() + 0.5))
 
 
@@ -1105,6 +1105,12 @@ class Errors(InFolder):
         mwmesh.mesh(Blocks(labels, np.int8))
         large = labels.astype(np.uint64)
         self.check(mwmesh.InputError, "cannot hold", Blocks(large, np.int64))
+        for bad in (1.5, float("nan"), float("inf"), 2.0**64):
+            floats = np.ones((6, 7, 8))
+            floats[2, 3, 4] = floats[2, 4, 3] = bad
+            for array in (floats, Blocks(floats, np.float64)):
+                self.check(mwmesh.InputError, "array: voxel (4, 3, 2)", array)
+                self.check(mwmesh.InputError, "array: voxel (2, 4, 3)", array, axes="xyz")
 
     def test_sheared_affines_have_a_way_out(self):
         sheared = np.array([[2, 0.6, 0, 5], [0, 0.8, 0, 6], [0, 0, 3, 7]])
