@@ -159,8 +159,11 @@ def _samples(sample):
     """Returns NAME=FILE;NAME=FILE as bytes, from {name: file}."""
     if not isinstance(sample, Mapping):
         raise unexpected("sample", "{name: file}", sample)
-    return b";".join(text(name, "sample").encode() + b"=" + path_bytes(file, "sample")
-                     for name, file in sample.items())
+    parts = [text(name, "sample").encode() + b"=" + path_bytes(file, "sample")
+             for name, file in sample.items()]
+    if any(b";" in part for part in parts):
+        raise UsageError("sample: a path with ';' in it is not taken, rename the file or link to it")
+    return b";".join(parts)
 
 
 def _box(box, name):

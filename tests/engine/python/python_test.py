@@ -990,6 +990,7 @@ class Errors(InFolder):
             for value in bad:
                 with self.subTest(name=name, value=value):
                     self.check(ValueError, name, labels, **{name: value})
+        self.check(ValueError, "path with ';' in it", labels, sample={"hu": self.path("a;b.npy")})
         self.check(ValueError, "did you mean spacing", labels, call=mwmesh.as_volume, spacings=1)
         self.check(ValueError, "max_distance", labels, call=mwmesh.mesh(labels).verify, max_distance=1)
         self.assertEqual(mwmesh.mesh(labels, affine=np.eye(4)[:3]).digest,
