@@ -88,8 +88,8 @@ void check_periodic(Index3 shape, const MeshSettings& settings) {
     if (!is_periodic(settings, axis) || voxels % 2 == 0) continue;
     io::fail_usage("--periodic: the volume has ", voxels, " voxels along ",
                    std::string_view("xyz").substr(axis, 1),
-                   "; a cell that repeats itself needs an even number: --crop it, or "
-                   "resample it");
+                   "; a cell that repeats itself needs an even number: --crop it, slice an "
+                   "array, or resample it");
   }
 }
 

@@ -29,7 +29,8 @@ void check_shape(Index3 shape, Index3 layers) {
                                       layers.z, " layers, as their spacing differs")
                            : "",
                        "; fewer than ", kMaxSampledVoxels,
-                       " can be meshed at once: mesh parts of it with --crop"));
+                       " can be meshed at once: mesh parts of it with --crop, or slices of an "
+                       "array"));
 }
 
 /// Returns the quality floor that the start mesh keeps.

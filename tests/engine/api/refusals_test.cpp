@@ -170,6 +170,20 @@ TEST(LibraryErrors, AreWordedForCallers) {
       HasSubstr("from_kept: needs the folder"));
 }
 
+TEST(LibraryErrors, AdviseWhatCanBeDoneToAnArray) {
+  const auto labels = grains();
+  const Settings periodic = Settings().set("periodic", "z");
+  EXPECT_THAT(failure(ErrorKind::kUsage,
+                      [&] {
+                        (void)mesh(volume_of(labels, {22, 18, 19}), periodic);
+                      }),
+              HasSubstr("crop it, slice an array"));
+  ArrayVolume thin{.data = labels.data(), .type = VoxelType::kU64, .shape = kShape};
+  thin.space = {.spacing = {1e-3, 1e-3, 1e3}};
+  EXPECT_THAT(failure(ErrorKind::kInput, [&] { (void)mesh(Volume::of(thin)); }),
+              HasSubstr("with crop, or slices of an array"));
+}
+
 TEST(LibraryErrors, NameTheOption) {
   const auto labels = grains();
   const Volume volume = volume_of(labels);
