@@ -55,7 +55,7 @@ void check_floor(const io::VolumeInfo& volume, const MeshSettings& settings) {
   const double told = std::floor(1000 * kept) / 1000;
   const std::array<double, 3> voxel =
       layered_spacing(volume.space.spacing, layers_of(volume.space.spacing));
-  io::fail_usage("quality-floor ", settings.quality_floor, " cannot be promised for voxels of ",
+  io::fail_usage("--quality-floor ", settings.quality_floor, " cannot be promised for voxels of ",
                  voxel[0], " x ", voxel[1], " x ", voxel[2], "; --quality-floor ", told, " can be",
                  way_out(volume, settings));
 }

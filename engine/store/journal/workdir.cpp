@@ -75,6 +75,13 @@ std::string shown(const std::optional<std::string>& value) {
   return value ? io::printable(*value, kMaxShown) : "(not there)";
 }
 
+/// Returns the name of a line; that of a setting is told as the flag.
+std::string told_name(const std::string& name) {
+  const bool is_setting =
+      std::ranges::find(setting_table(), name, &Setting::name) != setting_table().end();
+  return (is_setting ? "--" : "") + io::printable(name, kMaxShown);
+}
+
 /// True if the text has only characters that identity_text() and the program write.
 bool is_plain(const std::string& text) {
   return std::all_of(text.begin(), text.end(),
@@ -129,8 +136,8 @@ std::string differences(const std::string& before, const std::string& now) {
     const auto was = value_of(old_lines, name), is = value_of(new_lines, name);
     if (was == is) continue;
     if (++told > kMaxTold) continue;
-    out += (out.empty() ? "" : "; ") + io::printable(name, kMaxShown) + " was " + shown(was) +
-           " and is " + shown(is);
+    out +=
+        (out.empty() ? "" : "; ") + told_name(name) + " was " + shown(was) + " and is " + shown(is);
   }
   if (told > kMaxTold) out += io::text("; and ", told - kMaxTold, " more");
   return out;

@@ -72,8 +72,9 @@ class Workdir : public WorkFiles {
 /// True if the settings saved in a folder are exactly these.
 [[nodiscard]] bool is_identity_of(const std::filesystem::path& path, const std::string& settings);
 
-/// Returns "window was 32 and is 64; ..." for lines "name = value" that differ; empty if none does.
-/// Where results_id() differs, which is the value of "results", it says that and nothing else.
+/// Returns "--window was 32 and is 64; ..." for lines "name = value" that differ, with "--" where
+/// the name is that of a setting; empty if none does. Where results_id() differs, which is the
+/// value of "results", it says that and nothing else.
 [[nodiscard]] std::string differences(const std::string& before, const std::string& now);
 
 /// Returns the line "first voxel = X,Y,Z", which says where in the file the volume begins.

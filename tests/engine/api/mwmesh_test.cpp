@@ -266,6 +266,9 @@ TEST(Library, TellsProgressAndCanBeCancelled) {
   EXPECT_THAT(failure(ErrorKind::kUsage, [&] { (void)mesh(volume, settings, options); }),
               HasSubstr("add resume to go on"));
   options.resume = true;
+  const Settings other = Settings(settings).set("max_distance", "1");
+  EXPECT_THAT(failure(ErrorKind::kUsage, [&] { (void)mesh(volume, other, options); }),
+              HasSubstr("another run: max_distance was 1.5 and is 1"));
   const Mesh resumed = mesh(volume, settings, options);
   EXPECT_EQ(digest(resumed), expected);
   EXPECT_GT(json::parse(resumed.report)["engine"]["windows_resumed"], 0);

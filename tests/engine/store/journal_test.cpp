@@ -211,7 +211,7 @@ TEST_F(WorkdirTest, NamesEachDifference) {
   leave_work();
   expect_refused(true, "window = 48\nstart = octree\n", "window was 32 and is 48; give");
   expect_refused(true, "window = 8\nstart = dense\n",
-                 "start was octree and is dense; window was 32 and is 8");
+                 "--start was octree and is dense; --window was 32 and is 8");
   expect_refused(true, "window = 32\n", "start was octree and is (not there)");
   EXPECT_TRUE(Workdir(path(), true, kSettings).resumes());
 }
