@@ -175,6 +175,7 @@ void check_sizes(std::string_view text) {
     follows_equals = ends_with_equals;
     at = end;
   }
+  if (follows_equals) (void)parse_number("");  // the text ends with "="
 }
 
 std::string with_numbers(std::string_view text, const io::LabelNames& names) {
