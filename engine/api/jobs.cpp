@@ -20,8 +20,15 @@ namespace mw::api {
 namespace {
 
 engine::Certify certify_of(mwmesh::Certify certify) {
-  if (certify == mwmesh::Certify::kOn) return engine::Certify::kOn;
-  return certify == mwmesh::Certify::kOff ? engine::Certify::kOff : engine::Certify::kAuto;
+  switch (certify) {
+    case mwmesh::Certify::kAuto:
+      return engine::Certify::kAuto;
+    case mwmesh::Certify::kOn:
+      return engine::Certify::kOn;
+    case mwmesh::Certify::kOff:
+      return engine::Certify::kOff;
+  }
+  io::fail_usage("certify: is none of Certify");
 }
 
 io::Json value_json(const engine::Setting& setting, const std::string& text) {

@@ -191,6 +191,8 @@ def _progress(wanted):
     or a function."""
     if callable(wanted):
         return wanted
+    if wanted not in (None, True, False):
+        raise unexpected("progress", "True, False or a function", wanted)
     if not (sys.stderr.isatty() if wanted is None else wanted):
         return None
     try:

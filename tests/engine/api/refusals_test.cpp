@@ -187,11 +187,13 @@ TEST(LibraryErrors, AdviseWhatCanBeDoneToAnArray) {
 TEST(LibraryErrors, NameTheOption) {
   const auto labels = grains();
   const Volume volume = volume_of(labels);
-  const std::pair<const char*, Options> runs[] = {{"parts: expected", {.parts = "0"}},
-                                                  {"split: expected", {.split = "1|x"}},
-                                                  {"cohesive: expected", {.cohesive = "1"}},
-                                                  {"sample: expected", {.sample = "a"}},
-                                                  {"object: the volume has no", {.object = {99}}}};
+  const std::pair<const char*, Options> runs[] = {
+      {"certify: is none", {.certify = static_cast<Certify>(9)}},
+      {"parts: expected", {.parts = "0"}},
+      {"split: expected", {.split = "1|x"}},
+      {"cohesive: expected", {.cohesive = "1"}},
+      {"sample: expected", {.sample = "a"}},
+      {"object: the volume has no", {.object = {99}}}};
   for (const auto& [start, options] : runs) {
     EXPECT_THAT(failure(ErrorKind::kUsage, [&] { (void)mesh(volume, {}, options); }),
                 StartsWith(start));

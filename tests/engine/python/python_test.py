@@ -986,6 +986,7 @@ class Errors(InFolder):
         values["merge"] += ([(1, 2)],)
         values["drop_specks"] += ((5,),)
         values["changed"] = (5, [5])
+        values["progress"] = (5, "no", [])
         for name, bad in values.items():
             for value in bad:
                 with self.subTest(name=name, value=value):
