@@ -20,6 +20,12 @@ int open_nameless(const std::string& folder) {
   return ::open(folder.c_str(), O_TMPFILE | O_RDWR | O_CLOEXEC, 0600);
 }
 
+/// Returns the folder as messages call it: nobody gave the one that the environment names.
+std::string told(const std::string& folder) {
+  const char* chosen = std::getenv("TMPDIR");  // NOLINT(concurrency-mt-unsafe)
+  return (chosen != nullptr && chosen == folder ? "TMPDIR=" : "") + folder;
+}
+
 int open_and_unlink(const std::string& folder) {
   std::string path = folder + "/" + kScratchPrefix + "XXXXXX";
   const int file = ::mkostemp(path.data(), O_CLOEXEC);
@@ -33,18 +39,18 @@ UnlinkedFile::UnlinkedFile(const std::filesystem::path& folder)
     : folder_(folder.empty() ? "." : folder.string()) {
   file_ = FileDescriptor(open_nameless(folder_));
   if (!file_.valid()) file_ = FileDescriptor(open_and_unlink(folder_));
-  if (!file_.valid()) fail_output(folder_, "create a temporary file there", errno);
+  if (!file_.valid()) fail_output(told(folder_), "create a temporary file there", errno);
 }
 
 void UnlinkedFile::write_at(std::uint64_t offset, std::span<const std::byte> bytes) const {
   const Transfer done = write_all(file_.get(), offset, bytes);
-  if (done.error != 0) fail_output(folder_, "write a temporary file there", done.error);
+  if (done.error != 0) fail_output(told(folder_), "write a temporary file there", done.error);
 }
 
 void UnlinkedFile::read_at(std::uint64_t offset, std::span<std::byte> out) const {
   const Transfer done = read_all(file_.get(), offset, out);
   if (done.bytes == out.size()) return;
-  fail_output(folder_, "read a temporary file there", done.error != 0 ? done.error : EIO);
+  fail_output(told(folder_), "read a temporary file there", done.error != 0 ? done.error : EIO);
 }
 
 std::filesystem::path scratch_folder() {

@@ -117,6 +117,19 @@ TEST(ScratchFolder, IsWhatTmpdirNames) {
   EXPECT_EQ(scratch_folder(), "/tmp");
 }
 
+TEST(ScratchFolder, IsToldAsThatOfTheEnvironment) {
+  const KeptTmpDir kept;
+  ::setenv("TMPDIR", "/nowhere/to/be", 1);
+  expect_error(ErrorKind::kUsage, {"TMPDIR=/nowhere/to/be: cannot create"},
+               [] { const UnlinkedFile file(scratch_folder()); });
+  try {
+    const UnlinkedFile file("/nowhere/else");
+    ADD_FAILURE();
+  } catch (const Error& error) {
+    EXPECT_TRUE(std::string(error.what()).starts_with("/nowhere/else: ")) << error.what();
+  }
+}
+
 // Sorting with little memory gives what sorting with much does.
 
 TEST(ExternalSort, IsStdSortForEveryBudget) {
