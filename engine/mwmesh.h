@@ -11,7 +11,9 @@
 // Arrays of three are (x, y, z).  Labels are 64-bit numbers; those of signed volumes are in two's
 // complement.  All functions may be called by several threads at once, also on the same Volume.
 // All of them throw Error.  What callbacks throw passes through, except std::bad_alloc,
-// std::length_error and std::filesystem::filesystem_error, which become an Error, too.
+// std::length_error and std::filesystem::filesystem_error, which become an Error, too.  Threads
+// that call this library must round to nearest and mask all floating-point exceptions, as C++
+// programs do unless told otherwise.
 #pragma once
 
 #include <array>
@@ -292,8 +294,10 @@ struct Progress {
 struct Hooks {
   /// After each window; then, while the mesh is written, some more times with all windows done.
   std::function<void(const Progress& progress)> progress{};
-  /// Is asked often; when it returns true, the run ends with kCancelled.  It may take seconds until
-  /// it is asked again where a cube of 64 voxels has millions of tets.
+  /// Is asked before each read of voxels, and after each window; when it returns true, the run ends
+  /// with kCancelled.  A window takes below a second as a rule, but can take half a minute where
+  /// nearly all of its voxels differ from their neighbours (noise); smaller windows (Settings) take
+  /// less.
   std::function<bool()> cancel{};
 };
 
