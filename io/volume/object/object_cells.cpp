@@ -85,7 +85,11 @@ CellContent look_at(const LabelVolume& volume, const Box3& cell, const ObjectLab
 
 std::string listed(const ObjectLabels& labels) {
   std::string out;
-  for (const RawLabel label : labels) out += (out.empty() ? "" : ", ") + text(label);
+  for (const RawLabel label : labels) {
+    out += out.empty() ? "" : ", ";
+    const auto with_sign = static_cast<std::int64_t>(label);
+    out += with_sign < 0 ? text(with_sign, " (or ", label, ")") : text(label);
+  }
   return out;
 }
 

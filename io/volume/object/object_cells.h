@@ -14,7 +14,8 @@ namespace mw::io {
 
 /// Labels of an object, ascending.
 using ObjectLabels = std::vector<RawLabel>;
-/// Returns the labels as "1, 2, 3", for messages.
+/// Returns the labels as "1, 2, 3", for messages.  One with the highest bit is told as both numbers
+/// that a user may have given for it.
 [[nodiscard]] std::string listed(const ObjectLabels& labels);
 
 /// Cells of a volume; cell c has the voxels from c * size on.
