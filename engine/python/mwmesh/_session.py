@@ -3,9 +3,11 @@
 """One volume, edited again and again."""
 
 import os
+import shutil
 import tempfile
 import threading
 import warnings
+import weakref
 
 import numpy as np
 
@@ -64,12 +66,11 @@ class Session:
                 raise UsageError(f"{name}: a session settles that itself")
         self._array = _native(array)
         self._settings = settings
-        self._folder = None
         if from_kept and keep is None:
             raise UsageError("from_kept: needs the folder of an earlier session, name it with keep")
         if keep is None:
-            self._folder = tempfile.TemporaryDirectory(prefix="mwmesh-session-")
-            keep = self._folder.name
+            keep = tempfile.mkdtemp(prefix="mwmesh-session-")
+            weakref.finalize(self, shutil.rmtree, keep, ignore_errors=True)
         self._keep = keep
         usual = "zyx" if settings.get("affine") is None else "xyz"
         self._is_zyx = (settings.get("axes") or usual) == "zyx"
