@@ -2,6 +2,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """A tetrahedral mesh of labels in memory."""
 
+import collections
 import importlib
 import json
 from typing import NamedTuple
@@ -59,6 +60,20 @@ def _restored(points, tets, labels, names, record, in_parts, values):
     for name, column in values.items():
         mesh._core.set_values(name, column)
     return mesh
+
+
+def _distinct(names):
+    """Returns {name: label} from {label: name}; a name that several labels have gets the label
+    behind it, as in files."""
+    uses = collections.Counter(names.values())
+    out = {name: label for label, name in names.items() if uses[name] == 1}
+    for label, name in names.items():
+        if uses[name] > 1:
+            key = f"{name} ({label})"
+            while key in out:
+                key += f" ({label})"
+            out[key] = label
+    return out
 
 
 def _package(name):
@@ -440,7 +455,7 @@ class Mesh:
 
     def to_meshio(self):
         """Returns a meshio.Mesh of the tets with cell data "label"; names are field data
-        {name: [label, 3]}.  Wedges come behind the tets, with cell data "cohesive": the number of
+        {name: [label, 3]}, where a name that several labels have becomes "name (label)".  Wedges come behind the tets, with cell data "cohesive": the number of
         their interface, which is 0 for tets.  Their label and values are those of the tet under
         them."""
         meshio = _package("meshio")
@@ -453,7 +468,7 @@ class Mesh:
             data["cohesive"] = [np.zeros(len(self.tets), np.int64), numbers]
         return meshio.Mesh(self.points, cells, cell_data=data,
                            field_data={name: np.array([label, 3], self.labels.dtype)
-                                       for label, name in self.names.items()})
+                                       for name, label in _distinct(self.names).items()})
 
     def to_vtk(self):
         """Returns a vtkUnstructuredGrid of the tets with the cell array "label".  Wedges come behind
