@@ -13,7 +13,7 @@ True
 
 import json
 import sys
-from collections.abc import Mapping
+from collections.abc import Mapping, Set
 
 import numpy as np
 
@@ -142,7 +142,7 @@ def _pairs_text(volume, value, name):
     """"*", or pairs of labels."""
     if isinstance(value, str) and value == "*":
         return value
-    if isinstance(value, str) or not isinstance(value, (list, tuple, set)):
+    if isinstance(value, str) or not isinstance(value, (list, tuple, Set)):
         raise unexpected(name, "pairs of labels, or *", value)
     for pair in value:
         if not isinstance(pair, tuple) or len(pair) != 2:

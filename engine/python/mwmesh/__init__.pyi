@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: Apache-2.0
 # The types of the package's functions and classes.
 import os
-from collections.abc import Callable, Iterable, Mapping, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence, Set
 from typing import Any, Literal, NamedTuple, Protocol, TypeAlias, overload
 
 import numpy as np
@@ -27,6 +27,7 @@ _Values: TypeAlias = Literal["labels", "probabilities", "distances"]
 _Element: TypeAlias = Literal["tet4", "tet10", "tet10-curved"]
 #: A label by its number or by its name.
 _Label: TypeAlias = int | str
+_Pairs: TypeAlias = Literal["*"] | Sequence[tuple[_Label, _Label]] | Set[tuple[_Label, _Label]]
 _Names: TypeAlias = Mapping[int, str] | Sequence[str | None] | _Path
 #: None stands for "none"; a dictionary has sizes by label.
 _Setting: TypeAlias = str | float | bool | Mapping[Any, float] | None
@@ -204,8 +205,8 @@ def mesh(
     certify: _Certify = ...,
     report: bool = ...,
     parts: Literal["all", "largest"] | int = ...,
-    split: Literal["*"] | Sequence[tuple[_Label, _Label]] = ...,
-    cohesive: Literal["*"] | Sequence[tuple[_Label, _Label]] = ...,
+    split: _Pairs = ...,
+    cohesive: _Pairs = ...,
     open_hinges: bool = ...,
     **settings: _Setting,
 ) -> Mesh: ...

@@ -7,6 +7,7 @@ import concurrent.futures
 import copy
 import csv
 import doctest
+import gc
 import http.client
 import inspect
 import json
@@ -24,6 +25,7 @@ import unittest
 import unittest.mock
 import urllib.parse
 import urllib.request
+import warnings
 
 try:
     import numpy as np
@@ -176,6 +178,8 @@ class SameMesh(InFolder):
         self.assertEqual(list(rest.volumes()), [0])
         with self.assertRaisesRegex(mwmesh.InputError, "no voxel has 99"):
             mwmesh.mesh(self.path("v.npy"), object=99)
+        with self.assertRaisesRegex(mwmesh.InputError, r"no voxel has -1 \(or 18446744073709551615\)"):
+            mwmesh.mesh(self.path("v.npy"), object=-1)
 
     def test_crops(self):
         part = mwmesh.mesh(self.path("v.npy"), crop=((2, 3, 4), (20, 15, 16)))
@@ -482,6 +486,8 @@ class Figures(unittest.TestCase):
         self.assertEqual(len(split.points) - len(whole.points), copies)
         self.assertEqual(split.report["parts"]["doubled"]["parts_after"], 3)
         self.assertTrue(split.verify(labels))
+        frozen = mwmesh.mesh(labels, split=frozenset({("left", 2)}), open_hinges=True, **place)
+        np.testing.assert_array_equal(frozen.tets, split.tets)
         same = mwmesh.mesh(labels, split="*", **place)
         self.assertEqual((same.digest, len(same.points)), (split.digest, len(split.points)))
         with self.assertRaises(mwmesh.UsageError):
@@ -803,6 +809,15 @@ class OtherTools(InFolder):
         np.testing.assert_array_equal(made.cell_data["label"][0], self.mesh.labels)
         self.assertEqual({name: tuple(row) for name, row in made.field_data.items()},
                          {"one": (1, 3), "four": (4, 3)})
+
+    def test_names_that_several_labels_have_are_told_apart(self):
+        made = mwmesh._mesh._distinct({1: "A", 2: "A", 3: "A (1)", 4: "b"})
+        self.assertEqual(made, {"A (1)": 3, "b": 4, "A (1) (1)": 1, "A (2)": 2})
+        mesh = mwmesh.mesh(grains(), names={1: "A", 2: "A"})
+        with unittest.mock.patch.object(mwmesh._mesh, "_package") as package:
+            mesh.to_meshio()
+        fields = package.return_value.Mesh.call_args.kwargs["field_data"]
+        self.assertEqual({name: row[0] for name, row in fields.items()}, {"A (1)": 1, "A (2)": 2})
 
     @needs("vtkmodules")
     def test_vtk(self):
@@ -1263,6 +1278,18 @@ class Sessions(InFolder):
             mesh, delta = session.update(((8, 8, 8), (10, 10, 10)), label + 10)
             self.assertEqual(delta["voxels_changed"], 8)
             self.assertEqual(mesh.digest, run(volume, order="colour", window=8).digest)
+
+    def test_a_folder_that_nobody_named_goes_without_a_warning(self):
+        with unittest.mock.patch.object(tempfile, "tempdir", self.folder):
+            session = mwmesh.Session(grains(), window=8)
+        self.assertEqual(len(os.listdir(self.folder)), 1)
+        with warnings.catch_warnings():
+            warnings.simplefilter("error")
+            with unittest.mock.patch.object(sys, "unraisablehook") as hook:
+                del session
+                gc.collect()
+        hook.assert_not_called()
+        self.assertEqual(os.listdir(self.folder), [])
 
     def test_a_session_cannot_be_copied(self):
         session = mwmesh.Session(grains(), window=8)
