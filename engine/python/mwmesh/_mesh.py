@@ -455,9 +455,9 @@ class Mesh:
 
     def to_meshio(self):
         """Returns a meshio.Mesh of the tets with cell data "label"; names are field data
-        {name: [label, 3]}, where a name that several labels have becomes "name (label)".  Wedges come behind the tets, with cell data "cohesive": the number of
-        their interface, which is 0 for tets.  Their label and values are those of the tet under
-        them."""
+        {name: [label, 3]}, where a name that several labels have becomes "name (label)".  Wedges
+        come behind the tets, with cell data "cohesive": the number of their interface, which is 0
+        for tets.  Their label and values are those of the tet under them."""
         meshio = _package("meshio")
         rows, under, numbers = self._wedge_cells()
         cells = [("tetra", self.tets)]
