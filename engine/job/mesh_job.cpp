@@ -437,7 +437,8 @@ report::FinishedRun mesh_and_keep(const io::LabelVolume& opened, const MeshJob& 
   FingerprintVolume volume(input.volume());
   Processes& processes = job.run.processes == nullptr ? one_process() : *job.run.processes;
   report::FinishedRun run{.volume = volume.info(),
-                          .labels = processes.collect_labels(volume, job.run.threads),
+                          .labels = processes.collect_labels(
+                              volume, scanner_count(volume, job.run.threads, job.run.store.memory)),
                           .sizes = asked.settings.sizes,
                           .raised = raised,
                           .specks = input.specks(),

@@ -163,10 +163,11 @@ report::Verdict verify(const VerifyJob& job, const std::function<void(io::MeshSi
   const io::PreparedInput input(job.volume, job.steps, io::SpeckLimits::of_budget(job.memory));
   const io::LabelVolume& volume = input.volume();
   const io::VolumeInfo& info = volume.info();
-  report::Verdict verdict{.specks = input.specks(),
-                          .welds = input.welds(),
-                          .table = collect_labels(volume, job.threads),
-                          .names = info.names};
+  report::Verdict verdict{
+      .specks = input.specks(),
+      .welds = input.welds(),
+      .table = collect_labels(volume, scanner_count(volume, job.threads, job.memory / 2)),
+      .names = info.names};
   MeshTiles mesh(info, verdict.table, {job.folder, job.memory / 8});
   StoppableSink stoppable(mesh, job.between);
   io::MergedVertices merged(stoppable, job.folder);

@@ -49,7 +49,8 @@ using FactsByLabel = std::map<RawLabel, LabelFacts>;
 
 FactsByLabel facts_of(const io::LabelVolume& volume, const std::set<RawLabel>& wanted,
                       const VerifyTask& task) {
-  const io::LabelTable table = collect_labels(volume, task.threads);
+  const io::LabelTable table =
+      collect_labels(volume, scanner_count(volume, task.threads, task.memory_bytes));
   const io::DenseVolume labels(volume, table);
   const VolumeFindings found =
       look_at_volume(labels, TileGrid(volume.info().shape, {1, 1, 1}), task, {});

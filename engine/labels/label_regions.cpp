@@ -5,10 +5,14 @@
 #include "engine/labels/label_regions.h"
 
 #include <algorithm>
+#include <limits>
 #include <map>
+#include <mutex>
 #include <unordered_map>
 
+#include "engine/labels/label_scan.h"
 #include "engine/labels/reading_tiles.h"
+#include "engine/system/tbb_for.h"
 #include "kernels/core/index.h"
 
 namespace mw::engine {
@@ -110,11 +114,13 @@ class ContactCount {
 std::vector<LabelRegion> label_regions(const io::LabelVolume& volume) {
   const ReadingTiles tiles(volume.info());
   RegionCount count;
-  std::vector<RawLabel> labels;
-  for_each_index(tiles.count(), [&](Index3 tile) {
+  std::mutex counting;
+  const int threads = scanner_count(volume, 1, std::numeric_limits<std::uint64_t>::max());
+  tbb_for_each_index(threads, tiles.count(), [&](Index3 tile) {
     const Box3 box = tiles.box(tile);
-    labels.resize(static_cast<std::size_t>(box.voxels()));
+    std::vector<RawLabel> labels(static_cast<std::size_t>(box.voxels()));
     volume.read(box, labels);
+    const std::lock_guard turn(counting);
     count.add(box, labels);
   });
   std::vector<LabelRegion> out = count.regions();

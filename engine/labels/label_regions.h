@@ -17,8 +17,8 @@ struct LabelRegion {
 };
 
 /// Returns the labels, ascending (as signed numbers where the volume's are), in one pass over it.
-/// Memory: a tile (ReadingTiles), and some 150 bytes a label.
-/// ERRORS: what the volume throws.
+/// Memory: a tile (ReadingTiles), or 8 where reading waits for a network, and some 150 bytes a
+/// label. ERRORS: what the volume throws.
 [[nodiscard]] std::vector<LabelRegion> label_regions(const io::LabelVolume& volume);
 
 /// Two labels, first < second as unsigned numbers.

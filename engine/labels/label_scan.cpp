@@ -5,6 +5,8 @@
 
 #include <tbb/enumerable_thread_specific.h>
 
+#include <algorithm>
+
 #include "engine/march/march.h"
 #include "engine/system/tbb_for.h"
 #include "io/labels/label_set.h"
@@ -28,6 +30,25 @@ Box3 planes(const io::VolumeInfo& info, const SequencePart& part) {
 }
 
 }  // namespace
+
+int reader_count(const io::LabelVolume& volume, int threads, const ReaderRoom& room) {
+  constexpr int kFarReaders = 8;
+  const int wanted = std::max(thread_count(threads), volume.info().is_far ? kFarReaders : 1);
+  const auto most =
+      std::clamp<std::uint64_t>(room.memory / 4 / room.each, 1, static_cast<std::uint64_t>(wanted));
+  int count = static_cast<int>(most);
+  const auto taken = [&] {
+    return static_cast<std::uint64_t>(count) * room.each + volume.buffer_bytes(count);
+  };
+  while (count > 1 && taken() > room.memory / 2) --count;
+  return count;
+}
+
+int scanner_count(const io::LabelVolume& volume, int threads, std::uint64_t memory) {
+  constexpr std::uint64_t kSetBytes = 80U << 10U;
+  constexpr std::uint64_t kTileBytes = ReadingTiles::kMaxVoxels * sizeof(RawLabel);
+  return reader_count(volume, threads, {.each = kTileBytes + kSetBytes, .memory = memory});
+}
 
 std::vector<RawLabel> labels_of_part(const io::LabelVolume& volume, int threads,
                                      const SequencePart& part) {

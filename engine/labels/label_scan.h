@@ -1,12 +1,25 @@
 // SPDX-FileCopyrightText: The mwmesh authors
 // SPDX-License-Identifier: Apache-2.0
-// Finds the labels of a volume on many threads.
+// Finds the labels of a volume on many threads, whose number suits the volume.
 #pragma once
 
 #include "engine/labels/reading_tiles.h"
 #include "io/labels/label_table.h"
 
 namespace mw::engine {
+
+/// What several readers of a volume may take.
+struct ReaderRoom {
+  std::uint64_t each = 0;    ///< bytes of a reader, beside what the volume holds
+  std::uint64_t memory = 0;  ///< bytes of the budget
+};
+
+/// Returns how many threads read a volume at once: `threads` (0: all cores) of them, and at least 8
+/// where reading waits for a network.  There are fewer, but at least one, where they would take
+/// more than a quarter of memory, or more than half with what the volume holds.
+[[nodiscard]] int reader_count(const io::LabelVolume& volume, int threads, const ReaderRoom& room);
+/// Likewise for labels_of_part(), collect_labels() and label_regions().
+[[nodiscard]] int scanner_count(const io::LabelVolume& volume, int threads, std::uint64_t memory);
 
 /// Does what collect_labels() does for one part of a volume; the labels are in no particular order.
 /// Together the parts have every voxel once.  If voxels may be no labels, parts are in file order.

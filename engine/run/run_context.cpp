@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "engine/keep/results_id.h"
+#include "engine/labels/label_scan.h"
 #include "engine/labels/periodic_labels.h"
 #include "engine/settings/promises.h"
 #include "engine/store/journal/workdir.h"
@@ -191,13 +192,16 @@ std::uint64_t prepared_bytes(const io::DenseVolume& volume, const MeshSettings& 
 LabelReaders::LabelReaders(const io::DenseVolume& volume, const MeshSettings& settings,
                            const RunHooks& hooks, RunStore& store) {
   const std::uint64_t each = preparation_bytes(settings, volume.raw().scores() != nullptr);
-  const auto max_threads = static_cast<std::uint64_t>(thread_count(hooks.threads));
-  const auto at_once = std::clamp<std::uint64_t>(hooks.store.memory / 4 / each, 1, max_threads);
-  threads = static_cast<int>(at_once);
+  threads = reader_count(volume.raw(), hooks.threads, {each, hooks.store.memory});
   const auto taken = [&] {
     return static_cast<std::uint64_t>(threads) * each + volume.raw().buffer_bytes(threads);
   };
-  while (threads > 1 && taken() > hooks.store.memory / 2) --threads;
+  for (; threads > 1; --threads) {
+    auto room = store.try_reserve(Purpose::kLabels, taken());
+    if (!room) continue;
+    scratch = std::move(*room);
+    return;
+  }
   scratch = store.reserve(Purpose::kLabels, taken());
 }
 

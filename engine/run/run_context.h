@@ -15,8 +15,8 @@ namespace mw::engine {
 [[nodiscard]] std::uint64_t prepared_bytes(const io::DenseVolume& volume,
                                            const MeshSettings& settings, const LabelNeed* need);
 
-/// Threads that read labels, and the memory that they hold meanwhile.  Their number keeps
-/// preparation below a quarter of the budget, and below half with what the volume itself holds.
+/// Threads that read labels (reader_count()), and the memory that they hold meanwhile.  There are
+/// fewer of them where that memory is not free.
 struct LabelReaders {
   LabelReaders(const io::DenseVolume& volume, const MeshSettings& settings, const RunHooks& hooks,
                RunStore& store);

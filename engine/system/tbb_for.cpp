@@ -1,10 +1,10 @@
 // SPDX-FileCopyrightText: The mwmesh authors
 // SPDX-License-Identifier: Apache-2.0
-// Makes tasks of ranges of a given size, and of rows of an array.
+// Makes tasks of ranges of a given size, and of parts of an array.
 #include "engine/system/tbb_for.h"
 
 #include <tbb/blocked_range.h>
-#include <tbb/blocked_range2d.h>
+#include <tbb/blocked_range3d.h>
 #include <tbb/parallel_for.h>
 #include <tbb/partitioner.h>
 #include <tbb/task_arena.h>
@@ -39,11 +39,11 @@ void tbb_for_each_index(int threads, Index3 shape, const std::function<void(Inde
     for_each_index(shape, visit);
     return;
   }
-  using Rows = tbb::blocked_range2d<std::int64_t>;
+  using Part = tbb::blocked_range3d<std::int64_t>;
   Crew(threads).run([&] {
-    tbb::parallel_for(Rows(0, shape.z, 0, shape.y), [&](const Rows& rows) {
-      for_each_index(Box3{{0, rows.cols().begin(), rows.rows().begin()},
-                          {shape.x, rows.cols().end(), rows.rows().end()}},
+    tbb::parallel_for(Part(0, shape.z, 0, shape.y, 0, shape.x), [&](const Part& part) {
+      for_each_index(Box3{{part.cols().begin(), part.rows().begin(), part.pages().begin()},
+                          {part.cols().end(), part.rows().end(), part.pages().end()}},
                      visit);
     });
   });

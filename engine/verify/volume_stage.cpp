@@ -7,7 +7,9 @@
 #include <cmath>
 #include <limits>
 
+#include "engine/labels/label_scan.h"
 #include "engine/system/in_order.h"
+#include "engine/system/tbb_for.h"
 #include "engine/verify/part_links.h"
 #include "engine/verify/tile_labels.h"
 #include "kernels/audit/distance/tile.h"
@@ -39,6 +41,14 @@ struct LoadedVoxels {
   Box3 box;
   std::vector<Label> labels;
 
+  void take(const LabelBox& part) {
+    auto row = part.labels.begin();
+    for (std::int64_t z = part.box.lo.z; z < part.box.hi.z; ++z) {
+      for (std::int64_t y = part.box.lo.y; y < part.box.hi.y; ++y, row += part.box.shape().x) {
+        std::copy_n(row, part.box.shape().x, labels.begin() + box.offset({part.box.lo.x, y, z}));
+      }
+    }
+  }
   [[nodiscard]] bool has_one_label() const {
     return std::equal(labels.begin() + 1, labels.end(), labels.begin());
   }
@@ -55,6 +65,13 @@ struct LoadedVoxels {
   }
 };
 
+/// Returns how many readers each of the threads has that look at tiles: where reading waits for a
+/// network, they share those that scan such a volume, and otherwise a thread reads itself.
+int readers_of_thread(const io::DenseVolume& volume, int threads) {
+  const int all = scanner_count(volume.raw(), 1, std::numeric_limits<std::uint64_t>::max());
+  return (all + threads - 1) / threads;
+}
+
 Box3 scaled(const Box3& box, Index3 by) {
   return {layered_shape(box.lo, by), layered_shape(box.hi, by)};
 }
@@ -69,6 +86,7 @@ class VolumeStage {
         pieces_(mesh.pieces),
         junctions_(mesh.junctions),
         label_count_(volume.table().size()),
+        readers_(readers_of_thread(volume, task.threads)),
         layers_(task.options.layers),
         limit_(audit::distance_limit(task.options.max_distance)),
         parts_(label_count_),
@@ -108,7 +126,15 @@ class VolumeStage {
 
   [[nodiscard]] LoadedVoxels load(const Box3& box) const {
     LoadedVoxels out{box, std::vector<Label>(static_cast<std::size_t>(box.voxels()))};
-    volume_.read(box, out.labels);
+    if (readers_ == 1) {
+      volume_.read(box, out.labels);
+      return out;
+    }
+    const ReadingTiles tiles(volume_.info());
+    const Box3 over = tiles.over(box);
+    tbb_for_each_index(readers_, over.shape(), [&](Index3 i) {
+      out.take(read_labels(volume_, intersection(tiles.box(over.lo + i), box)));
+    });
     return out;
   }
 
@@ -318,6 +344,7 @@ class VolumeStage {
   const PieceBuckets* pieces_;
   JunctionLedger* junctions_;
   std::size_t label_count_;
+  int readers_;
   Index3 layers_;
   double limit_;
   VolumeFindings found_;

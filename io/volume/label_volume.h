@@ -43,7 +43,8 @@ struct VolumeInfo {
   /// A hash of what the numbers of labels stand for, where these were given when the volume was
   /// opened, as to masks in the order of their files; else 0.
   std::uint64_t numbering = 0;
-  std::string note;  ///< what was taken for what the file leaves open, for people; mostly empty
+  std::string note;     ///< what was taken for what the file leaves open, for people; mostly empty
+  bool is_far = false;  ///< reads wait for a network: several at a time take little longer than one
 };
 
 /// Whether labels of the volume are signed numbers.

@@ -174,7 +174,8 @@ std::unique_ptr<LabelVolume> open_n5(const Place& container, const OpenOptions& 
                   .space = space_of(folder, *document, array, options),
                   .type = array.type,
                   .format = "n5",
-                  .chunk = block_of(array)};
+                  .chunk = block_of(array),
+                  .is_far = !folder.is_near()};
   const VoxelCoding coding{.type = array.type, .order = ByteOrder::kBig};
   return std::make_unique<ChunkedVolume>(std::move(info), coding, ChunkFill{},
                                          std::make_unique<N5Blocks>(folder, std::move(array)),

@@ -166,7 +166,8 @@ std::unique_ptr<LabelVolume> open_precomputed(const Place& folder, const OpenOpt
                   .space = scale.space,
                   .type = scale.type,
                   .format = "precomputed",
-                  .chunk = scale.chunk};
+                  .chunk = scale.chunk,
+                  .is_far = !folder.is_near()};
   const VoxelCoding coding{.type = scale.type, .order = ByteOrder::kLittle};
   auto chunks = std::make_unique<PrecomputedChunks>(folder_of(folder, scale, options.trust_paths),
                                                     std::move(scale));

@@ -87,6 +87,7 @@ std::unique_ptr<LabelVolume> open_array(const ZarrNode& node, const Level* level
   const Index3 shape =
       checked_shape(node.metadata_file, "shape", {extents.x, extents.y, extents.z});
   VolumeInfo info{.shape = shape, .type = array.type, .format = "zarr"};
+  info.is_far = !node.folder.is_near();
   info.chunk = axes.pick(array.chunk.shape, 1);
   info.space = space_of_array(node, axes, level, options);
   const VoxelCoding coding{.type = array.type, .order = array.chunk.byte_order};

@@ -19,10 +19,12 @@ class Server:
     requests: (path, headers) of all so far; failed: how many of them failed on purpose.
     handlers: functions of a request handler by the path that they answer instead.
     missing: the status that answers for files that are not there.
+    wait: seconds before each answer; waiting: how many requests waited then when each came.
     """
 
     def __init__(self, folder, share=0.0, seed=1):
         self.folder, self.share = folder, share
+        self.wait, self.waiting, self._held = 0, [], 0
         self.requests, self.failed, self.handlers = [], 0, {}
         self.missing = 404
         self._random, self._lock = random.Random(seed), threading.Lock()
@@ -51,6 +53,17 @@ class Server:
             self.failed += 1
             return FAULTS[self._random.randrange(len(FAULTS))]
 
+    def hold(self):
+        """Holds a request back for a while, and counts those that wait."""
+        if not self.wait:
+            return
+        with self._lock:
+            self._held += 1
+            self.waiting.append(self._held)
+        time.sleep(self.wait)
+        with self._lock:
+            self._held -= 1
+
 
 class _Handler(http.server.BaseHTTPRequestHandler):
     protocol_version = "HTTP/1.1"
@@ -76,6 +89,7 @@ class _Handler(http.server.BaseHTTPRequestHandler):
     def do_GET(self):
         owner = self.owner
         fault = owner.fault_of(self.path, self.headers)
+        owner.hold()
         if self.path in owner.handlers:
             owner.handlers[self.path](self)
         else:

@@ -60,6 +60,23 @@ class Remote(unittest.TestCase):
                     run("verify", f"{server.address}/{name}/", "remote.vtkhdf")
             run("info", server.address.replace("http", "HTTP") + "/zarr2", "--scale", "0")
 
+    def test_several_requests_wait_at_once_on_one_thread(self):
+        """In all passes: the first and the last of a run are those for labels and for its check."""
+        with Server("stores") as server:
+            server.wait = 0.05
+            address = f"{server.address}/precomputed"
+            for command in (["mesh", address, "-o", "remote.vtkhdf", "--force", "--threads", "1",
+                             "--certify", "on"],
+                            ["verify", address, "remote.vtkhdf", "--threads", "1"],
+                            ["info", address, "--scale", "0"]):
+                with self.subTest(command[0]):
+                    server.waiting = []
+                    run(*command)
+                    self.assertGreater(max(server.waiting[:20]), 1)
+                    self.assertGreater(max(server.waiting[-20:]), 1)
+                    self.assertLessEqual(max(server.waiting), 8)
+            self.assertEqual(run("digest", "remote.vtkhdf"), self.digests["precomputed"])
+
     def test_a_fifth_of_the_requests_fails(self):
         failed = 0
         for seed in range(5):

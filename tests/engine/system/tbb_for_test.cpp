@@ -6,6 +6,10 @@
 #include <tbb/global_control.h>
 #include <tbb/task_arena.h>
 
+#include <atomic>
+#include <chrono>
+#include <condition_variable>
+#include <mutex>
 #include <stdexcept>
 
 #include "kernels/simplify/simplify.h"
@@ -43,6 +47,33 @@ TEST_P(TbbFor, CoversEveryIndexOfAnArrayOnce) {
       ++times.at(static_cast<std::size_t>((i.z * shape.y + i.y) * shape.x + i.x));
     });
     for (const auto& t : times) ASSERT_EQ(t, 1);
+  }
+}
+
+/// Two visits that wait for each other, which visits by one thread alone never do.
+class Meeting {
+ public:
+  void join() {
+    std::unique_lock lock(mutex_);
+    ++come_;
+    changed_.notify_all();
+    const auto is_met = [this] { return come_ > 1; };
+    if (!changed_.wait_for(lock, std::chrono::seconds(20), is_met))
+      throw std::runtime_error("alone");
+  }
+
+ private:
+  std::mutex mutex_;
+  std::condition_variable changed_;
+  int come_ = 0;
+};
+
+TEST_P(TbbFor, SharesAnArrayOfOneRow) {
+  if (GetParam() == 1) return;
+  for (const Index3 shape : {Index3{64, 1, 1}, Index3{1, 64, 1}, Index3{1, 1, 64}}) {
+    Meeting meeting;
+    EXPECT_NO_THROW(
+        engine::tbb_for_each_index(GetParam(), shape, [&](Index3 /*at*/) { meeting.join(); }));
   }
 }
 
