@@ -188,15 +188,18 @@ bool is_same_server(const std::string& a, const std::string& b) {
   return a == b || (!server.empty() && server == server_of(b));
 }
 
-bool is_open_to_all(const std::string& address) {
-  if (scheme_of(address) != "http://") return false;
+bool is_on_this_machine(const std::string& address) {
   const std::size_t scheme = scheme_of(address).size();
   const std::string_view host =
       std::string_view(address).substr(scheme, end_of_host(address) - scheme);
-  if (host == "[::1]" || host.starts_with("[::1]:")) return false;
+  if (host == "[::1]" || host.starts_with("[::1]:")) return true;
   const std::string_view name = host.substr(0, host.find(':'));
   const bool is_number = name.find_first_not_of("0123456789.") == name.npos;
-  return name != "localhost" && !(is_number && name.starts_with("127."));
+  return name == "localhost" || (is_number && name.starts_with("127."));
+}
+
+bool is_open_to_all(const std::string& address) {
+  return scheme_of(address) == "http://" && !is_on_this_machine(address);
 }
 
 }  // namespace mw::io

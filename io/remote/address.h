@@ -37,6 +37,9 @@ void check_scheme(std::string_view text);
 /// Whether two web addresses have the same scheme, host and port.
 [[nodiscard]] bool is_same_server(const std::string& a, const std::string& b);
 
+/// Whether the host of an address is this machine, as 127.0.0.1, [::1] and localhost are.
+[[nodiscard]] bool is_on_this_machine(const std::string& address);
+
 /// Whether others can read on the way what is sent there, as with http:// to another machine.
 [[nodiscard]] bool is_open_to_all(const std::string& address);
 

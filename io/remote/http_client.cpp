@@ -414,6 +414,8 @@ void set_up(CURL* curl, const HttpLimits& limits, const Hop& hop) {
   curl_easy_reset(curl);
   curl_easy_setopt(curl, CURLOPT_URL, hop.address.c_str());
   curl_easy_setopt(curl, CURLOPT_PROTOCOLS_STR, is_safe ? "https" : "http,https");
+  // What is for this machine, a password perhaps, must not go to another one that is a proxy.
+  if (is_on_this_machine(hop.address)) curl_easy_setopt(curl, CURLOPT_NOPROXY, "*");
   curl_easy_setopt(curl, CURLOPT_NOSIGNAL, 1L);
   curl_easy_setopt(curl, CURLOPT_CONNECTTIMEOUT, limits.connect_seconds);
   curl_easy_setopt(curl, CURLOPT_LOW_SPEED_LIMIT, 1024L);

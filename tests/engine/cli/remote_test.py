@@ -281,6 +281,15 @@ class Remote(unittest.TestCase):
         self.assertEqual(done.returncode, 2)
         self.assertNotIn("5ecret", done.stderr)
 
+    def test_nothing_for_this_machine_goes_to_a_proxy(self):
+        environment = {**os.environ, "MW_HTTP_AUTHORIZATION": SECRET}
+        with Server("stores") as server, Server("stores") as proxy:
+            for name in ("http_proxy", "all_proxy", "ALL_PROXY"):
+                subprocess.run([PROGRAM, "info", f"{server.address}/n5"], check=True,
+                               env={**environment, name: proxy.address}, capture_output=True)
+            self.assertTrue(server.requests)
+            self.assertFalse(proxy.requests)
+
     def test_netrc(self):
         os.makedirs("home", exist_ok=True)
         with open("home/.netrc", "w", encoding="utf-8") as file:

@@ -73,6 +73,10 @@ TEST(AddressTest, PlainHttpIsOpenBeyondThisMachine) {
                            "http://[::1]:8000/p", "http://[::1]"}) {
     EXPECT_FALSE(is_open_to_all(text)) << text;
   }
+  for (const char* text : {"https://127.0.0.1:80/p", "https://localhost", "http://[::1]:8000/p"}) {
+    EXPECT_TRUE(is_on_this_machine(text)) << text;
+  }
+  EXPECT_FALSE(is_on_this_machine("https://127.0.0.1.host.org/p"));
 }
 
 TEST(AddressTest, ServersDifferByAllBeforeTheirPaths) {
