@@ -130,13 +130,17 @@ Chain parse_chain(const Json& codecs, const std::string& file, const std::string
   return chain;
 }
 
-/// Reads the coding of the index, which is an array of two numbers of 64 bits a chunk.
+/// Reads the coding of the index, which is an array of two numbers of 64 bits a chunk; so it has an
+/// axis more than chunks have.
 void parse_index(const Extension& shards, const std::string& file, ShardCoding& shard) {
   const JsonFields fields = shards.fields(file);
   const std::string where = fields.name_of("index_codecs");
   static_cast<void>(fields.count("index_codecs"));  // checks that it is there
-  const Chain index = parse_chain(shards.configuration["index_codecs"], file, where, {}, 8);
+  std::vector<std::size_t> order(shard.chunks.size() + 1);
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  const Chain index = parse_chain(shards.configuration["index_codecs"], file, where, order, 8);
   const bool is_plain =
+      index.order == order &&
       std::all_of(index.steps.begin(), index.steps.end(), [](auto step) { return step.is_crc32c; });
   if (index.shards || !is_plain || index.steps.size() > 1) {
     fail_input(file, where, "an index of other codecs than bytes and crc32c is not read here",

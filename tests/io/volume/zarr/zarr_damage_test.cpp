@@ -125,6 +125,13 @@ TEST(ZarrErrors, Codecs) {
   refuse_v3([](Json& j) { sharding_of(j)["chunk_shape"] = {1, 3}; }, {"chunk_shape"});
   refuse_v3([](Json& j) { sharding_of(j)["index_location"] = "middle"; }, {"index_location"});
   refuse_v3([](Json& j) { sharding_of(j)["index_codecs"].push_back("gzip"); }, {"index_codecs"});
+  refuse_v3(
+      [](Json& j) {
+        Json& index = sharding_of(j)["index_codecs"];
+        index = Json::array(
+            {{{"name", "transpose"}, {"configuration", {{"order", {3, 2, 1, 0}}}}}, index[0]});
+      },
+      {"index_codecs", "other codecs than bytes and crc32c"});
   refuse_v3([](Json& j) { sharding_of(j).erase("index_codecs"); }, {"index_codecs", "missing"});
   refuse_v3([](Json& j) { sharding_of(j).erase("codecs"); }, {"codecs", "missing"});
   refuse_v3([](Json& j) { sharding_of(j)["codecs"] = Json::array({j["codecs"][0]}); },
