@@ -22,7 +22,10 @@ MOST_SHOWN = 100  # segments that the link selects, the largest first
 
 
 class _Handler(http.server.SimpleHTTPRequestHandler):
-    """Files, and the parts of them that are asked for, for pages from anywhere."""
+    """Files, and the parts of them that are asked for, for pages from anywhere.
+
+    Links that lead out of the folder are not followed: there is nothing at their addresses.
+    """
 
     protocol_version = "HTTP/1.1"
 
@@ -36,12 +39,24 @@ class _Handler(http.server.SimpleHTTPRequestHandler):
         self.send_header("Accept-Ranges", "bytes")
         super().end_headers()
 
+    def translate_path(self, path):
+        file = super().translate_path(path)
+        # In place of a folder its index is sent, which may be such a link, too.
+        sent = [file] + [os.path.join(file, name) for name in ("index.html", "index.htm")]
+        return file if all(map(self._is_inside, sent)) else ""
+
+    def _is_inside(self, file):
+        folder = os.path.realpath(self.directory)
+        return ("\0" not in file
+                and os.path.commonpath((folder, os.path.realpath(file))) == folder)
+
     def do_OPTIONS(self):
         self.send_response(204)
         self.end_headers()
 
     def do_GET(self):
-        asked = re.fullmatch(r"bytes=(\d*)-(\d*)", self.headers.get("Range", ""))
+        # A range that no file has, of more digits, is passed over, as one that is no range.
+        asked = re.fullmatch(r"bytes=(\d{0,18})-(\d{0,18})", self.headers.get("Range", ""))
         path = self.translate_path(self.path)
         if asked is None or asked.groups() == ("", "") or not os.path.isfile(path):
             return super().do_GET()

@@ -1353,7 +1353,8 @@ class Serve(InFolder):
             threading.Thread(target=server.serve_forever, daemon=True).start()
             parts = {"bytes=3-17": (206, whole[3:18]), "bytes=9-": (206, whole[9:]),
                      "bytes=-5": (206, whole[-5:]), "bytes=0-99999999": (206, whole),
-                     "bytes=99999999-": (416, b""), "bytes=-": (200, whole), None: (200, whole)}
+                     "bytes=99999999-": (416, b""), "bytes=-": (200, whole), None: (200, whole),
+                     f"bytes={5000 * '9'}-": (200, whole), f"bytes=0-{5000 * '9'}": (200, whole)}
             for asked, (code, content) in parts.items():
                 connection = http.client.HTTPConnection("127.0.0.1", server.server_port)
                 connection.request("GET", "/1", headers={"Range": asked} if asked else {})
@@ -1361,10 +1362,23 @@ class Serve(InFolder):
                 self.assertEqual((answer.status, answer.read()), (code, content), asked)
                 self.assertEqual(answer.headers["Access-Control-Allow-Origin"], "*")
                 connection.close()
-            connection = http.client.HTTPConnection("127.0.0.1", server.server_port)
-            connection.request("GET", "/../m.vtu")
-            self.assertEqual(connection.getresponse().status, 404)
-            connection.close()
+            os.symlink("../m.vtu", self.path("meshes/out"))
+            os.symlink("1", self.path("meshes/link"))
+            os.symlink("..", self.path("meshes/above"))
+            os.mkdir(self.path("meshes/pages"))
+            os.symlink("../../m.vtu", self.path("meshes/pages/index.html"))
+            statuses = {"/../m.vtu": 404, "/out": 404, "/above/m.vtu": 404, "/above/": 404,
+                        "/pages/": 404, "/1%00": 404, "/%00/1": 404, "/link": 200, "/1": 200}
+            for path, status in statuses.items():
+                for method in ("GET", "HEAD"):
+                    connection = http.client.HTTPConnection("127.0.0.1", server.server_port)
+                    connection.request(method, path, headers={"Range": "bytes=x-"})
+                    self.assertEqual(connection.getresponse().status, status, (method, path))
+                    connection.close()
+                connection = http.client.HTTPConnection("127.0.0.1", server.server_port)
+                connection.request("GET", path, headers={"Range": "bytes=0-3"})
+                self.assertEqual(connection.getresponse().status, 206 if status == 200 else 404)
+                connection.close()
             server.shutdown()
 
     def test_the_program_says_what_is_no_folder_of_meshes(self):
