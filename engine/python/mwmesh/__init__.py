@@ -256,7 +256,8 @@ def mesh(volume, *, progress=None, **arguments):
         "distances" of labels, whose crossings then place the interfaces), labels that alone matter
         and that the mesh is to have (a number or a list of numbers; all others become 0; coarser scales tell
         where to read), whether files that headers name may be outside of their folder, and a folder
-        that keeps what servers send for later runs ("DIR", or "DIR,SIZE" with the most bytes).
+        that keeps what servers send for later runs ("DIR", or "DIR,SIZE" with the most bytes);
+        without it chunks are fetched two or three times, once in each pass over the volume.
     merge, drop_specks, weld
         {label: label that it becomes}; then components of fewer voxels than drop_specks take the
         label around them.  Voxels are joined by faces, with (voxels, 26) by corners too.  Then
