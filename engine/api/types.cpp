@@ -39,6 +39,18 @@ void check_axes(const std::array<mwmesh::Vector, 3>& axes) {
   }
 }
 
+/// True if axes differ by no more than rounding.  To straighten axes that are straight already, as
+/// those of a file are, would change last bits, so that an array had another mesh than its file.
+bool are_alike(const std::array<io::Vector3, 3>& one, const std::array<mwmesh::Vector, 3>& other) {
+  constexpr double kRounding = 1e-15;
+  for (std::size_t i = 0; i < 3; ++i) {
+    for (std::size_t k = 0; k < 3; ++k) {
+      if (std::abs(one[i][k] - other[i][k]) > kRounding) return false;
+    }
+  }
+  return true;
+}
+
 /// Throws if a column of an affine, or what it adds, is no place in the world.
 void check_affine(const std::array<std::array<double, 4>, 3>& affine) {
   for (std::size_t k = 0; k < 4; ++k) {
@@ -63,7 +75,9 @@ io::VolumeSpace io_space(const mwmesh::Space& space) {
   for (std::size_t i = 0; i < 3; ++i) {
     for (std::size_t k = 0; k < 3; ++k) told.steps[i][k] = space.axes[i][k] * space.spacing[i];
   }
-  return io::placed(kArray, told, {});
+  io::VolumeSpace out = io::placed(kArray, told, {});
+  if (are_alike(out.axes, space.axes)) out.axes = space.axes;
+  return out;
 }
 
 mwmesh::Space library_space(const io::VolumeSpace& space) {

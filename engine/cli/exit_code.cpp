@@ -12,10 +12,12 @@
 #include <filesystem>
 #include <new>
 #include <stdexcept>
+#include <string>
 #include <string_view>
 
 #include "engine/cli/interrupt.h"
 #include "engine/system/file_failure.h"
+#include "io/file/text_numbers.h"
 
 namespace mw::cli {
 namespace {
@@ -52,6 +54,18 @@ bool is_about_memory() {
   std::abort();
 }
 
+/// Returns a message with control characters as \xHH: a damaged file may have brought them in, and
+/// a terminal would obey them.
+std::string shown(std::string_view message) {
+  std::string out;
+  for (const char c : message) {
+    const auto byte = static_cast<unsigned char>(c);
+    const bool is_control = (byte < 0x20 && c != '\n' && c != '\t') || byte == 0x7f;
+    out += is_control ? io::printable({&c, 1}, 1) : std::string(1, c);
+  }
+  return out;
+}
+
 }  // namespace
 
 int exit_code(ErrorKind kind) {
@@ -79,7 +93,7 @@ int guarded(const std::function<int()>& action, bool quiet) noexcept {
   try {
     return action();
   } catch (const Error& error) {
-    return fail(exit_code(error.kind()), "", error.what());
+    return fail(exit_code(error.kind()), "", shown(error.what()).c_str());
   } catch (const Interrupted& interrupted) {
     if (interrupted.work.empty()) {
       return fail(kExitInterrupted, "", "interrupted; nothing was written");
@@ -91,7 +105,7 @@ int guarded(const std::function<int()>& action, bool quiet) noexcept {
     return fail(kExitResource, "more data than memory can hold: ", error.what());
   } catch (const std::filesystem::filesystem_error& error) {
     const Error failure = engine::file_failure(error);
-    return fail(exit_code(failure.kind()), "", failure.what());
+    return fail(exit_code(failure.kind()), "", shown(failure.what()).c_str());
   } catch (const std::exception& error) {
     return fail(kExitInternal, "internal: ", error.what());
   } catch (...) {

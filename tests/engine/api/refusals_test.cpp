@@ -146,6 +146,27 @@ TEST(LibrarySpace, OfAnAffine) {
               HasSubstr("expected own, ras, lps or voxel"));
 }
 
+/// Axes that are straight are not straightened again, or an array would have another mesh than the
+/// file that it comes from.
+TEST(LibrarySpace, OfAnArrayIsTheOneGiven) {
+  const std::uint8_t voxel = 1;
+  for (int i = 1; i < 300; ++i) {
+    // A turn about z by one angle, then one about x by another.
+    const double a = 0.37 * i, b = 1.91 * i;
+    const Space space = space_of_affine(
+        {{{0.8 * std::cos(a), -0.9 * std::sin(a), 0, 1},
+          {0.8 * std::sin(a) * std::cos(b), 0.9 * std::cos(a) * std::cos(b), -1.2 * std::sin(b), 2},
+          {0.8 * std::sin(a) * std::sin(b), 0.9 * std::cos(a) * std::sin(b), 1.2 * std::cos(b),
+           3}}},
+        "ras");
+    const Space kept =
+        Volume::of(ArrayVolume{.data = &voxel, .shape = {1, 1, 1}, .space = space}).space();
+    EXPECT_EQ(kept.axes, space.axes) << i;
+    EXPECT_EQ(kept.spacing, space.spacing) << i;
+    EXPECT_EQ(kept.origin, space.origin) << i;
+  }
+}
+
 TEST(LibraryErrors, AreWordedForCallers) {
   EXPECT_EQ(mw::api::library_words("--max-distance: must be 0 -- or none (--surface voxel)"),
             "max_distance: must be 0 -- or none (surface voxel)");

@@ -157,6 +157,12 @@ TEST_F(VolumesTest, WarningsLeaveTheOutputAlone) {
   EXPECT_EQ(told.err.rfind("mwmesh: warning: m1.npy,m2.npy: ", 0), 0U) << told.err;
 }
 
+/// A terminal would obey what a file has in the place of a word.
+TEST_F(VolumesTest, MessagesHaveNoControlCharacters) {
+  write("v.nrrd", "NRRD0004\ntype: \x1b[31mred\ndimension: 3\nsizes: 1 1 1\nencoding: raw\n\n1");
+  expect_failure(3, "info v.nrrd", "\\x1b[31mred");
+}
+
 TEST_F(VolumesTest, InfoHoldsOnlyMeshesAgainstVolumes) {
   expect_failure(2, "info v.npy --volume v.npy", "--volume");
   expect_done("mesh v.npy -o v.vtu");
