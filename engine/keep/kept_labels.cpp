@@ -13,7 +13,7 @@
 #include "io/codec/codec.h"
 #include "io/codec/pack_zstd.h"
 #include "io/file/byte_order.h"
-#include "kernels/core/index.h"
+#include "kernels/core/copy_box.h"
 
 namespace mw::engine {
 namespace {
@@ -48,17 +48,6 @@ std::vector<std::uint64_t> read_numbers(int file, std::uint64_t offset, std::siz
   std::vector<std::byte> bytes(count * sizeof(std::uint64_t));
   if (io::read_all(file, offset, bytes).bytes != bytes.size()) fail_damaged("it ends too early");
   return numbers_in(bytes);
-}
-
-/// Copies the voxels of `part` from one box to another, both x fastest.
-void copy_box(const Box3& part, const Box3& from_box, std::span<const RawLabel> from,
-              const Box3& to_box, std::span<RawLabel> to) {
-  const auto row = static_cast<std::size_t>(part.shape().x);
-  for (Index3 v = part.lo; v.z < part.hi.z; ++v.z) {
-    for (v.y = part.lo.y; v.y < part.hi.y; ++v.y) {
-      std::copy_n(from.data() + from_box.offset(v), row, to.data() + to_box.offset(v));
-    }
-  }
 }
 
 io::VolumeInfo layout_of(const std::vector<std::uint64_t>& head) {
@@ -182,10 +171,10 @@ void PatchedVolume::read(const Box3& box, std::span<RawLabel> out) const {
     const bool has_changed = std::any_of(changed_.begin(), changed_.end(), [&](const Box3& c) {
       return !is_empty(intersection(c, tile_box));
     });
-    if (!has_changed) return copy_box(part, tile_box, kept_.read(tile), box, out);
+    if (!has_changed) return copy_box<RawLabel>(part, tile_box, kept_.read(tile), box, out);
     labels.resize(static_cast<std::size_t>(part.voxels()));
     below().read(part, labels);
-    copy_box(part, part, labels, box, out);
+    copy_box<RawLabel>(part, part, labels, box, out);
   });
 }
 

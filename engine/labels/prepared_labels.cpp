@@ -14,6 +14,7 @@
 #include "engine/labels/reading_tiles.h"
 #include "engine/labels/score_crossings.h"
 #include "engine/system/tbb_for.h"
+#include "kernels/core/copy_box.h"
 #include "kernels/core/index.h"
 #include "kernels/size/thickness.h"
 #include "kernels/source/crossing.h"
@@ -57,10 +58,7 @@ bool is_within(const Box3& part, const Box3& whole) {
 LabelBox padded(const LabelBox& inside, const Box3& box) {
   if (inside.box == box) return inside;
   LabelBox out{box, std::vector<Label>(static_cast<std::size_t>(box.voxels()), kExterior)};
-  std::size_t next = 0;
-  for_each_index(inside.box, [&](Index3 v) {
-    out.labels[static_cast<std::size_t>(box.offset(v))] = inside.labels[next++];
-  });
+  copy_box<Label>(inside.box, inside.box, inside.labels, box, out.labels);
   return out;
 }
 

@@ -15,6 +15,7 @@
 #include "kernels/audit/distance/tile.h"
 #include "kernels/audit/shape/volumes.h"
 #include "kernels/audit/topology/parts_union.h"
+#include "kernels/core/copy_box.h"
 #include "kernels/core/layers.h"
 
 namespace mw::engine {
@@ -41,26 +42,12 @@ struct LoadedVoxels {
   Box3 box;
   std::vector<Label> labels;
 
-  void take(const LabelBox& part) {
-    auto row = part.labels.begin();
-    for (std::int64_t z = part.box.lo.z; z < part.box.hi.z; ++z) {
-      for (std::int64_t y = part.box.lo.y; y < part.box.hi.y; ++y, row += part.box.shape().x) {
-        std::copy_n(row, part.box.shape().x, labels.begin() + box.offset({part.box.lo.x, y, z}));
-      }
-    }
-  }
   [[nodiscard]] bool has_one_label() const {
     return std::equal(labels.begin() + 1, labels.end(), labels.begin());
   }
   [[nodiscard]] LoadedVoxels part(const Box3& of) const {
-    LoadedVoxels out{of, {}};
-    out.labels.reserve(static_cast<std::size_t>(of.voxels()));
-    for (std::int64_t z = of.lo.z; z < of.hi.z; ++z) {
-      for (std::int64_t y = of.lo.y; y < of.hi.y; ++y) {
-        const auto row = labels.begin() + box.offset({of.lo.x, y, z});
-        out.labels.insert(out.labels.end(), row, row + of.shape().x);
-      }
-    }
+    LoadedVoxels out{of, std::vector<Label>(static_cast<std::size_t>(of.voxels()))};
+    copy_box<Label>(of, box, labels, of, out.labels);
     return out;
   }
 };
@@ -133,7 +120,8 @@ class VolumeStage {
     const ReadingTiles tiles(volume_.info());
     const Box3 over = tiles.over(box);
     tbb_for_each_index(readers_, over.shape(), [&](Index3 i) {
-      out.take(read_labels(volume_, intersection(tiles.box(over.lo + i), box)));
+      const LabelBox part = read_labels(volume_, intersection(tiles.box(over.lo + i), box));
+      copy_box<Label>(part.box, part.box, part.labels, box, out.labels);
     });
     return out;
   }

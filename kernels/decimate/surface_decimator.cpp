@@ -5,6 +5,8 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
+#include <cmath>
+#include <iterator>
 #include <tuple>
 
 namespace mw {
@@ -70,13 +72,7 @@ void SurfaceDecimator::find_quadrics() {
 /// Fixes the ends of edges that do not have two triangles, and vertices of triangles without area.
 void SurfaceDecimator::find_fixed() {
   for (std::uint32_t v = 0; v < vertices_.size(); ++v) {
-    std::vector<std::uint32_t> ends;
-    for (const std::uint32_t t : vertices_[v].triangles) {
-      for (const std::uint32_t w : triangles_[t]) {
-        if (w != v) ends.push_back(w);
-      }
-    }
-    std::sort(ends.begin(), ends.end());
+    const std::vector<std::uint32_t> ends = edge_ends(v);
     for (auto end = ends.begin(); end != ends.end();) {
       const auto next = std::upper_bound(end, ends.end(), *end);
       if (next - end != 2) vertices_[v].is_fixed = true;
@@ -104,14 +100,10 @@ void SurfaceDecimator::decimate(double bound) {
       if (moved > bound) continue;
       if (!keeps_sides(c.keep, c.drop, place) || !keeps_sides(c.drop, c.keep, place)) continue;
       contract(c.keep, c.drop, place, moved);
-      push_edges_of(c.keep);
+      for (const std::uint32_t w : neighbours(c.keep)) push(c.keep, w);
       break;
     }
   }
-}
-
-void SurfaceDecimator::push_edges_of(std::uint32_t v) {
-  for (const std::uint32_t w : neighbours(v)) push(v, w);
 }
 
 /// A fixed end is kept, otherwise the one that comes first.
@@ -144,8 +136,8 @@ std::vector<Vec3> SurfaceDecimator::places_for(std::uint32_t keep, std::uint32_t
   return {best, 0.5 * (best + middle), middle};
 }
 
-/// Returns the other ends of the edges of v, ascending.
-std::vector<std::uint32_t> SurfaceDecimator::neighbours(std::uint32_t v) const {
+/// Returns the other ends of the edges of v, ascending, once for each triangle of the edge.
+std::vector<std::uint32_t> SurfaceDecimator::edge_ends(std::uint32_t v) const {
   std::vector<std::uint32_t> out;
   for (const std::uint32_t t : vertices_[v].triangles) {
     for (const std::uint32_t w : triangles_[t]) {
@@ -153,6 +145,12 @@ std::vector<std::uint32_t> SurfaceDecimator::neighbours(std::uint32_t v) const {
     }
   }
   std::sort(out.begin(), out.end());
+  return out;
+}
+
+/// Returns the other ends of the edges of v, ascending.
+std::vector<std::uint32_t> SurfaceDecimator::neighbours(std::uint32_t v) const {
+  std::vector<std::uint32_t> out = edge_ends(v);
   out.erase(std::unique(out.begin(), out.end()), out.end());
   return out;
 }

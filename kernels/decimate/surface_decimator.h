@@ -5,7 +5,6 @@
 
 #include <array>
 #include <cstdint>
-#include <optional>
 #include <queue>
 #include <vector>
 
@@ -70,11 +69,11 @@ class SurfaceDecimator {
 
   void find_quadrics();
   void find_fixed();
-  void push_edges_of(std::uint32_t v);
   void push(std::uint32_t a, std::uint32_t b);
   [[nodiscard]] bool is_current(const Candidate& c) const;
   [[nodiscard]] Quadric sum_of(std::uint32_t keep, std::uint32_t drop) const;
   [[nodiscard]] std::vector<Vec3> places_for(std::uint32_t keep, std::uint32_t drop) const;
+  [[nodiscard]] std::vector<std::uint32_t> edge_ends(std::uint32_t v) const;
   [[nodiscard]] std::vector<std::uint32_t> neighbours(std::uint32_t v) const;
   [[nodiscard]] bool keeps_topology(std::uint32_t keep, std::uint32_t drop) const;
   [[nodiscard]] bool spans(std::uint32_t v, std::uint32_t other,

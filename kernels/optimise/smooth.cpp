@@ -27,7 +27,7 @@ constexpr double kMinGain = 0.002;
 
 constexpr double kNoLimit = std::numeric_limits<double>::infinity();
 
-/// Steps of the search around a fold, as shares of the mean edge.
+/// Steps of the searches around a fold and around a foot in a plane, as shares of the mean edge.
 constexpr std::array<double, 4> kSearchSteps{0.4, 0.2, 0.1, 0.05};
 constexpr int kHalvings = 2;
 /// How often the way to a plane is halved before it is given up.

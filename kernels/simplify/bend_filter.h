@@ -22,7 +22,8 @@ class BendFilter {
   BendFilter(const TetMesh& mesh, const Metric& metric) : mesh_(mesh), metric_(metric) {}
 
   /// False when the surviving star would bend by more than a share of what both stars bend at
-  /// present, plus what is free.
+  /// present, plus what is free; and when the interface triangles at both ends lie in one plane
+  /// across an axis, which the survivor would leave.
   [[nodiscard]] bool stays_smooth(const Contraction& c);
 
   /// The interface triangles at an end of the contraction that was judged last.

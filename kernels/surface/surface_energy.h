@@ -39,9 +39,9 @@ struct SurfaceWeights {
 /// function of v, is zero; hat functions add up to 1, so labels keep their volumes.
 ///
 /// Area.  A fit alone leaves spikes and folds, which no face holds, as they are.  Area pulls them
-/// straight, and a pressure P counters the pull by as much as the neighbours' curvature asks for.
-/// Together they diffuse curvature, so that balls stay balls of the same volume.  On the box there
-/// is no area term, because it would turn surfaces perpendicular to the box.
+/// straight, and a pressure P counters the pull by as much as the neighbours' curvature asks for,
+/// up to v's own.  Together they diffuse curvature, so that balls stay balls of the same volume. On
+/// the box there is no area term, because it would turn surfaces perpendicular to the box.
 ///
 /// Debts.  The volume that v and its ring still owed after their last visits (VolumeDebts) is added
 /// to what Q asks for, because shapes and bends may hold v back but not its neighbours.  Where all

@@ -195,7 +195,7 @@ TEST(SmoothSurface, PlatesOfOneVoxelAreFlatAndNotThick) {
   }
 }
 
-/// Layers of any thickness, on voxels of any shape.
+/// Layers of one to four voxels.
 TEST(SmoothSurface, StacksOfThinLayersAreFlat) {
   std::mt19937 random(334);
   for (int i = 0; i < 12; ++i) {
