@@ -12,6 +12,19 @@ io::LabelNames written_names(const io::DenseVolume& volume, const LabelSelection
       [&](RawLabel label) { return table.contains(label) && selection.keeps(table.dense(label)); });
 }
 
+/// Returns the masks that the labels that are written do not tell by their names.
+std::vector<io::MaskLabels> written_masks(const io::DenseVolume& volume,
+                                          const LabelSelection& selection) {
+  const io::LabelTable& table = volume.table();
+  std::vector<io::MaskLabels> masks = io::only_masks(volume.info().masks, [&](RawLabel label) {
+    return table.contains(label) && selection.keeps(table.dense(label));
+  });
+  std::erase_if(masks, [&](const io::MaskLabels& mask) {
+    return mask.labels.size() == 1 && volume.info().names.name(mask.labels.front()) == mask.name;
+  });
+  return masks;
+}
+
 io::MeshBox box_of(const io::VolumeInfo& info) {
   const io::Vector3 extent{static_cast<double>(info.shape.x), static_cast<double>(info.shape.y),
                            static_cast<double>(info.shape.z)};
@@ -99,7 +112,8 @@ io::MeshHeader header_of(const io::DenseVolume& volume, const LabelSelection& se
                      .record = {.box = box_of(volume.info()),
                                 .promises = promises,
                                 .frame = space.frame,
-                                .unit = io::nm_in(space.unit) ? space.unit : std::string()}};
+                                .unit = io::nm_in(space.unit) ? space.unit : std::string(),
+                                .masks = written_masks(volume, selection)}};
   tell_choice(selection, volume.table(), out.record);
   return out;
 }

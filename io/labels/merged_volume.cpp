@@ -4,6 +4,7 @@
 #include "io/labels/merged_volume.h"
 
 #include <algorithm>
+#include <map>
 
 #include "io/file/errors.h"
 #include "io/labels/label_runs.h"
@@ -56,13 +57,20 @@ void require_labels(const LabelVolume& volume, const LabelTable& wanted) {
 }  // namespace
 
 MergedVolume::MergedVolume(const LabelVolume& volume, const std::vector<MergeRule>& rules)
-    : VolumeView(volume), from_(table_of(rules, has_signed_labels(volume.info()))) {
+    : VolumeView(volume),
+      info_(volume.info()),
+      from_(table_of(rules, has_signed_labels(volume.info()))) {
   to_.resize(from_.size());
+  std::map<RawLabel, RawLabel> becomes;
   for (const MergeRule& rule : rules) {
     check_target(rule, from_.is_signed());
-    for (const RawLabel label : rule.from) to_[from_.dense(label)] = rule.to;
+    for (const RawLabel label : rule.from) {
+      to_[from_.dense(label)] = rule.to;
+      becomes[label] = rule.to;
+    }
   }
   require_labels(volume, from_);
+  info_.masks = merged_masks(info_.masks, becomes);
 }
 
 void MergedVolume::read(const Box3& box, std::span<RawLabel> out) const {

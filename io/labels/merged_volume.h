@@ -26,6 +26,7 @@ class MergedVolume : public VolumeView {
   /// volume does not have, and for a `to` that its labels cannot be (signed or unsigned).
   MergedVolume(const LabelVolume& volume, const std::vector<MergeRule>& rules);
 
+  [[nodiscard]] const VolumeInfo& info() const override { return info_; }
   void read(const Box3& box, std::span<RawLabel> out) const override;
 
  private:
@@ -33,6 +34,7 @@ class MergedVolume : public VolumeView {
     return from_.contains(label) ? to_[from_.dense(label)] : label;
   }
 
+  VolumeInfo info_;  ///< that of the volume, except for masks
   LabelTable from_;
   std::vector<RawLabel> to_;  ///< by rank in from_
 };

@@ -3,12 +3,14 @@
 // Rows of a mesh go into columns.
 #include "io/mesh/columns.h"
 
+#include <algorithm>
+
 #include "kernels/core/assert.h"
 
 namespace mw::io {
 
 MeshColumns::MeshColumns(PlacedOutput& output, const ColumnPlaces& places, Element element,
-                         bool has_wedges)
+                         const MeshHeader& header)
     : element_(element),
       connectivity_(output, places.connectivity),
       offsets_(output, places.offsets),
@@ -16,7 +18,10 @@ MeshColumns::MeshColumns(PlacedOutput& output, const ColumnPlaces& places, Eleme
       labels_(output, places.labels),
       points_(output, places.points) {
   for (const std::uint64_t place : places.values) values_.emplace_back(output, place);
-  if (has_wedges) cohesive_.emplace(output, places.cohesive);
+  if (header.wedges.count > 0) cohesive_.emplace(output, places.cohesive);
+  for (std::size_t i = 0; i < places.masks.size(); ++i) {
+    masks_.push_back({header.record.masks[i].labels, {output, places.masks[i]}});
+  }
 }
 
 void MeshColumns::go_to(const RowPlace& place) {
@@ -26,6 +31,7 @@ void MeshColumns::go_to(const RowPlace& place) {
   types_.go_to(place.tet);
   labels_.go_to(place.tet);
   for (auto& column : values_) column.go_to(place.tet);
+  for (MaskColumn& mask : masks_) mask.cells.go_to(place.tet);
   offsets_.go_to(place.tet == 0 ? 0 : place.tet + 1);
   if (place.tet == 0) offsets_.add(0);
 }
@@ -55,6 +61,9 @@ void MeshColumns::write_wedge(std::span<const std::uint64_t> rows, RawLabel labe
 void MeshColumns::end_cell(std::uint8_t type, RawLabel label) {
   types_.add(type);
   labels_.add(label);
+  for (auto& [labels, cells] : masks_) {
+    cells.add(std::binary_search(labels.begin(), labels.end(), label) ? 1 : 0);
+  }
   offsets_.add(node_count(element_) * place_.tet + wedge_node_count(element_) * wedges_);
 }
 
@@ -69,6 +78,7 @@ void MeshColumns::write_values(std::span<const double> rows) {
 
 void MeshColumns::flush() {
   for (auto& column : values_) column.flush();
+  for (MaskColumn& mask : masks_) mask.cells.flush();
   if (cohesive_) cohesive_->flush();
   connectivity_.flush();
   offsets_.flush();
@@ -80,7 +90,7 @@ void MeshColumns::flush() {
 void ColumnSink::place_columns(const MeshHeader& header, PlacedOutput& output,
                                const ColumnPlaces& places) {
   header_ = header;
-  columns_ = MeshColumns(output, places, element_, header.wedges.count > 0);
+  columns_ = MeshColumns(output, places, element_, header);
   columns_.go_to({0, 0});
 }
 

@@ -17,7 +17,7 @@
 namespace mw::io {
 
 /// Writes numbers one behind the other, from an address on.  T is as wide as the numbers in the
-/// file.  Cost: half a MiB.
+/// file.  Cost: 65,536 numbers.
 template <class T>
 class FileColumn {
  public:
@@ -48,7 +48,7 @@ class FileColumn {
 
  private:
   static_assert(std::endian::native == std::endian::little, "numbers are written as they are");
-  static constexpr std::size_t kBuffered = (std::size_t{1} << 19) / sizeof(T);
+  static constexpr std::size_t kBuffered = std::size_t{1} << 16;
 
   PlacedOutput* output_ = nullptr;
   std::uint64_t address_ = 0;
@@ -65,16 +65,17 @@ struct ColumnPlaces {
   std::uint64_t points = 0;             ///< behind all others, since their number is known last
   std::vector<std::uint64_t> values{};  ///< one for each of MeshHeader::values
   std::uint64_t cohesive = 0;           ///< with wedges only: their interface, 0 for a tet
+  std::vector<std::uint64_t> masks{};   ///< one for each of MeshRecord::masks
 };
 
-/// Writes the rows of a mesh from any row on.  Cost: 3 MiB of buffers, and half a MiB for each
-/// column of values.  ERRORS: those of the output.
+/// Writes the rows of a mesh from any row on.  Cost: 3 MiB of buffers, half a MiB for each column
+/// of values, and 64 KiB for each mask.  ERRORS: those of the output.
 class MeshColumns {
  public:
   MeshColumns() = default;
   /// REQUIRES: output outlives it.
   MeshColumns(PlacedOutput& output, const ColumnPlaces& places, Element element,
-              bool has_wedges = false);
+              const MeshHeader& header);
 
   /// Makes the next rows go to this place.  To be called before the first rows, too.  A call for
   /// tet 0 writes the first offset, which a file has even without tets.
@@ -100,6 +101,12 @@ class MeshColumns {
 
   void end_cell(std::uint8_t type, RawLabel label);
 
+  /// 1 for each cell with one of these labels, and 0 for others.
+  struct MaskColumn {
+    std::vector<RawLabel> labels;
+    FileColumn<std::uint8_t> cells;
+  };
+
   Element element_ = Element::kTet4;
   RowPlace place_;
   std::uint64_t wedges_ = 0;
@@ -110,6 +117,7 @@ class MeshColumns {
   FileColumn<double> points_;
   std::vector<FileColumn<double>> values_;
   std::optional<Column> cohesive_;
+  std::vector<MaskColumn> masks_;
 };
 
 /// The common part of the sinks of such formats, which write rows into columns as they come.

@@ -4,10 +4,13 @@
 #include "io/mesh/mesh_record.h"
 
 #include <algorithm>
+#include <set>
 
 #include "io/file/errors.h"
 #include "io/json/json.h"
 #include "io/json/json_fields.h"
+#include "io/names/label_names.h"
+#include "kernels/core/sort_distinct.h"
 
 namespace mw::io {
 namespace {
@@ -27,6 +30,7 @@ constexpr const char* kCurved = "curved";
 constexpr const char* kCohesiveKey = "cohesive";
 constexpr const char* kPeriodic = "periodic";
 constexpr const char* kHalvings = "halvings";
+constexpr const char* kMasks = "masks";
 constexpr std::array<const char*, 3> kAxes{"x", "y", "z"};
 
 Json box_json(const MeshBox& box) {
@@ -150,6 +154,33 @@ CohesiveRule cohesive_in(const JsonFields& fields) {
   return out;
 }
 
+Json masks_json(const std::vector<MaskLabels>& masks) {
+  Json out = Json::array();
+  for (const MaskLabels& mask : masks) {
+    Json row{{"name", mask.name}};
+    add_labels(mask.labels, "labels", row);
+    out.push_back(std::move(row));
+  }
+  return out;
+}
+
+std::vector<MaskLabels> masks_in(const JsonFields& fields) {
+  std::vector<MaskLabels> out;
+  std::set<std::string> taken;
+  for (std::size_t i = 0; i < fields.count(kMasks); ++i) {
+    const JsonFields row = fields.element(kMasks, i);
+    MaskLabels mask{.name = row.text("name"), .labels = labels_in(row, "labels")};
+    sort_distinct(mask.labels);
+    if (mask.labels.empty()) row.fail("labels", "has no label");
+    if (mask.name.empty() || mask.name != clean_name(mask.name) ||
+        !taken.insert(mask.name).second) {
+      row.fail("name", "is no name of a mask, or is there twice");
+    }
+    out.push_back(std::move(mask));
+  }
+  return out;
+}
+
 }  // namespace
 
 bool CohesiveRule::has(RawLabel one, RawLabel other) const {
@@ -172,7 +203,8 @@ std::string record_text(const MeshRecord& record) {
   if (record.has_doubles) out[kDoubled] = true;
   if (record.curved) out[kCurved] = true;
   if (record.cohesive.any()) out[kCohesiveKey] = cohesive_json(record.cohesive);
-  return out.empty() ? std::string() : out.dump();
+  if (!record.masks.empty()) out[kMasks] = masks_json(record.masks);
+  return out.empty() ? std::string() : out.dump_ascii();
 }
 
 MeshRecord parse_record(std::string_view text, std::string_view file) {
@@ -194,6 +226,7 @@ MeshRecord parse_record(std::string_view text, std::string_view file) {
   record.has_doubles = fields.has(kDoubled) && fields.flag(kDoubled);
   record.curved = fields.has(kCurved) && fields.flag(kCurved);
   record.cohesive = cohesive_in(fields);
+  if (fields.has(kMasks)) record.masks = masks_in(fields);
   if (!record.only_labels.empty() && !record.without_labels.empty()) {
     fields.fail(kWithout, "contradicts only_labels");
   }

@@ -9,6 +9,7 @@
 #include <string_view>
 #include <vector>
 
+#include "io/names/mask_labels.h"
 #include "io/volume/volume_space.h"
 #include "kernels/core/label.h"
 
@@ -76,6 +77,9 @@ struct MeshRecord {
   bool curved = false;
   /// The wedges are no content of their own: they follow from the tets and the doubled vertices.
   CohesiveRule cohesive{};
+  /// The masks of the volume that labels alone do not tell: those that have several of the labels
+  /// that the mesh holds, or one under another name.  No two have one name.
+  std::vector<MaskLabels> masks{};
 
   friend bool operator==(const MeshRecord&, const MeshRecord&) = default;
 };
@@ -87,10 +91,11 @@ inline constexpr std::size_t kMaxRecordBytes = std::size_t{1} << 24U;
 /// "quality_floor": 0.2, "topology": "labels", "surface": "smooth", "optimizer": "none",
 /// "periodic": "xy", "halvings": 1},
 /// "frame": "ras", "unit": "mm", "only_labels": [...], "without_labels": [...], "partial_labels":
-/// [...], "doubled_vertices": true, "curved": true, "cohesive": [1, 2, 1, 3]}, without what is not
-/// known; empty when nothing is.  "cohesive" has the labels under and on top of wedges by turns, or
-/// is true for all interfaces.  Labels are signed numbers of 64 bits.  The text is ASCII without a
-/// line end, and gives back numbers to the bit.
+/// [...], "doubled_vertices": true, "curved": true, "cohesive": [1, 2, 1, 3], "masks": [{"name":
+/// "liver", "labels": [1, 3]}]}, without what is not known; empty when nothing is.  "cohesive" has
+/// the labels under and on top of wedges by turns, or is true for all interfaces.  Labels are
+/// signed numbers of 64 bits.  The text is ASCII without a line end, and gives back numbers to the
+/// bit.
 [[nodiscard]] std::string record_text(const MeshRecord& record);
 
 /// Reads such a text; an empty one is an empty record.  It does not check whether a run can have

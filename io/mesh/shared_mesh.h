@@ -37,8 +37,8 @@ class SharedMesh {
 
   /// Gives each row its place.  REQUIRES: the mesh has no values and no wedges.
   virtual void lay_out(const MeshHeader& header, std::uint64_t vertices) = 0;
-  /// REQUIRES: the file is laid out for this number of tets.
-  virtual void begin(std::uint64_t tets) = 0;
+  /// REQUIRES: the file is laid out with this header.
+  virtual void begin(const MeshHeader& header) = 0;
   /// Makes the next rows go to this place, one behind the other.  REQUIRES: one of the processes
   /// begins at the first row, even of an empty mesh, and rows that are written do not overlap.
   virtual void go_to(const RowPlace& rows) = 0;

@@ -11,6 +11,7 @@
 #include <utility>
 
 #include "io/names/label_names.h"
+#include "io/names/mask_labels.h"
 #include "io/volume/volume_space.h"
 #include "kernels/core/index.h"
 #include "kernels/core/label.h"
@@ -40,6 +41,8 @@ struct VolumeInfo {
   Index3 first{0, 0, 0};  ///< which voxel of the file is the first of these
   bool is_placed = true;  ///< false: the format cannot say where voxels are
   LabelNames names;       ///< what the file calls labels
+  /// The masks that the labels were made of, where each set of masks that meet has its own label.
+  std::vector<MaskLabels> masks{};
   /// A hash of what the numbers of labels stand for, where these were given when the volume was
   /// opened, as to masks in the order of their files; else 0.
   std::uint64_t numbering = 0;

@@ -201,7 +201,7 @@ class FailingMesh : public io::SharedMesh {
   void lay_out(const io::MeshHeader& header, std::uint64_t vertices) override {
     mesh_->lay_out(header, vertices);
   }
-  void begin(std::uint64_t tets) override { mesh_->begin(tets); }
+  void begin(const io::MeshHeader& header) override { mesh_->begin(header); }
   void go_to(const io::RowPlace& rows) override { mesh_->go_to(rows); }
   void write_vertices(std::span<const io::Position> positions) override {
     mesh_->write_vertices(positions);

@@ -13,6 +13,12 @@ namespace {
 
 using io::Json;
 
+void add_betti(Json& row, const audit::RegionBetti& betti) {
+  row["components"] = betti.open.b0;
+  row["betti_closed"] = betti_json(betti.closed);
+  row["betti_open"] = betti_json(betti.open);
+}
+
 Json label_row(const MeshInfo& facts, Label rank, double total) {
   const LabelStats& label = facts.mesh.labels[rank];
   const RawLabel raw = facts.table.raw(rank);
@@ -27,17 +33,26 @@ Json label_row(const MeshInfo& facts, Label rank, double total) {
   row["area"] = label.area;
   row["area_on_box"] = label.area_on_box;
   row["tets"] = label.tets;
-  if (label.betti) {
-    row["components"] = label.betti->open.b0;
-    row["betti_closed"] = betti_json(label.betti->closed);
-    row["betti_open"] = betti_json(label.betti->open);
-  }
+  if (label.betti) add_betti(row, *label.betti);
   row["radius_ratio_min"] = label.radius_ratio_min;
   row["radius_ratio_mean"] = label.radius_ratio_mean;
   row["lo"] = label.lo;
   row["hi"] = label.hi;
   row["centroid"] = label.centroid;
   add_colour(row, raw, facts.names);
+  return row;
+}
+
+Json mask_row(const MeshInfo& facts, const MaskStats& mask) {
+  Json labels = Json::array();
+  for (const Label rank : mask.mask.ranks) {
+    labels.push_back(label_json(facts.table.raw(rank), facts.table.is_signed()));
+  }
+  Json row{{"name", mask.mask.name},
+           {"labels", std::move(labels)},
+           {"volume", mask.volume},
+           {"tets", mask.tets}};
+  if (mask.betti) add_betti(row, *mask.betti);
   return row;
 }
 
@@ -122,6 +137,7 @@ Json mesh_json(const MeshInfo& facts, bool contacts) {
            {"volume", volumes_json(facts)}};
   if (facts.curved > 0) out["curved_tets"] = facts.curved;
   if (facts.cohesive.any()) out["cohesive"] = cohesive_json(facts);
+  for (const MaskStats& mask : facts.mesh.masks) out["masks"].push_back(mask_row(facts, mask));
   if (contacts) {
     Json rows = Json::array();
     for (const Contact& c : contacts_of(facts)) rows.push_back(contact_json(facts, c));

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <span>
 
 #include "kernels/audit/compensated_sum.h"
 #include "kernels/audit/regions/regions.h"
@@ -100,6 +101,17 @@ void measure_facets(io::GroupedMesh& mesh, MeshStats& stats) {
   }
 }
 
+void measure_masks(const io::GroupedMesh& mesh, MeshStats& stats) {
+  for (const io::MaskGroup& mask : io::mask_groups(mesh)) {
+    MaskStats sums{.mask = mask};
+    for (const Label rank : sums.mask.ranks) {
+      sums.tets += stats.labels[rank].tets;
+      sums.volume += stats.labels[rank].volume;
+    }
+    stats.masks.push_back(std::move(sums));
+  }
+}
+
 /// Returns whether all tets together are the whole box, so that nothing was left out.
 bool fills_box(const io::GroupedMesh& mesh) {
   return std::ranges::none_of(mesh.facet_groups(), [](const io::FacetGroup& group) {
@@ -116,11 +128,23 @@ void measure_betti(io::GroupedMesh& mesh, MeshStats& stats) {
     tets.push_back(mesh.tet(t));
     labels.push_back(mesh.label_of(t));
   }
-  const audit::AuditMesh view{vertices, tets, labels};
-  const std::size_t count = stats.labels.size();
-  const std::vector<audit::RegionBetti> betti =
-      fills_box(mesh) ? audit::mesh_betti(view, count) : audit::region_betti(view, count);
-  for (std::size_t rank = 0; rank < count; ++rank) stats.labels[rank].betti = betti[rank];
+  const bool is_whole = fills_box(mesh);
+  const auto betti_of = [&](std::span<const Label> of_tets, std::size_t count) {
+    const audit::AuditMesh view{vertices, tets, of_tets};
+    return is_whole ? audit::mesh_betti(view, count) : audit::region_betti(view, count);
+  };
+  const std::vector<audit::RegionBetti> betti = betti_of(labels, stats.labels.size());
+  for (std::size_t rank = 0; rank < stats.labels.size(); ++rank) {
+    stats.labels[rank].betti = betti[rank];
+  }
+  for (MaskStats& mask : stats.masks) {
+    std::vector<Label> in_mask;
+    in_mask.reserve(labels.size());
+    for (const Label label : labels) {
+      in_mask.push_back(std::ranges::binary_search(mask.mask.ranks, label) ? 0 : 1);
+    }
+    mask.betti = betti_of(in_mask, 2).front();
+  }
 }
 
 }  // namespace
@@ -129,6 +153,7 @@ MeshStats measure_mesh(io::GroupedMesh& mesh, bool count_betti) {
   MeshStats stats;
   measure_tets(mesh, stats);
   measure_facets(mesh, stats);
+  measure_masks(mesh, stats);
   if (count_betti) measure_betti(mesh, stats);
   return stats;
 }

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "io/mesh/grouped/grouped_mesh.h"
+#include "io/mesh/grouped/mask_groups.h"
 #include "kernels/audit/topology/betti.h"
 
 namespace mw::cli {
@@ -32,9 +33,18 @@ struct ContactStats {
   double area = 0;
 };
 
+/// What is measured of all labels of a mask together.
+struct MaskStats {
+  io::MaskGroup mask;
+  std::uint64_t tets = 0;
+  double volume = 0;
+  std::optional<audit::RegionBetti> betti{};  ///< of their union; empty if not counted
+};
+
 struct MeshStats {
   std::vector<LabelStats> labels;      ///< by rank in the mesh's table
   std::vector<ContactStats> contacts;  ///< ascending
+  std::vector<MaskStats> masks;        ///< those of mask_groups()
 };
 
 /// Measures the mesh; sums are compensated and in the order of tets and facets.  Betti numbers are

@@ -56,6 +56,21 @@ Json facts_of(const VolumeRequest& request, const io::VolumeInfo& info,
                                      : labels_json(regions, has_signed_labels(info))}};
 }
 
+/// Returns a row for each mask that the labels were made of, with its voxels where they were read.
+Json masks_json(const io::VolumeInfo& info, const std::vector<engine::LabelRegion>& regions) {
+  Json rows = Json::array();
+  for (const io::MaskLabels& mask : info.masks) {
+    std::uint64_t voxels = 0;
+    for (const engine::LabelRegion& region : regions) {
+      if (std::ranges::binary_search(mask.labels, region.label)) voxels += region.voxels;
+    }
+    Json row{{"name", mask.name}, {"labels", mask.labels}};
+    if (!regions.empty()) row["voxels"] = voxels;
+    rows.push_back(std::move(row));
+  }
+  return rows;
+}
+
 /// Returns a row for each level of a pyramid.
 Json scales_json(const std::vector<io::VolumeScale>& scales) {
   Json rows = Json::array();
@@ -81,6 +96,7 @@ VolumeFacts::VolumeFacts(const VolumeRequest& request) {
   info_ = input.volume().info();
   if (reads_labels(request)) regions_ = engine::label_regions(input.volume());
   facts_ = facts_of(request, info_, regions_);
+  if (!info_.masks.empty()) facts_["masks"] = masks_json(info_, regions_);
   if (input.specks()) facts_["specks"] = specks_json(input.specks());
   if (input.welds()) facts_["welds"] = welds_json(input.welds());
   if (request.open.scale) return;

@@ -222,6 +222,20 @@ class Mesh:
                 for row in self._core.names if row.name}
 
     @property
+    def masks(self):
+        """The masks that labels alone do not tell, where overlapping masks were meshed with
+        overlap="all": {name: labels of the mask}."""
+        return {mask["name"]: mask["labels"] for mask in self._record().get("masks", [])}
+
+    def _record(self):
+        return json.loads(self._core.record or "{}")
+
+    def _mask_cells(self):
+        """Returns {"mask_NAME": for each tet whether it is in the mask, 1 or 0}, as files have it."""
+        return {f"mask_{name}": np.isin(self.labels, np.array(labels, self.labels.dtype))
+                .astype(np.uint8) for name, labels in self.masks.items()}
+
+    @property
     def digest(self):
         """A hash of the content, which does not depend on format, order of rows or machine."""
         return self._core.digest()
@@ -289,7 +303,7 @@ class Mesh:
         triangles = self.tets[:, _FACES].reshape(-1, 3)
         inside = np.repeat(ranks, 4)
         places = triangles
-        if '"doubled_vertices"' in self._core.record:  # the two sides of an interface are apart
+        if "doubled_vertices" in self._record():  # the two sides of an interface are apart
             places = np.unique(self.points, axis=0, return_inverse=True)[1].ravel()[triangles]
         keys = np.sort(places, axis=1)
         order = np.lexsort(keys.T[::-1])
@@ -332,7 +346,7 @@ class Mesh:
 
     def _lie_on_box(self, triangles):
         """Returns for each triangle whether it lies on a side of the box of the volume."""
-        box = json.loads(self._core.record or "{}").get("box")
+        box = self._record().get("box")
         if box is None:  # as of meshes of others: that of the points
             low = self.points.min(axis=0)
             box = {"origin": low, **dict(zip("xyz", np.diag(self.points.max(axis=0) - low)))}
@@ -440,7 +454,7 @@ class Mesh:
 
     def _wedge_cells(self):
         """Returns the rows of wedges, the tet under each, and its interface's number from 1 on."""
-        if '"cohesive"' not in self._core.record:
+        if "cohesive" not in self._record():
             return np.empty((0, 6), np.int64), np.empty(0, np.int64), np.empty(0, np.int64)
         rows, sides = self.wedges, self.wedge_labels
         tets = np.flatnonzero(np.isin(self.tets, rows).sum(axis=1) >= 3)
@@ -457,11 +471,13 @@ class Mesh:
         """Returns a meshio.Mesh of the tets with cell data "label"; names are field data
         {name: [label, 3]}, where a name that several labels have becomes "name (label)".  Wedges
         come behind the tets, with cell data "cohesive": the number of their interface, which is 0
-        for tets.  Their label and values are those of the tet under them."""
+        for tets.  Their label and values are those of the tet under them.  Each of
+        :attr:`masks` is cell data "mask_NAME", which is 1 for its tets and 0 for others."""
         meshio = _package("meshio")
         rows, under, numbers = self._wedge_cells()
         cells = [("tetra", self.tets)]
-        data = {"label": [self.labels]} | {name: [row] for name, row in self.values.items()}
+        columns = {"label": self.labels} | self.values | self._mask_cells()
+        data = {name: [row] for name, row in columns.items()}
         if len(rows) > 0:
             cells.append(("wedge", rows))
             data = {name: [row, row[under]] for name, (row,) in data.items()}
@@ -474,7 +490,8 @@ class Mesh:
         """Returns a vtkUnstructuredGrid of the tets with the cell array "label".  Wedges come behind
         the tets as in files, with the cell array "cohesive": the number of their interface, which
         is 0 for tets.  Names and colours are the field arrays "label_id", "label_name" and
-        "label_colour", with a row for each label."""
+        "label_colour", with a row for each label.  Each of :attr:`masks` is a cell array
+        "mask_NAME", which is 1 for its tets and 0 for others."""
         _package("vtkmodules")
         from vtkmodules.util import numpy_support
         from vtkmodules.vtkCommonCore import vtkPoints, vtkStringArray
@@ -495,7 +512,7 @@ class Mesh:
         grid.SetPoints(points)
         kinds = np.where(corners == 4, VTK_TETRA, VTK_WEDGE).astype(np.uint8)
         grid.SetCells(numpy_support.numpy_to_vtk(kinds, deep=True), cells)
-        data = {"label": self.labels} | self.values
+        data = {"label": self.labels} | self.values | self._mask_cells()
         data = {name: np.concatenate([row, row[under]]) for name, row in data.items()}
         if len(rows) > 0:
             data["cohesive"] = np.concatenate([np.zeros(len(self.tets), np.int64), numbers])

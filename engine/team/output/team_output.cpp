@@ -108,8 +108,8 @@ class PartOfMesh {
   }
 
   /// Makes the third pass.
-  void write(io::SharedMesh& mesh) {
-    mesh.begin(places_.all.tets);
+  void write(io::SharedMesh& mesh, const OutputOptions& options) {
+    mesh.begin(header(options));
     std::size_t line = 0;
     for_each_own_block(
         share_,
@@ -223,7 +223,7 @@ FinishedMesh finish_together(const FinalMesh& mesh, const TeamOutput& output,
   const LineRows all = part.number();
   if (team.is_first()) output.file.lay_out(part.header(options), all.vertices);
   (void)team.gather(std::string());  // no rank opens the file until it has its size
-  part.write(output.file);
+  part.write(output.file, options);
   (void)team.gather(std::string());  // all rows are on the disk
   add_up(team, part.figures());
   FinishedMesh out{.vertices = all.vertices, .tets = all.tets};

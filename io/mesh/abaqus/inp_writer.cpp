@@ -9,6 +9,7 @@
 #include "io/mesh/grouped/facet_nodes.h"
 #include "io/mesh/grouped/fixed_fields.h"
 #include "io/mesh/grouped/label_numbers.h"
+#include "io/mesh/grouped/mask_groups.h"
 #include "io/mesh/medit/medit.h"
 
 namespace mw::io {
@@ -90,6 +91,7 @@ void InpWriter::write(GroupedMesh& mesh) {
   for (Label rank = 0; rank < mesh.table().size(); ++rank) {
     write_elements(mesh, mesh.label_tets()[rank], names.volume(rank));
   }
+  write_masks(mesh, names);
   write_wedges(mesh, names);
   for_each_named(mesh, names, [&](const NamedFacets& set) {
     write_node_set(mesh, set.name, set.group.facets, false);
@@ -153,6 +155,14 @@ void InpWriter::write_elements(GroupedMesh& mesh, RowRange tets, const std::stri
     std::string numbers = text(t + 1);
     for (const std::uint64_t row : mesh.tet_nodes(t)) numbers += text(", ", row + 1);
     line(numbers);
+  }
+}
+
+void InpWriter::write_masks(const GroupedMesh& mesh, const PlainNames& names) {
+  const std::vector<MaskGroup> masks = mask_groups(mesh);
+  for (std::size_t i = 0; i < masks.size(); ++i) {
+    line(text("*ELSET, ELSET=", names.mask(i)));
+    for (const Label rank : masks[i].ranks) line(names.volume(rank));
   }
 }
 

@@ -21,6 +21,7 @@ namespace mw::io {
 /// labels.  The nodes of each, those of an interface once unless vertices were doubled, are a node
 /// set of the same name.  Comments tell the set of each named label, with its name and colour as in
 /// MEDIT files.
+/// A mask is an element set MASK_liver of the sets of its labels.
 /// Wedges between the sides of an interface are elements COH3D6 behind the tets, in a set
 /// COHESIVE_1_2: their nodes 1 2 3 are on the side of label 1, and 4 5 6 on that of label 2.
 /// Between tets of ten nodes they are not written, because Abaqus has no such element.  Materials
@@ -45,6 +46,7 @@ class InpWriter : public GroupedWriter {
   void write_head(const GroupedMesh& mesh, const PlainNames& names);
   void write_nodes(GroupedMesh& mesh);
   void write_elements(GroupedMesh& mesh, RowRange tets, const std::string& name);
+  void write_masks(const GroupedMesh& mesh, const PlainNames& names);
   void write_wedges(GroupedMesh& mesh, const PlainNames& names);
   void write_surface(GroupedMesh& mesh, const std::string& name, RowRange facets, bool of_second);
   void write_materials();

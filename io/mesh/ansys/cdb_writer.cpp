@@ -6,6 +6,7 @@
 #include "io/file/errors.h"
 #include "io/mesh/grouped/fixed_fields.h"
 #include "io/mesh/grouped/group_names.h"
+#include "io/mesh/grouped/mask_groups.h"
 
 namespace mw::io {
 namespace {
@@ -44,13 +45,19 @@ void CdbWriter::write(GroupedMesh& mesh) {
   });
   line("       -1");
   for (Label rank = 0; rank < mesh.table().size(); ++rank) {
-    write_element_set(names.volume(rank), mesh.label_tets()[rank]);
+    write_element_set(names.volume(rank), {mesh.label_tets()[rank]});
     line(text("MP,EX,", numbers[rank], ",1.0"));
     line(text("MP,PRXY,", numbers[rank], ",0.3"));
   }
+  const std::vector<MaskGroup> masks = mask_groups(mesh);
+  for (std::size_t i = 0; i < masks.size(); ++i) {
+    std::vector<RowRange> tets;
+    for (const Label rank : masks[i].ranks) tets.push_back(mesh.label_tets()[rank]);
+    write_element_set(names.mask(i), tets);
+  }
   next = mesh.tet_count();
   for_each_faces(mesh, names, [&](const Faces& faces) {
-    write_element_set(faces.name, {next, next + faces.facets.size()});
+    write_element_set(faces.name, {{next, next + faces.facets.size()}});
     next += faces.facets.size();
   });
   for_each_named(mesh, names, [&](const NamedFacets& set) {
@@ -132,17 +139,23 @@ void CdbWriter::write_element(std::uint64_t material, std::uint64_t type, std::u
   line(out);
 }
 
-void CdbWriter::write_element_set(const std::string& name, RowRange elements) {
-  constexpr std::size_t kItemColumns = 10;
-  const bool one = elements.size() == 1;
-  line(text("CMBLOCK,", name, ",ELEM,", fixed_integer(one ? 1 : 2, kItemColumns)));
-  line("(8i10)");
-  std::string items = fixed_integer(elements.begin + 1, kItemColumns);
-  if (!one) {  // a negative number ends a range
-    const std::string last = text("-", elements.end);
-    items += std::string(kItemColumns - last.size(), ' ') + last;
+void CdbWriter::write_element_set(const std::string& name, const std::vector<RowRange>& ranges) {
+  constexpr std::size_t kItemColumns = 10, kOnLine = 8;
+  std::vector<std::string> items;
+  for (const RowRange& elements : ranges) {
+    items.push_back(std::to_string(elements.begin + 1));
+    // A negative number ends a range.
+    if (elements.size() > 1) items.push_back(text("-", elements.end));
   }
-  line(items);
+  line(text("CMBLOCK,", name, ",ELEM,", fixed_integer(items.size(), kItemColumns)));
+  line("(8i10)");
+  std::string row;
+  for (std::size_t i = 0; i < items.size(); ++i) {
+    row += std::string(kItemColumns - items[i].size(), ' ') + items[i];
+    if ((i + 1) % kOnLine != 0 && i + 1 < items.size()) continue;
+    line(row);
+    row.clear();
+  }
 }
 
 void CdbWriter::write_node_set(GroupedMesh& mesh, const std::string& name, RowRange facets,

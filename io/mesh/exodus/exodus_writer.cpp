@@ -3,10 +3,12 @@
 // Names of dimensions, variables and attributes are those of the Exodus II manual (SAND92-2137).
 #include "io/mesh/exodus/exodus_writer.h"
 
+#include <algorithm>
 #include <limits>
 #include <numeric>
 
 #include "io/file/errors.h"
+#include "io/mesh/grouped/mask_groups.h"
 
 namespace mw::io {
 namespace {
@@ -60,7 +62,7 @@ void ExodusWriter::write(GroupedMesh& mesh) {
   write_values(mesh, plan);
   write_facet_sets(mesh, plan);
   write_element_sets(plan);
-  append_label_table(labels_, mesh.table(), mesh.names(), numbers);
+  append_label_table(labels_, mesh.table(), mesh.header(), numbers);
   table_ ? out_.commit(labels_, *table_) : out_.commit(labels_);
 }
 
@@ -93,11 +95,25 @@ ExodusWriter::Plan ExodusWriter::plan_of(const GroupedMesh& mesh,
   }
   for_each_side_set(mesh, plan.names, [&](const FacetSet& /*set*/) { ++plan.side_sets; });
   for_each_node_set(mesh, plan.names, [&](const FacetSet& /*set*/) { ++plan.node_sets; });
-  for (std::uint32_t m = 1; materials_ && m <= materials_->count(); ++m) {
-    if (materials_->facts(m).tets == 0) continue;
-    plan.element_sets.push_back({.name = materials_->name(m), .material = m});
-  }
+  plan_element_sets(mesh, plan);
   return plan;
+}
+
+/// Plans sets of masks, then those of materials.
+void ExodusWriter::plan_element_sets(const GroupedMesh& mesh, Plan& plan) const {
+  for (const MaskGroup& mask : mask_groups(mesh)) {
+    ElementSet set{.name = plan.names.mask(plan.element_sets.size())};
+    for (const Label rank : mask.ranks) {
+      set.of_labels.push_back(mesh.label_tets()[rank]);
+      set.tets += set.of_labels.back().size();
+    }
+    plan.element_sets.push_back(std::move(set));
+  }
+  for (std::uint32_t m = 1; materials_ && m <= materials_->count(); ++m) {
+    const std::uint64_t tets = materials_->facts(m).tets;
+    if (tets == 0) continue;
+    plan.element_sets.push_back({.name = materials_->name(m), .tets = tets, .material = m});
+  }
 }
 
 void ExodusWriter::define(GroupedMesh& mesh, Plan& plan) {
@@ -173,21 +189,39 @@ void ExodusWriter::define_element_sets(Plan& plan) {
   element_set_list_ = define_list("num_elem_sets", "els_", plan.element_sets.size());
   for (std::size_t s = 0; s < plan.element_sets.size(); ++s) {
     ElementSet& set = plan.element_sets[s];
-    const int tets =
-        out_.add_dimension(text("num_ele_els", s + 1), materials_->facts(set.material).tets);
+    const int tets = out_.add_dimension(text("num_ele_els", s + 1), set.tets);
     set.variable = out_.add_integers(text("elem_els", s + 1), {tets});
   }
 }
 
 void ExodusWriter::write_element_sets(const Plan& plan) {
-  if (!materials_) return;
   write_list(element_set_list_, counted_from_one(static_cast<int>(plan.element_sets.size())));
   for (std::size_t i = 0; i < plan.element_sets.size(); ++i) {
     out_.put_text(element_set_list_.names, i, plan.element_sets[i].name, kNameBytes);
   }
+  write_masks(plan);
+  if (materials_) write_materials(plan);
+}
+
+void ExodusWriter::write_masks(const Plan& plan) {
+  for (const ElementSet& set : plan.element_sets) {
+    std::uint64_t written = 0;
+    for (const RowRange& range : set.of_labels) {
+      in_steps(range, [&](std::uint64_t first, std::uint64_t count) {
+        std::vector<int> tets(count);
+        std::iota(tets.begin(), tets.end(), number(first));
+        out_.put(set.variable, written, tets);
+        written += count;
+      });
+    }
+  }
+}
+
+void ExodusWriter::write_materials(const Plan& plan) {
   std::vector<int> tets;
   std::uint64_t written = 0;
-  auto set = plan.element_sets.begin();
+  auto set = std::ranges::find_if(plan.element_sets,
+                                  [](const ElementSet& each) { return each.material != 0; });
   const auto flush = [&] {
     if (!tets.empty()) out_.put(set->variable, written, tets);
     written += tets.size();

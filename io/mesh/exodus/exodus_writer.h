@@ -22,8 +22,8 @@ namespace mw::io {
 /// Wedges between the sides of an interface are blocks of WEDGE behind those of labels, with ids
 /// above theirs and names such as COHESIVE_1_2; between tets of ten nodes they are not written,
 /// because VTK's reader and libMesh know no wedge of 12 nodes.
-/// Materials are element sets, and empty ones are left out.  Memory: 26 MiB.
-/// ERRORS: see NetcdfOutput; mw::Error(kUsage) above 2,147,483,647 nodes or elements.
+/// Materials are element sets, and empty ones are left out; so are masks (MASK_liver).  Memory: 26
+/// MiB. ERRORS: see NetcdfOutput; mw::Error(kUsage) above 2,147,483,647 nodes or elements.
 class ExodusWriter : public GroupedWriter {
  public:
   explicit ExodusWriter(const std::filesystem::path& path, const MeshExtras& extras = {})
@@ -40,10 +40,12 @@ class ExodusWriter : public GroupedWriter {
     RowRange facets;
     bool of_second = false;
   };
-  /// A set of the elements of a material.
+  /// A set of the elements of a material, or of a mask.
   struct ElementSet {
     std::string name;
-    std::uint32_t material = 0;
+    std::uint64_t tets = 0;
+    std::uint32_t material = 0;         ///< 0 for a mask
+    std::vector<RowRange> of_labels{};  ///< of a mask
     int variable = 0;
   };
   /// The contents of the file, with the variables that hold them.
@@ -73,6 +75,7 @@ class ExodusWriter : public GroupedWriter {
   template <class Visit>
   static void for_each_node_set(const GroupedMesh& mesh, const PlainNames& names, Visit visit);
   [[nodiscard]] Plan plan_of(const GroupedMesh& mesh, const LabelNumbers& numbers) const;
+  void plan_element_sets(const GroupedMesh& mesh, Plan& plan) const;
   void define(GroupedMesh& mesh, Plan& plan);
   /// The dimension's length is the number of members, and `prefix` begins the variables' names.
   ListVariables define_list(const std::string& dimension, const std::string& prefix,
@@ -93,6 +96,8 @@ class ExodusWriter : public GroupedWriter {
   void write_node_set(GroupedMesh& mesh, const FacetSet& set, int variable);
   void define_element_sets(Plan& plan);
   void write_element_sets(const Plan& plan);
+  void write_masks(const Plan& plan);
+  void write_materials(const Plan& plan);
 
   std::string name_;
   NetcdfOutput out_;

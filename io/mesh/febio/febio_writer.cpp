@@ -9,6 +9,7 @@
 #include "io/file/sink/atomic_file.h"
 #include "io/mesh/grouped/group_names.h"
 #include "io/mesh/grouped/grouped_mesh.h"
+#include "io/mesh/grouped/mask_groups.h"
 #include "io/mesh/number_line.h"
 #include "io/mesh/xml_text.h"
 
@@ -62,6 +63,7 @@ void FebioWriter::write(GroupedMesh& mesh) {
   for (std::size_t rank = 0; rank < parts.size(); ++rank) {
     write_part(mesh, mesh.label_tets()[rank], parts[rank]);
   }
+  write_masks(mesh);
   write_surfaces(mesh);
   std::optional<DeckEnds> ends;
   if (has_deck_ && mesh.tet_count() > 0) ends.emplace(mesh);
@@ -106,6 +108,21 @@ void FebioWriter::write_part(GroupedMesh& mesh, RowRange tets, const std::string
     append_cell(file_, "elem", tet + 1, mesh.tet_nodes(tet));
   }
   file_.append("    </Elements>\n");
+}
+
+void FebioWriter::write_masks(const GroupedMesh& mesh) {
+  for (const MaskGroup& mask : mask_groups(mesh)) {
+    file_.append(text("    <ElementSet name=\"", kMaskNames, xml_escaped(mask.name), "\">"));
+    const char* between = "";
+    for (const Label rank : mask.ranks) {
+      const RowRange tets = mesh.label_tets()[rank];
+      for (std::uint64_t tet = tets.begin; tet < tets.end; ++tet) {
+        file_.append(text(between, tet + 1));
+        between = ",\n      ";
+      }
+    }
+    file_.append("</ElementSet>\n");
+  }
 }
 
 void FebioWriter::write_surfaces(GroupedMesh& mesh) {

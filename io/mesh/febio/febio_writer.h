@@ -16,7 +16,8 @@ namespace mw::io {
 ///                of labels, as FEBio wants them, from M.feb.labels.csv (label_numbers.h)
 ///   Mesh         Nodes; Elements tet4 or tet10 for each label; a Surface (tri3 or tri6) for each
 ///                side of the box, and two for each interface: liver|cyst with normals out of the
-///                liver, cyst|liver the other way; all ids count from 1
+///                liver, cyst|liver the other way; an ElementSet mask_liver for each mask; all
+///                ids count from 1
 ///   MeshDomains  the material of each part
 ///   Boundary, Step, LoadData, Output   only with a deck (MeshExtras::deck): a static step of ten
 ///                increments; where the mesh does not reach both sides there are node sets, too
@@ -31,6 +32,7 @@ class FebioWriter : public TabledWriter {
   void write_materials(const std::vector<std::string>& parts, const LabelNumbers& numbers);
   void write_nodes(GroupedMesh& mesh);
   void write_part(GroupedMesh& mesh, RowRange tets, const std::string& name);
+  void write_masks(const GroupedMesh& mesh);
   void write_surfaces(GroupedMesh& mesh);
   /// REQUIRES: name is escaped.
   void write_surface(GroupedMesh& mesh, RowRange facets, const std::string& name, bool is_turned);

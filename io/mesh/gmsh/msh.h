@@ -34,12 +34,14 @@ namespace mw::io {
 /// z_max, L + 7 outer, each for all labels together, and from L + 8 on the interfaces, in the order
 /// of their labels.  Names are GroupNames'; those that are longer than Gmsh reads are "LABEL_7",
 /// "FACE_1_2".  Nodes are tagged 1 + row, triangles and tets from 1 on.
+/// A mask is one more physical volume, "mask_liver", with a tag above all others: the volumes of
+/// its labels are in both.  A comment holds the record where there are masks, wedges or curves.
 /// Wedges between the sides of an interface are prisms in a volume of their own, with a tag above
-/// those of surfaces and a name such as COHESIVE_1_2; a comment holds the record then.  Between
-/// tets of ten nodes they would need nodes between the two sides, and are not written.  Materials
-/// are one more ElementData, "hu_material" for values "hu", 0 where there is no value.  The tables
-/// of labels and of materials are written beside the mesh.  Entities may be in several pieces,
-/// which Gmsh's createTopology() parts, forgetting their groups; createTopology(False) keeps them.
+/// those of surfaces and a name such as COHESIVE_1_2.  Between tets of ten nodes they would need
+/// nodes between the two sides, and are not written.  Materials are one more ElementData,
+/// "hu_material" for values "hu", 0 where there is no value.  The tables of labels and of materials
+/// are written beside the mesh.  Entities may be in several pieces, which Gmsh's createTopology()
+/// parts, forgetting their groups; createTopology(False) keeps them.
 class MshWriter : public GroupedWriter {
  public:
   explicit MshWriter(const std::filesystem::path& path, const MeshExtras& extras = {})
@@ -64,7 +66,8 @@ class MshWriter : public GroupedWriter {
   void write_format();
   void write_entities(Contents& contents);
   void put_volumes(Contents& contents);
-  void put_entity(Contents& contents, std::size_t entity, std::int32_t physical);
+  void put_entity(Contents& contents, std::size_t entity,
+                  const std::vector<std::int32_t>& physical);
   void write_nodes(Contents& contents);
   void put_nodes(Contents& contents, std::size_t entity);
   void write_elements(const Contents& contents);

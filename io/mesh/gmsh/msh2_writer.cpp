@@ -15,7 +15,7 @@ void Msh2Writer::write(GroupedMesh& mesh) {
   out_.add_line("2.2 0 8");
   out_.end_section("MeshFormat");
   write_record(out_, mesh);
-  write_physical_names(out_, mesh, numbers);
+  write_physical_names(out_, mesh, numbers, false);
   write_nodes(mesh);
   write_elements(mesh, numbers);
   write_element_data(out_, mesh);

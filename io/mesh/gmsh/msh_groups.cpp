@@ -7,6 +7,7 @@
 
 #include "io/file/errors.h"
 #include "io/mesh/grouped/group_names.h"
+#include "io/mesh/grouped/mask_groups.h"
 #include "io/mesh/grouped/plain_names.h"
 
 namespace mw::io {
@@ -30,6 +31,10 @@ bool begins_name(const FacetGroups& groups, std::size_t g) {
   return g == 0 || groups[g].side == Side::kInterface || groups[g].side != groups[g - 1].side;
 }
 
+std::int32_t mask_volume(const LabelNumbers& labels, const GroupedMesh& mesh, std::size_t mask) {
+  return above(labels, kSides + mesh.facet_groups().size() + mesh.wedge_groups().size() + mask);
+}
+
 std::string name_line(std::int32_t dimension, std::int64_t tag, const std::string& name) {
   return text(dimension, " ", tag, " \"", name, "\"");
 }
@@ -39,6 +44,16 @@ void write_wedge_names(MshEncoder& out, const GroupedMesh& mesh, const LabelNumb
   for (std::size_t g = 0; g < mesh.wedge_groups().size(); ++g) {
     out.add_line(
         name_line(kMshVolume, wedge_volume(labels, mesh, g), names.wedges(mesh.wedge_groups()[g])));
+  }
+}
+
+void write_mask_names(MshEncoder& out, const GroupedMesh& mesh, const LabelNumbers& labels) {
+  const PlainNames plain(mesh);
+  const std::vector<MaskGroup> masks = mask_groups(mesh);
+  for (std::size_t i = 0; i < masks.size(); ++i) {
+    std::string name = std::string(kMaskNames) + without_quotes(masks[i].name);
+    if (name.size() > kMaxNameBytesOfGmsh) name = plain.mask(i);
+    out.add_line(name_line(kMshVolume, mask_volume(labels, mesh, i), name));
   }
 }
 
@@ -67,8 +82,8 @@ void write_column(MshEncoder& out, GroupedMesh& mesh, const std::string& name, N
 }  // namespace
 
 LabelNumbers msh_numbers(const GroupedMesh& mesh) {
-  const auto others =
-      static_cast<std::int64_t>(kSides + mesh.facet_groups().size() + mesh.wedge_groups().size());
+  const auto others = static_cast<std::int64_t>(
+      kSides + mesh.facet_groups().size() + mesh.wedge_groups().size() + mask_groups(mesh).size());
   return LabelNumbers(mesh.table(), {.max = std::numeric_limits<std::int32_t>::max() - others});
 }
 
@@ -87,17 +102,31 @@ std::int32_t wedge_volume(const LabelNumbers& labels, const GroupedMesh& mesh, s
   return above(labels, kSides + mesh.facet_groups().size() + group);
 }
 
+std::vector<std::vector<std::int32_t>> mask_volumes(const LabelNumbers& labels,
+                                                    const GroupedMesh& mesh) {
+  std::vector<std::vector<std::int32_t>> out(mesh.table().size());
+  std::size_t number = 0;
+  for (const MaskGroup& mask : mask_groups(mesh)) {
+    const std::int32_t volume = mask_volume(labels, mesh, number++);
+    for (const Label rank : mask.ranks) out[rank].push_back(volume);
+  }
+  return out;
+}
+
 void write_record(MshEncoder& out, const GroupedMesh& mesh) {
-  if (mesh.wedge_groups().empty() && !mesh.header().record.curved) return;
+  const MeshRecord& record = mesh.header().record;
+  if (mesh.wedge_groups().empty() && !record.curved && record.masks.empty()) return;
   out.begin_section("Comments");
-  out.add_line(kMshRecord, record_text(mesh.header().record));
+  out.add_line(kMshRecord, record_text(record));
   out.add_line("$EndComments");
 }
 
-void write_physical_names(MshEncoder& out, const GroupedMesh& mesh, const LabelNumbers& labels) {
+void write_physical_names(MshEncoder& out, const GroupedMesh& mesh, const LabelNumbers& labels,
+                          bool has_masks) {
   const GroupNames names(mesh, without_quotes, kMaxNameBytesOfGmsh);
   const FacetGroups& groups = mesh.facet_groups();
-  std::size_t count = mesh.table().size() + mesh.wedge_groups().size();
+  const std::size_t masks = has_masks ? mask_groups(mesh).size() : 0;
+  std::size_t count = mesh.table().size() + mesh.wedge_groups().size() + masks;
   for (std::size_t g = 0; g < groups.size(); ++g) count += begins_name(groups, g) ? 1U : 0U;
   out.begin_section("PhysicalNames");
   out.add_line(text(count));
@@ -111,6 +140,7 @@ void write_physical_names(MshEncoder& out, const GroupedMesh& mesh, const LabelN
     out.add_line(name_line(kMshVolume, labels[rank], names.volume(rank)));
   }
   if (!mesh.wedge_groups().empty()) write_wedge_names(out, mesh, labels);
+  if (masks > 0) write_mask_names(out, mesh, labels);
   out.add_line("$EndPhysicalNames");
 }
 
@@ -135,7 +165,7 @@ MshTables::MshTables(const std::filesystem::path& mesh, std::optional<MaterialRu
 }
 
 void MshTables::write_with(MshEncoder& out, GroupedMesh& mesh, const LabelNumbers& numbers) {
-  append_label_table(labels_, mesh.table(), mesh.names(), numbers);
+  append_label_table(labels_, mesh.table(), mesh.header(), numbers);
   if (!rule_) return commit_together({labels_, out.file()});
   MaterialSets sets(mesh, *rule_);
   write_column(out, mesh, rule_->values + "_material",

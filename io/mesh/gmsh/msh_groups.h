@@ -6,6 +6,7 @@
 #include <array>
 #include <cstdint>
 #include <string_view>
+#include <vector>
 
 #include "io/mesh/gmsh/msh_encoder.h"
 #include "io/mesh/grouped/grouped_mesh.h"
@@ -38,12 +39,18 @@ inline constexpr std::string_view kMshRecord = "mwmesh ";
 [[nodiscard]] std::int32_t wedge_volume(const LabelNumbers& labels, const GroupedMesh& mesh,
                                         std::size_t group);
 
-/// Writes a section of comments with the record of the run, where the mesh has curved tets or
-/// wedges, which could not be found again without it.
+/// Returns the physical volumes, above all others, of the masks that have each label, by rank.
+[[nodiscard]] std::vector<std::vector<std::int32_t>> mask_volumes(const LabelNumbers& labels,
+                                                                  const GroupedMesh& mesh);
+
+/// Writes a section of comments with the record of the run, where the mesh has curved tets, wedges
+/// or masks, which could not be found again without it.
 void write_record(MshEncoder& out, const GroupedMesh& mesh);
 
-/// Writes the section of the names of all physical surfaces and volumes (see MshWriter).
-void write_physical_names(MshEncoder& out, const GroupedMesh& mesh, const LabelNumbers& labels);
+/// Writes the section of the names of all physical surfaces and volumes (see MshWriter), those of
+/// masks only where an element may have several.
+void write_physical_names(MshEncoder& out, const GroupedMesh& mesh, const LabelNumbers& labels,
+                          bool has_masks);
 
 /// The files beside a .msh, and the numbers of materials in it.
 class MshTables {

@@ -50,7 +50,7 @@ void MshWriter::write(GroupedMesh& mesh) {
   Contents contents{mesh, msh_numbers(mesh), NodeClasses(mesh)};
   write_format();
   write_record(out_, mesh);
-  write_physical_names(out_, mesh, contents.numbers);
+  write_physical_names(out_, mesh, contents.numbers, true);
   write_entities(contents);
   write_nodes(contents);
   write_elements(contents);
@@ -92,7 +92,7 @@ void MshWriter::write_entities(Contents& contents) {
   }
   out_.end_row();
   for (std::size_t g = 0; g < groups.size(); ++g) {
-    put_entity(contents, g, physical_surface(contents.numbers, groups[g], g));
+    put_entity(contents, g, {physical_surface(contents.numbers, groups[g], g)});
     out_.put(std::uint64_t{0});  // no curves
     out_.end_row();
   }
@@ -103,28 +103,35 @@ void MshWriter::write_entities(Contents& contents) {
 void MshWriter::put_volumes(Contents& contents) {
   const GroupedMesh& mesh = contents.mesh;
   std::size_t entity = mesh.facet_groups().size();
+  const std::vector<std::vector<std::int32_t>> masks = mask_volumes(contents.numbers, mesh);
+  std::size_t rank = 0;
   for_each_boundary(mesh, contents.numbers, [&](std::span<const std::int32_t> surfaces) {
-    put_entity(contents, entity, tag_of(contents, entity).tag);
+    // Readers that know one physical group take the first, which is the label's.
+    std::vector<std::int32_t> physical{tag_of(contents, entity).tag};
+    physical.insert(physical.end(), masks[rank].begin(), masks[rank].end());
+    put_entity(contents, entity, physical);
     ++entity;
+    ++rank;
     out_.put(std::uint64_t{surfaces.size()});
     for (const std::int32_t tag : surfaces) out_.put(tag);
     out_.end_row();
   });
   for (std::size_t g = 0; g < mesh.wedge_groups().size(); ++g, ++entity) {
-    put_entity(contents, entity, tag_of(contents, entity).tag);
+    put_entity(contents, entity, {tag_of(contents, entity).tag});
     out_.put(std::uint64_t{0});  // no surfaces
     out_.end_row();
   }
 }
 
-/// Puts the tag, box and physical group of an entity; what bounds it comes behind.
-void MshWriter::put_entity(Contents& contents, std::size_t entity, std::int32_t physical) {
+/// Puts the tag, box and physical groups of an entity; what bounds it comes behind.
+void MshWriter::put_entity(Contents& contents, std::size_t entity,
+                           const std::vector<std::int32_t>& physical) {
   out_.put(tag_of(contents, entity).tag);
   const EntityBox box = contents.classes.box(entity);
   for (const double x : box.lo) out_.put(x);
   for (const double x : box.hi) out_.put(x);
-  out_.put(std::uint64_t{1});
-  out_.put(physical);
+  out_.put(std::uint64_t{physical.size()});
+  for (const std::int32_t group : physical) out_.put(group);
 }
 
 void MshWriter::write_nodes(Contents& contents) {

@@ -11,6 +11,7 @@
 #include "io/file/source/inflated_source.h"
 #include "io/mesh/grouped/group_names.h"
 #include "io/mesh/grouped/grouped_mesh.h"
+#include "io/mesh/grouped/mask_groups.h"
 #include "io/names/colour_table.h"
 #include "io/names/csv_names.h"
 
@@ -100,18 +101,27 @@ std::filesystem::path label_table_path(const std::filesystem::path& mesh) {
   return mesh.string() + ".labels.csv";
 }
 
-void append_label_table(AtomicFile& file, const LabelTable& table, const LabelNames& names,
+void append_label_table(AtomicFile& file, const LabelTable& table, const MeshHeader& header,
                         const LabelNumbers& numbers) {
-  file.append(std::string_view("id,number,name,r,g,b,a\n"));
+  const std::vector<MaskLabels>& masks = header.record.masks;
+  file.append(std::string_view("id,number,name,r,g,b,a"));
+  for (const MaskLabels& mask : masks) {
+    file.append("," + csv_quoted(std::string(kMaskNames) + mask.name));
+  }
+  file.append(std::string_view("\n"));
   for (Label rank = 0; rank < table.size(); ++rank) {
-    const LabelName* row = names.find(table.raw(rank));
+    const RawLabel label = table.raw(rank);
     file.append(text(label_digits(table, rank), ",", numbers[rank], ",",
-                     csv_quoted(names.name(table.raw(rank))), colour_text(row), "\n"));
+                     csv_quoted(header.names.name(label)), colour_text(header.names.find(label))));
+    for (const MaskLabels& mask : masks) {
+      file.append(std::ranges::binary_search(mask.labels, label) ? ",1" : ",0");
+    }
+    file.append(std::string_view("\n"));
   }
 }
 
 void TabledWriter::commit(const GroupedMesh& mesh, const LabelNumbers& numbers) {
-  append_label_table(labels_, mesh.table(), mesh.names(), numbers);
+  append_label_table(labels_, mesh.table(), mesh.header(), numbers);
   commit_together({labels_, file_});
 }
 

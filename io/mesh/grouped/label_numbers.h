@@ -55,9 +55,10 @@ void check_digits(std::string_view file, const GroupedMesh& mesh, int digits);
 [[nodiscard]] std::filesystem::path label_table_path(const std::filesystem::path& mesh);
 
 /// Appends the content of that table, with the columns id (the label), number (in the mesh), name,
-/// r, g, b, a.  It is a table of names too (parse_csv_names).  The file is to be committed with the
-/// mesh (commit_together()).  ERRORS: see AtomicFile.
-void append_label_table(AtomicFile& file, const LabelTable& table, const LabelNames& names,
+/// r, g, b, a, and for each mask mask_NAME, which is 1 for its labels and 0 for others.  It is a
+/// table of names too (parse_csv_names).  The file is to be committed with the mesh
+/// (commit_together()).  ERRORS: see AtomicFile.
+void append_label_table(AtomicFile& file, const LabelTable& table, const MeshHeader& header,
                         const LabelNumbers& numbers);
 
 /// A writer of a text file with that table beside it.

@@ -8,6 +8,7 @@
 #include "io/file/errors.h"
 #include "io/file/scratch/external_sort.h"
 #include "io/mesh/grouped/group_names.h"
+#include "io/mesh/grouped/mask_groups.h"
 #include "kernels/core/mix_bits.h"
 
 namespace mw::io {
@@ -76,6 +77,7 @@ PlainNames::PlainNames(const GroupedMesh& mesh, const NameRule& rule) : mesh_(me
   }
   for (const std::string& name : rule.reserved) taken.insert(in_capitals(name));
   name_volumes(taken);
+  name_masks(taken);
   tell_pairs_apart(taken);
 }
 
@@ -96,6 +98,18 @@ void PlainNames::name_volumes(Taken& taken) {
     for (int i = 1; name.size() > rule_.max_bytes || !taken.insert(in_capitals(name)).second; ++i) {
       name = with_number(wanted, number, i, rule_.max_bytes);
     }
+  }
+}
+
+void PlainNames::name_masks(Taken& taken) {
+  for (const MaskGroup& mask : mask_groups(mesh_)) {
+    const std::string number = std::to_string(masks_.size() + 1);
+    const std::string wanted = "MASK_" + plain_text(mask.name, rule_);
+    std::string name = wanted;
+    for (int i = 1; name.size() > rule_.max_bytes || !taken.insert(in_capitals(name)).second; ++i) {
+      name = with_number(wanted, number, i, rule_.max_bytes);
+    }
+    masks_.push_back(std::move(name));
   }
 }
 

@@ -34,7 +34,7 @@ struct NameRule {
 /// A label has its name with '_' for what is not allowed ("Matrix (epoxy)" is "Matrix_epoxy") and
 /// "L_" in front of what begins with no letter; one without a name has plain_volume_name().  An
 /// interface is "FACE_a_b" on the side of a, with the names or numbers of its labels; a side of the
-/// box has plain_facet_name(); wedges from a to b are "COHESIVE_a_b".
+/// box has plain_facet_name(); wedges from a to b are "COHESIVE_a_b"; a mask is "MASK_a".
 /// ENSURES: no two are the same.  Those that would be, or are too long, end in numbers of labels.
 /// Memory: names of labels; those of interfaces are made when they are asked for.  The constructor
 /// takes 8 MiB more, and what does not fit waits in a temporary file.  ERRORS: see ScratchFile.
@@ -44,6 +44,8 @@ class PlainNames {
   explicit PlainNames(const GroupedMesh& mesh, const NameRule& rule = {});
 
   [[nodiscard]] const std::string& volume(Label rank) const { return volumes_[rank]; }
+  /// Returns the name of one of mask_groups(mesh).
+  [[nodiscard]] const std::string& mask(std::size_t number) const { return masks_[number]; }
   /// Returns the name on the side of the group's first label, or of an interface's second one.
   [[nodiscard]] std::string facets(const FacetGroup& group, bool of_second = false) const {
     return name_of(Kind::kFacets, group, of_second);
@@ -66,6 +68,7 @@ class PlainNames {
   using Taken = std::set<std::string>;  ///< in capitals
 
   void name_volumes(Taken& taken);
+  void name_masks(Taken& taken);
   void tell_pairs_apart(const Taken& taken);
   template <class Visit>
   void for_each_pair(Visit visit) const;
@@ -77,6 +80,7 @@ class PlainNames {
   const GroupedMesh& mesh_;
   NameRule rule_;
   std::vector<std::string> volumes_;
+  std::vector<std::string> masks_;
   std::vector<bool> has_name_;   ///< whether volumes_ is more than a number
   std::map<Pair, int> renamed_;  ///< the pairs whose name another has, and how often it was changed
 };

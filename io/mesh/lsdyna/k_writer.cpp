@@ -6,6 +6,7 @@
 #include "io/file/errors.h"
 #include "io/mesh/grouped/fixed_fields.h"
 #include "io/mesh/grouped/group_names.h"
+#include "io/mesh/grouped/mask_groups.h"
 
 namespace mw::io {
 namespace {
@@ -45,6 +46,7 @@ void LsdynaWriter::write(GroupedMesh& mesh) {
   for (Label rank = 0; rank < mesh.table().size(); ++rank) {
     write_part(mesh, mesh.label_tets()[rank], numbers[rank], names.volume(rank));
   }
+  write_masks(mesh, names, numbers);
   for_each_named(mesh, names, [&](const NamedFacets& set) {
     write_node_set(mesh, set, false);
     if (set.is_split) write_node_set(mesh, set, true);
@@ -91,6 +93,23 @@ void LsdynaWriter::write_part(GroupedMesh& mesh, RowRange tets, std::int64_t num
     }
     for (std::size_t i = nodes.size(); i < kBrick; ++i) row += fixed_integer(last, kShort);
     line(head + row);
+  }
+}
+
+void LsdynaWriter::write_masks(const GroupedMesh& mesh, const PlainNames& names,
+                               const LabelNumbers& numbers) {
+  constexpr std::size_t kOnLine = 8;
+  const std::vector<MaskGroup> masks = mask_groups(mesh);
+  for (std::size_t i = 0; i < masks.size(); ++i) {
+    begin_set("*SET_PART_LIST_TITLE", names.mask(i), i + 1);
+    std::string row;
+    for (const Label rank : masks[i].ranks) {
+      row += fixed_integer(static_cast<std::uint64_t>(numbers[rank]), kField);
+      if (row.size() < kOnLine * kField) continue;
+      line(row);
+      row.clear();
+    }
+    if (!row.empty()) line(row);
   }
 }
 

@@ -16,10 +16,10 @@ namespace mw::io {
 /// of the box are a SET_NODE_LIST (two for an interface if the mesh has doubled vertices).  The
 /// triangles are a SET_SEGMENT with normals out of the mesh, or two for an interface, where
 /// FACE_1_2 has normals out of label 1; titles tell the names.  With ten nodes each triangle is
-/// written as four, so that the middles of edges are loaded, too.  Both kinds of sets have numbers
-/// from 1 on.  Coordinates have ten digits.  Memory: 9 MiB.  ERRORS: see AtomicFile;
-/// mw::Error(kUsage) above 99,999,999 nodes or tets, which is what eight columns hold, and for a
-/// negative coordinate with three digits of exponent.
+/// written as four, so that the middles of edges are loaded, too.  A mask is a SET_PART_LIST of the
+/// parts of its labels.  All kinds of sets have numbers from 1 on.  Coordinates have ten digits.
+/// Memory: 9 MiB.  ERRORS: see AtomicFile; mw::Error(kUsage) above 99,999,999 nodes or tets, which
+/// is what eight columns hold, and for a negative coordinate with three digits of exponent.
 class LsdynaWriter : public TabledWriter {
  public:
   using TabledWriter::TabledWriter;
@@ -29,6 +29,7 @@ class LsdynaWriter : public TabledWriter {
  private:
   void write_nodes(GroupedMesh& mesh);
   void write_part(GroupedMesh& mesh, RowRange tets, std::int64_t number, const std::string& name);
+  void write_masks(const GroupedMesh& mesh, const PlainNames& names, const LabelNumbers& numbers);
   void write_node_set(GroupedMesh& mesh, const NamedFacets& set, bool of_second);
   void write_segments(GroupedMesh& mesh, const NamedFacets& set, bool of_second);
   void begin_set(const char* keyword, const std::string& title, std::uint64_t number);

@@ -101,6 +101,7 @@ MeshData read_pvtu(const std::filesystem::path& path) {
     append(piece.mesh, mesh);
     ids.insert(ids.end(), piece.ids.begin(), piece.ids.end());
     mesh.names = mesh.names.merged_with(piece.mesh.names);
+    mesh.record.masks = piece.mesh.record.masks;  // all pieces tell the same
   }
   for (TetValues& column : mesh.values) column.numbers.resize(mesh.tets.size(), std::nan(""));
   join_vertices(mesh, ids, path.string());

@@ -6,6 +6,7 @@
 
 #include "io/file/byte_order.h"
 #include "io/file/errors.h"
+#include "io/mesh/grouped/mask_groups.h"
 #include "io/mesh/mesh_sink.h"
 #include "io/mesh/pieces/pvtu.h"
 #include "io/mesh/vtu/vtu_layout.h"
@@ -25,6 +26,9 @@ std::string index_text(const std::string& stem, std::uint64_t pieces, const Mesh
   std::string values;
   for (const std::string& name : header.values) {
     values += text("      <PDataArray type=\"Float64\" Name=\"", name, "\"/>\n");
+  }
+  for (const std::string& name : mask_arrays(header)) {
+    values += text("      <PDataArray type=\"UInt8\" Name=\"", xml_escaped(name), "\"/>\n");
   }
   std::string out = text(
       "<?xml version=\"1.0\"?>\n<VTKFile type=\"PUnstructuredGrid\" version=\"1.0\" "
@@ -80,7 +84,7 @@ void PvtuSink::write_piece(std::uint64_t number, std::span<const std::uint64_t> 
   MeshHeader header = header_;
   header.tets = tets.size();
   header.names = whole.names;
-  header.record = {};
+  header.record = {.masks = header_.record.masks};
   const VtuLayout layout = make_vtu_layout(header, rows.size(), Element::kTet4, VtuIds::kOfNodes);
   AtomicFile file(folder_.path() / piece_name(stem_, number));
   const auto begin = [&](VtuLayout::Array array) { append_little(file, layout.length[array]); };
@@ -88,6 +92,13 @@ void PvtuSink::write_piece(std::uint64_t number, std::span<const std::uint64_t> 
   for (const TetValues& column : whole.values) {
     append_little(file, layout.value_length);
     for (const std::uint64_t t : tets) append_little(file, column.numbers[t]);
+  }
+  for (const MaskLabels& mask : header.record.masks) {
+    append_little(file, layout.mask_length);
+    for (const std::uint64_t t : tets) {
+      const bool is_in = std::ranges::binary_search(mask.labels, whole.labels[t]);
+      append_little(file, static_cast<std::uint8_t>(is_in ? 1 : 0));
+    }
   }
   begin(VtuLayout::kConnectivity);
   for (const std::uint64_t t : tets) {

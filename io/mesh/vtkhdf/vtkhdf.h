@@ -36,7 +36,8 @@ void commit_vtkhdf(Hdf5Output& output, const ColumnPlaces& places, Element eleme
 ///     Offsets            Int64 [cells + 1], where cells are the tets and the wedges behind them
 ///     Types              UInt8 [cells]: 10, or 24 with ten nodes; for wedges 13, or 31
 ///     CellData/label     UInt64 or Int64 [cells]; beside it Float64 [cells] for each of the values
-///                        and, with wedges, UInt64 `cohesive`: 0, or the number of their interface
+///                        and, with wedges, UInt64 `cohesive`: 0, or the number of their interface;
+///                        for each mask UInt8 mask_NAME (mask_arrays()): 1 in it, 0 elsewhere
 ///     FieldData          names of labels, where there are any, as in /mwmesh (add_vtkhdf_facts())
 /// There are no time stamps, so equal meshes give equal bytes.
 /// Cost: 4 MiB of buffers.  Thread safety: none.
@@ -65,7 +66,7 @@ class VtkhdfShared : public SharedMesh {
   [[nodiscard]] std::string place() const override { return partial_.string(); }
   void join(const std::string& place) override;
   void lay_out(const MeshHeader& header, std::uint64_t vertices) override;
-  void begin(std::uint64_t tets) override;
+  void begin(const MeshHeader& header) override;
   void go_to(const RowPlace& rows) override { columns_.go_to(rows); }
   void write_vertices(std::span<const Position> positions) override {
     columns_.write_vertices(positions);

@@ -3,6 +3,7 @@
 // Streams a mesh into a .vtkhdf file, from one process or from several that write it together.
 
 #include "io/file/errors.h"
+#include "io/mesh/grouped/mask_groups.h"
 #include "io/mesh/mesh_sink.h"
 #include "io/mesh/vtkhdf/vtkhdf.h"
 
@@ -47,6 +48,10 @@ Hdf5Group cell_data(const ColumnPlaces& places, const MeshHeader& header) {
   if (header.wedges.count > 0) {
     add_set(out, kCohesive, Hdf5Kind::kUint64, {cells}, places.cohesive);
   }
+  const std::vector<std::string> masks = mask_arrays(header);
+  for (std::size_t i = 0; i < masks.size(); ++i) {
+    add_set(out, masks[i], Hdf5Kind::kUint8, {cells}, places.masks[i]);
+  }
   return out;
 }
 
@@ -63,6 +68,9 @@ ColumnPlaces place_vtkhdf(Hdf5Rooms& rooms, Element element, const MeshHeader& h
     out.values.push_back(rooms.reserve(cells * sizeof(double)));
   }
   if (header.wedges.count > 0) out.cohesive = rooms.reserve(cells * sizeof(std::uint64_t));
+  for (std::size_t i = 0; i < header.record.masks.size(); ++i) {
+    out.masks.push_back(rooms.reserve(cells));
+  }
   out.points = rooms.next();
   return out;
 }
@@ -120,11 +128,11 @@ void VtkhdfShared::lay_out(const MeshHeader& header, std::uint64_t vertices) {
   made_->extend();
 }
 
-void VtkhdfShared::begin(std::uint64_t tets) {
+void VtkhdfShared::begin(const MeshHeader& header) {
   Hdf5Rooms rooms;
   part_.emplace(partial_);
   columns_ =
-      MeshColumns(*part_, place_vtkhdf(rooms, Element::kTet4, {.tets = tets}), Element::kTet4);
+      MeshColumns(*part_, place_vtkhdf(rooms, Element::kTet4, header), Element::kTet4, header);
 }
 
 void VtkhdfShared::sync() {

@@ -9,6 +9,8 @@
 
 #include "io/file/errors.h"
 #include "io/labels/label_table.h"
+#include "io/mesh/grouped/mask_groups.h"
+#include "io/mesh/xml_text.h"
 #include "kernels/core/assert.h"
 
 namespace mw::io {
@@ -100,15 +102,24 @@ std::uint64_t cells_of(const MeshHeader& header) {
   return header.tets + header.wedges.count;
 }
 
-/// Returns the tags of the arrays of values, which come first, then that of cohesive cells.
+/// Returns the tags of the arrays of values, which come first, then those of cohesive cells and of
+/// masks.
 std::string value_tags(const MeshHeader& header) {
   std::string out;
   const std::uint64_t bytes = 8 + 8 * cells_of(header);
   for (std::size_t i = 0; i < header.values.size(); ++i) {
     out += array_tag("Float64", header.values[i].c_str(), 1, i * bytes);
   }
-  if (header.wedges.count == 0) return out;
-  return out + array_tag("UInt64", kCohesive, 1, header.values.size() * bytes);
+  std::uint64_t next = header.values.size() * bytes;
+  if (header.wedges.count > 0) {
+    out += array_tag("UInt64", kCohesive, 1, next);
+    next += bytes;
+  }
+  for (const std::string& name : mask_arrays(header)) {
+    out += array_tag("UInt8", xml_escaped(name).c_str(), 1, next);
+    next += 8 + cells_of(header);
+  }
+  return out;
 }
 
 /// Returns the head.  The offset of each array counts from behind the '_'.
@@ -187,7 +198,9 @@ VtuLayout make_vtu_layout(const MeshHeader& header, std::uint64_t vertices, Elem
   std::array<std::uint64_t, VtuLayout::kArrays> offset{};
   layout.value_length = cells * 8;
   const std::size_t first_arrays = header.values.size() + (header.wedges.count > 0 ? 1 : 0);
-  std::uint64_t next = first_arrays * (8 + layout.value_length);
+  const std::uint64_t masks = first_arrays * (8 + layout.value_length);
+  const std::size_t mask_count = header.record.masks.size();
+  std::uint64_t next = masks + mask_count * (8 + cells);
   for (std::size_t i = 0; i < layout.arrays; ++i) {
     offset[i] = next;
     next += 8 + layout.length[i];
@@ -197,6 +210,10 @@ VtuLayout make_vtu_layout(const MeshHeader& header, std::uint64_t vertices, Elem
   for (std::size_t i = 0; i < layout.arrays; ++i) layout.start[i] = layout.head.size() + offset[i];
   for (std::size_t i = 0; i < first_arrays; ++i) {
     layout.values.push_back(layout.head.size() + i * (8 + layout.value_length));
+  }
+  layout.mask_length = cells;
+  for (std::size_t i = 0; i < mask_count; ++i) {
+    layout.masks.push_back(layout.head.size() + masks + i * (8 + cells));
   }
   if (header.wedges.count > 0) {
     layout.cohesive = layout.values.back();

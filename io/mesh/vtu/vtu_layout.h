@@ -28,10 +28,11 @@ namespace mw::io {
 
 /// The file: an XML head whose length depends only on its fields (vtu_fields()), values and ids,
 /// '_', then for each array a UInt64 byte count and the numbers, little-endian (Float64 for each of
-/// the values, UInt64 `cohesive` where there are wedges, connectivity Int64 x 4 or 10, offsets
-/// Int64, types UInt8, label UInt64 or Int64, points Float64 x 3), then the closing tags.  The
-/// points are last, so that all places in front of their end are known before their number is; the
-/// ids of nodes (Int64) may follow them.
+/// the values, UInt64 `cohesive` where there are wedges, UInt8 mask_NAME for each mask
+/// (mask_arrays(): 1 for its cells, 0 for others), connectivity Int64 x 4 or 10, offsets Int64,
+/// types UInt8, label UInt64 or Int64, points Float64 x 3), then the closing tags.  The points are
+/// last, so that all places in front of their end are known before their number is; the ids of
+/// nodes (Int64) may follow them.
 struct VtuLayout {
   enum Array { kConnectivity, kOffsets, kTypes, kLabel, kPoints, kIds, kArrays };
   std::size_t arrays = kIds;                    ///< how many of them there are
@@ -42,6 +43,8 @@ struct VtuLayout {
   std::vector<std::uint64_t> values;            ///< like start, for each of MeshHeader::values
   std::uint64_t value_length = 0;               ///< length of each of them and of `cohesive`
   std::optional<std::uint64_t> cohesive;        ///< like start, for that array
+  std::vector<std::uint64_t> masks;             ///< like start, for each of MeshRecord::masks
+  std::uint64_t mask_length = 0;                ///< length of each of them
   std::uint64_t tail_start = 0;
 };
 

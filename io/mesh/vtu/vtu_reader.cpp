@@ -231,6 +231,7 @@ VtuPiece read_vtu_piece(const ByteSource& source) {
   }
   out.ids = read_ids(document);
   out.mesh.names = read_vtu_names(document);
+  out.mesh.record.masks = read_vtu_record(document).masks;  // the rest is not about a piece
   return out;
 }
 

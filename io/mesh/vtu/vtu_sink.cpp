@@ -16,6 +16,8 @@ void VtuSink::begin(const MeshHeader& header) {
   };
   std::vector<std::uint64_t> values = layout.values;
   for (std::uint64_t& start : values) start += sizeof(std::uint64_t);
+  std::vector<std::uint64_t> masks = layout.masks;
+  for (std::uint64_t& start : masks) start += sizeof(std::uint64_t);
   // The first offset, which this format does not have, goes where the count of bytes will be.
   place_columns(header, file_,
                 {.connectivity = numbers(VtuLayout::kConnectivity),
@@ -24,7 +26,8 @@ void VtuSink::begin(const MeshHeader& header) {
                  .labels = numbers(VtuLayout::kLabel),
                  .points = numbers(VtuLayout::kPoints),
                  .values = std::move(values),
-                 .cohesive = layout.cohesive.value_or(0) + sizeof(std::uint64_t)});
+                 .cohesive = layout.cohesive.value_or(0) + sizeof(std::uint64_t),
+                 .masks = std::move(masks)});
 }
 
 void VtuSink::finish() {
@@ -38,6 +41,7 @@ void VtuSink::finish() {
   };
   for (std::size_t i = 0; i < layout.arrays; ++i) put_length(layout.start[i], layout.length[i]);
   for (const std::uint64_t start : layout.values) put_length(start, layout.value_length);
+  for (const std::uint64_t start : layout.masks) put_length(start, layout.mask_length);
   if (layout.cohesive) put_length(*layout.cohesive, layout.value_length);
   file_.write_at(layout.tail_start, std::as_bytes(std::span(layout.tail)));
   file_.commit();

@@ -3,9 +3,12 @@
 // Writes a mesh as XDMF over HDF5, with tags as dolfinx reads them.
 #include "io/mesh/xdmf/xdmf_writer.h"
 
+#include <algorithm>
+
 #include "io/file/errors.h"
 #include "io/file/sink/atomic_file.h"
 #include "io/mesh/grouped/grouped_mesh.h"
+#include "io/mesh/grouped/mask_groups.h"
 #include "io/mesh/vtkhdf/hdf5_output.h"
 #include "io/mesh/xml_text.h"
 
@@ -22,6 +25,7 @@ struct XdmfFacts {
   std::uint64_t facets = 0;
   std::string record{};  ///< the record as a line (mesh_record.h); may be empty
   std::vector<std::string> values{};
+  std::vector<std::string> masks{};  ///< see mask_arrays()
 };
 
 /// A data set of the HDF5 file.
@@ -90,6 +94,11 @@ std::string values_text(const XdmfFacts& facts) {
     out += attribute_text(facts, name,
                           {.path = "/Values/" + name, .rows = facts.tets, .type = "Float"});
   }
+  for (std::size_t i = 0; i < facts.masks.size(); ++i) {
+    out += attribute_text(
+        facts, xml_escaped(facts.masks[i]),
+        {.path = text("/Masks/", i + 1), .rows = facts.tets, .type = "UChar", .bytes = 1});
+  }
   return out;
 }
 
@@ -145,7 +154,8 @@ XdmfFacts facts_of(const GroupedMesh& mesh, const std::filesystem::path& path) {
           .tets = mesh.tet_count(),
           .facets = mesh.facet_count(),
           .record = record_text(mesh.header().record),
-          .values = mesh.header().values};
+          .values = mesh.header().values,
+          .masks = mask_arrays(mesh.header())};
 }
 
 /// Returns the document with the first grid alone.  A comment says who wrote it, as some readers
@@ -196,9 +206,14 @@ void XdmfWriter::write(GroupedMesh& mesh) {
   for (std::size_t i = 0; i < mesh.header().values.size(); ++i) {
     root.groups.back().sets.push_back(value(mesh, i));
   }
+  if (!mesh.header().record.masks.empty()) root.groups.push_back({.name = "Masks"});
+  for (const MaskLabels& mask : mesh.header().record.masks) {
+    std::vector<Hdf5DataSet>& sets = root.groups.back().sets;
+    sets.push_back(mask_cells(mesh, mask, std::to_string(sets.size() + 1)));
+  }
   cells_.append(xdmf_cells_text(facts_of(mesh, path_)));
   write_grids(mesh, names, numbers);
-  append_label_table(labels_, mesh.table(), mesh.names(), numbers);
+  append_label_table(labels_, mesh.table(), mesh.header(), numbers);
   append_facet_table(facets_, mesh, names);
   AtomicFile& data = numbers_.finish(root);
   commit_together({data, labels_, facets_, cells_, file_});
@@ -237,6 +252,16 @@ Hdf5DataSet XdmfWriter::value(GroupedMesh& mesh, std::size_t column) {
   for (std::uint64_t t = 0; t < mesh.tet_count(); ++t) numbers.add(mesh.value(t, column));
   return finish_column(numbers, mesh.header().values[column], Hdf5Kind::kFloat64,
                        {mesh.tet_count()});
+}
+
+Hdf5DataSet XdmfWriter::mask_cells(const GroupedMesh& mesh, const MaskLabels& mask,
+                                   const std::string& name) {
+  auto column = column_of<std::uint8_t>(numbers_, mesh.tet_count());
+  for (Label rank = 0; rank < mesh.table().size(); ++rank) {
+    const bool is_in = std::ranges::binary_search(mask.labels, mesh.table().raw(rank));
+    for (std::uint64_t i = 0; i < mesh.label_tets()[rank].size(); ++i) column.add(is_in ? 1 : 0);
+  }
+  return finish_column(column, name, Hdf5Kind::kUint8, {mesh.tet_count()});
 }
 
 Hdf5DataSet XdmfWriter::cell_tags(const GroupedMesh& mesh, const LabelNumbers& numbers) {

@@ -14,8 +14,8 @@
 namespace mw::io {
 
 /// Writes XDMF 3 into M.xdmf, which gets its name last.  One domain has three grids:
-///   mesh        the tets; cell attribute `label`, the labels themselves (UInt64 or Int64), and one
-///               for each of the values (Float64)
+///   mesh        the tets; cell attribute `label`, the labels themselves (UInt64 or Int64), one for
+///               each of the values (Float64), and mask_NAME for each mask (UInt8, 1 in it)
 ///   cell_tags   the same tets; cell attribute `cell_tags`, Int32 numbers (label_numbers.h)
 ///   facet_tags  the triangles; cell attribute `facet_tags`, Int32 numbers (group_names.h)
 /// The last two have an Information for each number: its Name is that of the group, its Value the
@@ -28,6 +28,7 @@ namespace mw::io {
 ///   /MeshTags/facet_tags/topology  Int64 [facets][3 or 6], normal out of the lower label
 ///   /MeshTags/facet_tags/Values    Int32 [facets]
 ///   /Values/NAME                   Float64 [tets], for each of the values
+///   /Masks/1, /Masks/2, ...        UInt8 [tets], for each mask
 /// The root of M.h5 has an attribute `writer`, which is "mwmesh", and M.cells.xdmf a comment at its
 /// end that says so, too, for those who want to know whose these files are.
 /// M.cells.xdmf has only the grid `mesh`, for readers that take one grid from a file (meshio).  The
@@ -45,6 +46,8 @@ class XdmfWriter : public GroupedWriter {
   [[nodiscard]] Hdf5DataSet topology(GroupedMesh& mesh);
   [[nodiscard]] Hdf5DataSet labels(const GroupedMesh& mesh);
   [[nodiscard]] Hdf5DataSet value(GroupedMesh& mesh, std::size_t column);
+  [[nodiscard]] Hdf5DataSet mask_cells(const GroupedMesh& mesh, const MaskLabels& mask,
+                                       const std::string& name);
   [[nodiscard]] Hdf5DataSet cell_tags(const GroupedMesh& mesh, const LabelNumbers& numbers);
   [[nodiscard]] Hdf5DataSet facets(GroupedMesh& mesh);
   [[nodiscard]] Hdf5DataSet facet_tags(const GroupedMesh& mesh, const GroupNames& names);

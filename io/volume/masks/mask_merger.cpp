@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <limits>
+#include <set>
 #include <utility>
 
 #include "io/file/errors.h"
@@ -12,6 +13,7 @@
 #include "io/volume/checks.h"
 #include "io/volume/raw_array.h"
 #include "kernels/core/mix_bits.h"
+#include "kernels/core/sort_distinct.h"
 
 namespace mw::io {
 namespace {
@@ -177,9 +179,30 @@ std::vector<RawLabel> MaskMerger::label_sets(std::vector<LabelName>& names,
   return labels;
 }
 
+/// Returns the masks that have voxels, with the labels of the sets that they are in.  Masks of one
+/// name are told apart by their numbers.
+std::vector<MaskLabels> MaskMerger::masks_of(const std::vector<RawLabel>& labels) const {
+  std::vector<MaskLabels> out(names_.size());
+  for (std::size_t set = 1; set < sets_.size(); ++set) {
+    if (voxels_[set] == 0) continue;
+    for (const std::uint16_t mask : sets_[set]) out[mask].labels.push_back(labels[set]);
+  }
+  std::set<std::string> taken;
+  for (std::size_t mask = 0; mask < out.size(); ++mask) {
+    sort_distinct(out[mask].labels);
+    out[mask].name = clean_name(names_[mask].name);
+    const std::string number = std::to_string(names_[mask].label);
+    if (out[mask].name.empty()) out[mask].name = number;
+    while (!taken.insert(out[mask].name).second) out[mask].name += " (" + number + ")";
+  }
+  std::erase_if(out, [](const MaskLabels& mask) { return mask.labels.empty(); });
+  return out;
+}
+
 std::unique_ptr<LabelVolume> MaskMerger::finish() {
   std::vector<LabelName> names = names_;
   std::vector<RawLabel> labels = label_sets(names, info_.numbering);
+  if (overlap_ == Overlap::kAll) info_.masks = masks_of(labels);
   if (overlaps_ != 0) {
     info_.note += text(info_.note.empty() ? "" : "; ", name_, ": ", overlaps_,
                        " voxels are in several masks");

@@ -42,9 +42,9 @@ void refuse_overlap_rule(const std::string& file, const OpenOptions& options);
 /// Puts masks over each other, one at a time, so that only one of them need be open.  The first
 /// mask becomes label 1, the second label 2 and so on; 0 is where no mask is.  With Overlap::kAll
 /// each set of masks that have voxels in common gets a label of its own behind them, in the order
-/// of the sets' masks, and a name such as "liver + tumour".
-/// Memory: 10 MiB, and some bytes a set.  Two bytes a voxel of a mask wait in $TMPDIR.
-/// ERRORS: mw::Error(kResource) naming the folder when the disk is full.
+/// of the sets' masks, and a name such as "liver + tumour"; VolumeInfo::masks tells which labels
+/// each mask has then. Memory: 10 MiB, and some bytes a set.  Two bytes a voxel of a mask wait in
+/// $TMPDIR. ERRORS: mw::Error(kResource) naming the folder when the disk is full.
 class MaskMerger {
  public:
   /// frame has the shape and place of all masks.  Errors call the masks together `name`.
@@ -75,6 +75,7 @@ class MaskMerger {
   void refuse_overlap(const Mask& mask) const;
   [[nodiscard]] std::vector<RawLabel> label_sets(std::vector<LabelName>& names,
                                                  std::uint64_t& numbering) const;
+  [[nodiscard]] std::vector<MaskLabels> masks_of(const std::vector<RawLabel>& labels) const;
 
   VolumeInfo info_;
   Overlap overlap_;

@@ -36,6 +36,7 @@ MeshRecord random_record(unsigned seed) {
   record.curved = seed % 5 == 3;
   if (seed % 11 == 6) record.cohesive.pairs = {{labels[0], labels[1]}, {labels[2], labels[0]}};
   if (seed % 11 == 7) record.cohesive.all = true;
+  if (seed % 5 == 4) record.masks = {{"Leber \xc3\xa4 \"x\"", {1, 7}}, {"cohesive", {0}}};
   if (seed % 3 == 0) return record;
   record.promises = MeshPromises{.quality_floor = std::abs(number()),
                                  .interfaces = random() % 2 == 0,

@@ -246,7 +246,7 @@ TEST(GroupNames, DifferWhateverLabelsAreCalled) {
 void write_label_table(const std::filesystem::path& mesh, const LabelTable& table,
                        const LabelNames& names, const LabelNumbers& numbers) {
   AtomicFile file(label_table_path(mesh));
-  append_label_table(file, table, names, numbers);
+  append_label_table(file, table, {.names = names}, numbers);
   file.commit();
 }
 

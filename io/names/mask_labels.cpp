@@ -1,0 +1,60 @@
+// SPDX-FileCopyrightText: The mwmesh authors
+// SPDX-License-Identifier: Apache-2.0
+// The masks that a volume was made of, by the labels that their voxels have.
+#include "io/names/mask_labels.h"
+
+#include <algorithm>
+
+#include "kernels/core/sort_distinct.h"
+
+namespace mw::io {
+namespace {
+
+bool has_label(const std::vector<RawLabel>& labels, RawLabel label) {
+  return std::binary_search(labels.begin(), labels.end(), label);
+}
+
+/// Returns the labels of the voxels, of which 0 are those without a mask.
+std::vector<RawLabel> all_labels(const std::vector<MaskLabels>& masks) {
+  std::vector<RawLabel> out{0};
+  for (const MaskLabels& mask : masks) {
+    out.insert(out.end(), mask.labels.begin(), mask.labels.end());
+  }
+  sort_distinct(out);
+  return out;
+}
+
+RawLabel merged_label(RawLabel label, const std::map<RawLabel, RawLabel>& becomes) {
+  const auto rule = becomes.find(label);
+  return rule == becomes.end() ? label : rule->second;
+}
+
+}  // namespace
+
+std::vector<MaskLabels> only_masks(const std::vector<MaskLabels>& masks,
+                                   const std::function<bool(RawLabel)>& wanted) {
+  std::vector<MaskLabels> out;
+  for (MaskLabels mask : masks) {
+    std::erase_if(mask.labels, [&](RawLabel label) { return !wanted(label); });
+    if (!mask.labels.empty()) out.push_back(std::move(mask));
+  }
+  return out;
+}
+
+std::vector<MaskLabels> merged_masks(const std::vector<MaskLabels>& masks,
+                                     const std::map<RawLabel, RawLabel>& becomes) {
+  std::vector<MaskLabels> out;
+  const std::vector<RawLabel> all = all_labels(masks);
+  for (const MaskLabels& mask : masks) {
+    std::vector<RawLabel> merged;
+    for (const RawLabel label : mask.labels) merged.push_back(merged_label(label, becomes));
+    sort_distinct(merged);
+    const bool takes_others = std::ranges::any_of(all, [&](RawLabel label) {
+      return !has_label(mask.labels, label) && has_label(merged, merged_label(label, becomes));
+    });
+    if (!takes_others) out.push_back({mask.name, std::move(merged)});
+  }
+  return out;
+}
+
+}  // namespace mw::io
