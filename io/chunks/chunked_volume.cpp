@@ -197,12 +197,11 @@ void ChunkedVolume::read_numbers(const Box3& box, std::span<double> out) const {
 
 void ChunkedVolume::read_as(const VoxelCoding& coding, std::optional<RawLabel> fill,
                             const ReadBox& to) const {
-  const auto& [box, out] = to;
-  MW_ASSERT(out.size() == static_cast<std::size_t>(box.voxels()));
-  if (out.empty()) return;
-  for_each_index(cells_of(box, info_.chunk), [&](Index3 number) {
+  MW_ASSERT(to.labels.size() == static_cast<std::size_t>(to.box.voxels()));
+  if (to.labels.empty()) return;
+  for_each_index(cells_of(to.box, info_.chunk), [&](Index3 number) {
     const Box3 held = box_of(number);
-    const Box3 part = intersection(held, box);
+    const Box3 part = intersection(held, to.box);
     const ChunkCache::Loaded chunk = load(number);
     if (chunk) {
       const StoredArray array{.first = chunk->first,

@@ -160,13 +160,14 @@ MW_WIDE void find_normals(const std::array<StoredLanes, 6>& places, const Vec3& 
   const Lanes3 n = cross(a, b);
   const Lanes square = eigen_dot(n, n), area = 0.5 * root(square);
   // The lanes are transposed, so that a normal and its square lie together.
-  constexpr LaneMask kEven{0, 4, 2, 6}, kOdd{1, 5, 3, 7}, kLow{0, 1, 4, 5}, kHigh{2, 3, 6, 7};
-  const Lanes xy02 = __builtin_shuffle(n.x, n.y, kEven), xy13 = __builtin_shuffle(n.x, n.y, kOdd);
-  const Lanes zs02 = __builtin_shuffle(n.z, square, kEven),
-              zs13 = __builtin_shuffle(n.z, square, kOdd);
-  const std::array<Lanes, kLanes> rows{
-      __builtin_shuffle(xy02, zs02, kLow), __builtin_shuffle(xy13, zs13, kLow),
-      __builtin_shuffle(xy02, zs02, kHigh), __builtin_shuffle(xy13, zs13, kHigh)};
+  const Lanes xy02 = __builtin_shufflevector(n.x, n.y, 0, 4, 2, 6),
+              xy13 = __builtin_shufflevector(n.x, n.y, 1, 5, 3, 7),
+              zs02 = __builtin_shufflevector(n.z, square, 0, 4, 2, 6),
+              zs13 = __builtin_shufflevector(n.z, square, 1, 5, 3, 7);
+  const std::array<Lanes, kLanes> rows{__builtin_shufflevector(xy02, zs02, 0, 1, 4, 5),
+                                       __builtin_shufflevector(xy13, zs13, 0, 1, 4, 5),
+                                       __builtin_shufflevector(xy02, zs02, 2, 3, 6, 7),
+                                       __builtin_shufflevector(xy13, zs13, 2, 3, 6, 7)};
   static_assert(sizeof(SurfaceNormal) == sizeof(Lanes));
   for (std::size_t k = 0; k < kLanes; ++k) {
     StoredLanes row;
