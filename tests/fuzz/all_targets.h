@@ -34,5 +34,19 @@ void fuzz_simplify(Bytes bytes);
 void fuzz_optimise(Bytes bytes);
 // coarsening.cpp
 void fuzz_coarsen(Bytes bytes);
+// masks.cpp
+void fuzz_masks(Bytes bytes);
+void fuzz_layers(Bytes bytes);
+void fuzz_scores(Bytes bytes);
+// dicom.cpp
+void fuzz_dicom(Bytes bytes);
+void fuzz_packed_frame(Bytes bytes);
+void fuzz_slice_grid(Bytes bytes);
+// remote.cpp
+void fuzz_http_headers(Bytes bytes);
+void fuzz_addresses(Bytes bytes);
+void fuzz_http(Bytes bytes);
+void fuzz_remote(Bytes bytes);
+void fuzz_cache(Bytes bytes);
 
 }  // namespace mw::fuzz

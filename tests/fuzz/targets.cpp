@@ -26,6 +26,17 @@ constexpr std::array kTargets{
     Target{"simplify", fuzz_simplify, 100},
     Target{"optimise", fuzz_optimise, 100},
     Target{"coarsen", fuzz_coarsen, 100},
+    Target{"masks", fuzz_masks, 500},
+    Target{"layers", fuzz_layers},
+    Target{"scores", fuzz_scores},
+    Target{"dicom", fuzz_dicom, 40},
+    Target{"packed_frame", fuzz_packed_frame},
+    Target{"slice_grid", fuzz_slice_grid},
+    Target{"http_headers", fuzz_http_headers},
+    Target{"addresses", fuzz_addresses},
+    Target{"http", fuzz_http, 500},
+    Target{"remote", fuzz_remote, 1000},
+    Target{"cache", fuzz_cache},
 };
 
 }  // namespace
