@@ -208,6 +208,20 @@ class Case:
             raise Failed(f"the judge ends with {done.returncode}\n{done.stdout}{done.stderr}")
         self.did.append("judged")
 
+    def same_labels(self):
+        """What has to be made labels of is meshed as an array of these labels is."""
+        if self.volume.is_plain:
+            return
+        (self.folder / "l").mkdir()
+        volumes.write_npy(self.folder / "l.npy", self.volume)
+        common = ["--frame=voxel", "--spacing", volumes.triple(self.volume.spacing),
+                  "--surface=voxel", "--quality-floor=0", "--max-distance=none"]
+        self.run(["mesh", self.volume.file, *self.volume.meaning, *common, "-o", "l/v.vtu"])
+        self.run(["mesh", "l.npy", *common, "-o", "l/l.vtu"])
+        if self.digest("l/v.vtu") != self.digest("l/l.vtu"):
+            raise Failed("labels that are made from the file are others than those of an array")
+        self.did.append("scored" if self.volume.has_scores else "masked")
+
     # Ways to run that must not matter -------------------------------------------------------------
 
     def disturbed_run(self):
@@ -275,9 +289,9 @@ class Case:
         """Writes other labels into the file under a run, which meshes what it read first or says
         so; then the file is as it was."""
         path = self.folder / self.volume.file
-        if self.volume.has_scores:
+        if not self.volume.is_plain:
             return
-        if "," in self.volume.file or path.suffix == ".gz" or b"gzip" in path.read_bytes()[:400]:
+        if path.suffix == ".gz" or b"gzip" in path.read_bytes()[:400]:
             return  # unpacked once, at the start
         before = path.read_bytes()
         after = self.random.uniform(0, 1) * self.seconds
@@ -319,8 +333,8 @@ class Case:
     def edited_runs(self):
         """A chain of edits, meshed from what the runs before have kept, some of them killed: the
         files are those of runs that begin afresh."""
-        if "," in self.volume.file or self.volume.has_scores:
-            return  # masks, or probabilities and distances
+        if not self.volume.is_plain:
+            return
         path, flags = self.folder / self.volume.file, self.settings.flags
         named = self.settings.names_labels() or "size" in flags or "split" in flags
         if named or "count" in flags or "periodic" in flags or flags.get("order") == "raster" or path.suffix == ".gz":
@@ -368,8 +382,7 @@ class Case:
         self.volume = volumes.draw(self.random, self.folder, self.run)
         self.settings = settings_of.draw(
             self.random, self.volume, lambda settings: self.prepared(settings).values())
-        if self.volume.has_scores:
-            self.did.append("scored")
+        self.same_labels()
         self.base_run()
         self.verify()
         self.check_report()

@@ -174,9 +174,9 @@ def draw_periodic(random, settings, volume):
 def draw_values(random, settings, volume):
     """The file of labels is an image, too: on its own grid, also where only a part is meshed."""
     arguments = volume.arguments
-    if settings.output == "m.mesh" or "--shape" in arguments or "voxel" in arguments or "," in volume.file:
+    if settings.output == "m.mesh" or "--shape" in arguments or "voxel" in arguments:
         return
-    if volume.has_scores:
+    if not volume.is_plain:
         return
     if random.random() < 0.15:
         statistic = random.choice(["mean", "min", "max", "mode"])

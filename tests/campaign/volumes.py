@@ -32,8 +32,10 @@ class Volume:
     spacing: tuple = (1.0, 1.0, 1.0)
     origin: tuple = (0.0, 0.0, 0.0)
     turned: list = None
-    file: str = "v.npy"  # or a list of masks
+    file: str = "v.npy"  # or a list of files, or a folder of masks
     arguments: list = field(default_factory=list)  # how the program is told of the file
+    meaning: list = field(default_factory=list)  # those of them that say what labels are made from
+    is_plain: bool = True  # the file ends with the labels, which are not made from anything else
     has_scores: bool = False  # the file has probabilities or distances, which tell the labels
 
     def values(self):
@@ -244,26 +246,33 @@ def write_npy(path, volume):
     write_array(path, TYPES[volume.dtype][1], tuple(reversed(volume.shape)), packed(volume))
 
 
-def write_nrrd(path, volume, squeezed):
+def nrrd_header(volume, dtype, squeezed, layers=1, keys=()):
+    """The numbers of all layers of a voxel follow each other."""
     rows = [[v * h for v in row] for row, h in zip(volume.turned, volume.spacing)]
+    own = layers > 1
     lines = [
-        "NRRD0004", f"type: {TYPES[volume.dtype][2]}", "dimension: 3",
-        "space: left-posterior-superior", "sizes: {} {} {}".format(*volume.shape),
-        "space directions: " + " ".join(f"({triple(row)})" for row in rows),
-        "kinds: domain domain domain", "endian: little",
+        "NRRD0004", f"type: {dtype}", f"dimension: {3 + own}",
+        "space: left-posterior-superior",
+        "sizes: " + f"{layers} " * own + "{} {} {}".format(*volume.shape),
+        "space directions: " + "none " * own + " ".join(f"({triple(row)})" for row in rows),
+        "kinds: " + "list " * own + "domain domain domain", "endian: little",
         "encoding: " + ("gzip" if squeezed else "raw"), f"space origin: ({triple(volume.origin)})",
+        *keys,
     ]
+    return ("\n".join(lines) + "\n\n").encode()
+
+
+def write_nrrd(path, volume, squeezed):
     data = packed(volume)
-    with open(path, "wb") as file:
-        file.write(("\n".join(lines) + "\n\n").encode())
-        file.write(gzip.compress(data, 1) if squeezed else data)
+    header = nrrd_header(volume, TYPES[volume.dtype][2], squeezed)
+    path.write_bytes(header + (gzip.compress(data, 1) if squeezed else data))
 
 
-def write_nifti(path, volume, squeezed):
+def nifti_header(volume, code, bits, volumes=1):
     header = bytearray(352)
     struct.pack_into("<i", header, 0, 348)
-    struct.pack_into("<8h", header, 40, 3, *volume.shape, 1, 1, 1, 1)
-    struct.pack_into("<hh", header, 70, TYPES[volume.dtype][3], int(volume.dtype[1:]))
+    struct.pack_into("<8h", header, 40, 4 if volumes > 1 else 3, *volume.shape, volumes, 1, 1, 1)
+    struct.pack_into("<hh", header, 70, code, bits)
     struct.pack_into("<8f", header, 76, 1, *volume.spacing, 0, 0, 0, 0)
     struct.pack_into("<f", header, 108, 352)
     struct.pack_into("<hh", header, 252, 0, 1)
@@ -271,30 +280,152 @@ def write_nifti(path, volume, squeezed):
         row = [volume.turned[i][axis] * volume.spacing[i] for i in range(3)]
         struct.pack_into("<4f", header, 280 + 16 * axis, *row, volume.origin[axis])
     header[344:348] = b"n+1\0"
-    data = bytes(header) + packed(volume)
-    with open(path, "wb") as file:
-        file.write(gzip.compress(data, 1) if squeezed else data)
+    return bytes(header)
 
 
-def can_be_masks(volume):
-    """Whether labels are those that masks get: 1, 2, 3 and so on, 0 elsewhere."""
+def write_nifti(path, volume, squeezed):
+    data = nifti_header(volume, TYPES[volume.dtype][3], int(volume.dtype[1:])) + packed(volume)
+    path.write_bytes(gzip.compress(data, 1) if squeezed else data)
+
+
+def has_classes(volume):
+    """Whether labels are those that masks and classes get: 0, 1, 2 and so on."""
     values = volume.values()
     return values == list(range(len(values))) and 2 <= len(values) <= 9
 
 
-def write_masks(folder, volume):
-    """A file for each label; what a list of them has are labels of 16 bits."""
+# Masks --------------------------------------------------------------------------------------------
+
+
+def draw_sets(random, labels):
+    """The masks that each voxel is in: that of its label, and at times those of other voxels."""
+    shifts = [random.choice([0, 1, random.randrange(len(labels))]) for _ in range(2)]
+    return [tuple(sorted({label, *(labels[i - shift] for shift in shifts)} - {0}))
+            for i, label in enumerate(labels)]
+
+
+def labels_of_sets(sets, masks, rule):
+    """What `--overlap` promises."""
+    several = sorted({own for own in sets if len(own) > 1})
+    number = {own: masks + 1 + i for i, own in enumerate(several)}
+    if rule == "all":
+        return [number.get(own) or own[0] if own else 0 for own in sets]
+    return [own[-1 if rule == "last" else 0] if own else 0 for own in sets]
+
+
+def write_mask_files(random, folder, volume, masks):
+    """A list of files, or a folder of them."""
+    is_folder = len(masks) == 1 or random.random() < 0.5
+    if is_folder:
+        (folder / "masks").mkdir()
     files = []
-    for label in volume.values()[1:]:
-        mask = Volume(volume.kind, volume.shape, [int(l == label) for l in volume.labels], "u8",
-                      volume.spacing, volume.origin, volume.turned)
-        files.append(f"m{label}.nii")
-        write_nifti(folder / files[-1], mask, False)
-    volume.file, volume.dtype = ",".join(files), "u16"
+    for number, mask in enumerate(masks, 1):
+        files.append(f"m{number}.nii")
+        header = nifti_header(volume, 2, 8)
+        (folder / ("masks" if is_folder else "") / files[-1]).write_bytes(header + bytes(mask))
+    volume.file = "masks" if is_folder else ",".join(files)
+
+
+def write_mask_stack(_, folder, volume, masks):
+    volume.file = "v.nii"
+    data = nifti_header(volume, 2, 8, len(masks)) + b"".join(map(bytes, masks))
+    (folder / volume.file).write_bytes(data)
+
+
+def write_segments(random, folder, volume, masks):
+    """As 3D Slicer writes segments that overlap."""
+    volume.file, squeezed = "v.seg.nrrd", random.random() < 0.5
+    values, keys = [random.randint(1, 255) for _ in masks], []
+    for i, value in enumerate(values):
+        keys += [f"Segment{i}_ID:=s{i}", f"Segment{i}_Name:=m{i + 1}",
+                 f"Segment{i}_LabelValue:={value}", f"Segment{i}_Layer:={i}"]
+    data = bytes(bit * value for voxel in zip(*masks) for bit, value in zip(voxel, values))
+    header = nrrd_header(volume, "uint8", squeezed, len(masks), keys)
+    (folder / volume.file).write_bytes(header + (gzip.compress(data, 1) if squeezed else data))
+
+
+def element(group, number, kind, value):
+    """An attribute of a DICOM file; lists are sequences of items, which are lists of attributes."""
+    if kind == "SQ":
+        items = [b"".join(item) for item in value]
+        value = b"".join(struct.pack("<HHI", 0xFFFE, 0xE000, len(i)) + i for i in items)
+    elif kind == "US":
+        value = struct.pack("<H", value)
+    elif isinstance(value, str):
+        value = value.encode() + (b"\0" if kind == "UI" else b" ") * (len(value) % 2)
+    value += b"\0" * (len(value) % 2)
+    length = ("<HI", 0, len(value)) if kind in ("OB", "SQ") else ("<H", len(value))
+    return struct.pack("<HH", group, number) + kind.encode() + struct.pack(*length) + value
+
+
+def decimals(*values):
+    return "\\".join(f"{v:.9g}" for v in values)
+
+
+def write_dicom(_, folder, volume, masks):
+    """A frame for each slice of each segment, along the axes."""
+    volume.file, kind = "v.dcm", "1.2.840.10008.5.1.4.1.1.66.4"
+    (nx, ny, nz), (hx, hy, hz) = volume.shape, volume.spacing
+    bits = [bit for mask in masks for bit in mask]
+    bits += [0] * (-len(bits) % 8)
+    pixels = bytes(sum(bit << k for k, bit in enumerate(bits[i:i + 8]))
+                   for i in range(0, len(bits), 8))
+    segments = [[element(0x62, 4, "US", m), element(0x62, 5, "LO", f"m{m}")]
+                for m in range(1, len(masks) + 1)]
+    shared = [
+        element(0x20, 0x9116, "SQ", [[element(0x20, 0x37, "DS", decimals(1, 0, 0, 0, 1, 0))]]),
+        element(0x28, 0x9110, "SQ", [[element(0x18, 0x50, "DS", decimals(hz)),
+                                      element(0x18, 0x88, "DS", decimals(hz)),
+                                      element(0x28, 0x30, "DS", decimals(hy, hx))]]),
+    ]
+    frames = [[element(0x20, 0x9113, "SQ", [[element(0x20, 0x32, "DS", decimals(0, 0, z * hz))]]),
+               element(0x62, 0xA, "SQ", [[element(0x62, 0xB, "US", m)]])]
+              for m in range(1, len(masks) + 1) for z in range(nz)]
+    meta = b"".join([element(2, 1, "OB", b"\0\1"), element(2, 2, "UI", kind),
+                     element(2, 0x10, "UI", "1.2.840.10008.1.2.1")])
+    data = [element(2, 0, "UL", struct.pack("<I", len(meta))), meta, element(8, 0x16, "UI", kind),
+            element(0x28, 8, "IS", str(len(frames))), element(0x28, 0x10, "US", ny),
+            element(0x28, 0x11, "US", nx), element(0x28, 0x100, "US", 1),
+            element(0x62, 1, "CS", "BINARY"), element(0x62, 2, "SQ", segments),
+            element(0x5200, 0x9229, "SQ", [shared]), element(0x5200, 0x9230, "SQ", frames),
+            element(0x7FE0, 0x10, "OB", pixels)]
+    (folder / volume.file).write_bytes(bytes(128) + b"DICM" + b"".join(data))
+
+
+def write_masks(random, folder, volume):
+    """Masks that overlap or not; what they become are labels of 16 bits."""
+    count = max(volume.labels)
+    sets = draw_sets(random, volume.labels)
+    masks = [[int(m in own) for own in sets] for m in range(1, count + 1)]
+    ways = [write_mask_files]
+    if count > 1:
+        ways += [write_mask_stack, write_segments]
+    if min(volume.spacing) > 0.05:  # DICOM takes slices a thousandth of a mm apart for one
+        ways.append(write_dicom)
+    way, rule = random.choice(ways), random.choice(["first", "last", "all"])
+    is_dicom = way == write_dicom
+    volume.turned = [[1, 0, 0], [0, 1, 0], [0, 0, 1]] if is_dicom else draw_turn(random)
+    way(random, folder, volume, masks)
+    if any(len(own) > 1 for own in sets) or random.random() < 0.5:
+        volume.meaning = ["--overlap", rule]
+    volume.labels, volume.dtype = labels_of_sets(sets, count, rule), "u16"
+    volume.is_plain = False
+    volume.arguments = ["--spacing", triple(volume.spacing), "--frame=voxel"] if is_dicom else [
+        "--frame", random.choice(["file", "file", "ras", "lps", "voxel"])]
+    volume.arguments += volume.meaning
+
+
+# Scores -------------------------------------------------------------------------------------------
 
 
 def scores_of(random, label, classes, kind):
     """Numbers, one for each class, from which the voxel has this label."""
+    if kind == "softmax":
+        powers = [math.exp(random.uniform(1, 4) if c == label else random.uniform(-4, 0.9))
+                  for c in range(classes)]
+        return [power / sum(powers) for power in powers]
+    if kind == "sigmoid":
+        return [random.uniform(0.501, 1) if label == 1 else random.uniform(0, 0.499)]
     if kind == "probabilities":
         return [random.uniform(0.5, 1) if c == label else random.uniform(0, 0.499)
                 for c in range(classes)]
@@ -304,22 +435,42 @@ def scores_of(random, label, classes, kind):
 
 def write_scores(random, folder, volume):
     """Random ones, which put interfaces anywhere within half a voxel of the faces."""
-    kind = random.choice(["probabilities", "distances"])
     classes = len(volume.values())
+    kind = random.choice(["softmax", "probabilities", "distances"] + ["sigmoid"] * (classes == 2))
     scores = [scores_of(random, label, classes, kind) for label in volume.labels]
-    components = list(zip(*scores))
-    data = b"".join(struct.pack(f"<{len(c)}f", *c) for c in components)
-    write_array(folder / "v.npy", "<f4", (len(components), *reversed(volume.shape)), data)
-    volume.file, volume.dtype, volume.has_scores = "v.npy", "u8", True
-    return ["--values", kind]
+    components = [struct.pack(f"<{len(c)}f", *c) for c in zip(*scores)]
+    volume.dtype, volume.is_plain, volume.has_scores = "u8", False, True
+    volume.meaning = ["--values", "distances" if kind == "distances" else "probabilities"]
+    shape, way = tuple(reversed(volume.shape)), random.choice(["npy", "files", "nifti", "nrrd"])
+    place = ["--spacing", triple(volume.spacing), "--origin=" + triple(volume.origin)]
+    if way in ("nifti", "nrrd"):
+        volume.turned = draw_turn(random)
+        place = ["--frame", random.choice(["file", "ras", "lps", "voxel"])]
+    if way == "npy":
+        write_array(folder / "v.npy", "<f4", (len(components), *shape), b"".join(components))
+    elif way == "files":
+        files = [f"c{i}.npy" for i in range(len(components))]
+        for file, component in zip(files, components):
+            write_array(folder / file, "<f4", shape, component)
+        volume.file = ",".join(files)
+    elif way == "nifti":
+        volume.file = "v.nii"
+        header = nifti_header(volume, 16, 32, len(components))
+        (folder / volume.file).write_bytes(header + b"".join(components))
+    else:
+        volume.file = "v.nrrd"
+        data = b"".join(struct.pack(f"<{len(voxel)}f", *voxel) for voxel in scores)
+        header = nrrd_header(volume, "float", False, len(components))
+        (folder / volume.file).write_bytes(header + data)
+    volume.arguments = [*volume.meaning, *place]
 
 
 def write(random, volume, folder):
     """Writes the file and sets `file` and `arguments`."""
     place = ["--spacing", triple(volume.spacing), "--origin=" + triple(volume.origin)]
     way = random.random()
-    if random.random() < 0.15 and can_be_masks(volume):
-        volume.arguments = [*write_scores(random, folder, volume), *place]
+    if random.random() < 0.4 and has_classes(volume):
+        random.choice([write_scores, write_masks])(random, folder, volume)
     elif way < 0.65:
         write_npy(folder / "v.npy", volume)
         volume.file, volume.arguments = "v.npy", place
@@ -331,9 +482,7 @@ def write(random, volume, folder):
     else:
         volume.turned = draw_turn(random)
         squeezed = random.random() < 0.3
-        if way < 0.80 and can_be_masks(volume):
-            write_masks(folder, volume)
-        elif way < 0.88:
+        if way < 0.85:
             volume.file = "v.nrrd"
             write_nrrd(folder / volume.file, volume, squeezed)
         else:
