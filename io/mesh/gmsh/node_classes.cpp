@@ -92,7 +92,7 @@ void NodeClasses::place_rows(GroupedMesh& mesh, Pairs& uses, Pairs& indices) {
   uses.each([&](const std::array<std::uint64_t, 2>& use) {
     if (use == last) return;
     last = use;
-    const auto [row, entity] = use;
+    const std::uint64_t row = use[0], entity = use[1];
     boxes_.change(entity, [&](EntityBox& box) { extend(box, mesh.node(row), !has_box[entity]); });
     has_box[entity] = true;
     for (; next < row; ++next) indices.add({unused, next});
