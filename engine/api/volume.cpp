@@ -7,6 +7,7 @@
 #include "engine/api/volume_access.h"
 #include "engine/settings/named_labels.h"
 #include "engine/settings/number_text.h"
+#include "engine/system/tbb_for.h"
 #include "io/names/read_names.h"
 #include "io/volume/file_space.h"
 #include "io/volume/open_volume.h"
@@ -56,7 +57,8 @@ Volume Volume::open(const VolumeFile& file) {
                             .overlap = overlap_rule(file.overlap),
                             .values = voxel_values(file.values),
                             .object = file.object,
-                            .trust_paths = file.trust_paths};
+                            .trust_paths = file.trust_paths,
+                            .at_once = mw::engine::tbb_for_each_index};
     if (!file.cache.empty()) {
       options.cache =
           mw::api::naming("cache", [&] { return mw::engine::parse_cache_folder(file.cache); });

@@ -32,16 +32,8 @@ Box3 planes(const io::VolumeInfo& info, const SequencePart& part) {
 }  // namespace
 
 int reader_count(const io::LabelVolume& volume, int threads, const ReaderRoom& room) {
-  constexpr int kFarReaders = 8;
-  const int wanted = std::max(thread_count(threads), volume.info().is_far ? kFarReaders : 1);
-  const auto most =
-      std::clamp<std::uint64_t>(room.memory / 4 / room.each, 1, static_cast<std::uint64_t>(wanted));
-  int count = static_cast<int>(most);
-  const auto taken = [&] {
-    return static_cast<std::uint64_t>(count) * room.each + volume.buffer_bytes(count);
-  };
-  while (count > 1 && taken() > room.memory / 2) --count;
-  return count;
+  const int wanted = std::max(thread_count(threads), volume.info().is_far ? io::kFarReaders : 1);
+  return io::readers_that_fit(volume, wanted, room);
 }
 
 int scanner_count(const io::LabelVolume& volume, int threads, std::uint64_t memory) {

@@ -5,18 +5,15 @@
 
 #include "engine/labels/reading_tiles.h"
 #include "io/labels/label_table.h"
+#include "io/volume/reader_room.h"
 
 namespace mw::engine {
 
-/// What several readers of a volume may take.
-struct ReaderRoom {
-  std::uint64_t each = 0;    ///< bytes of a reader, beside what the volume holds
-  std::uint64_t memory = 0;  ///< bytes of the budget
-};
+using io::ReaderRoom;
 
-/// Returns how many threads read a volume at once: `threads` (0: all cores) of them, and at least 8
-/// where reading waits for a network.  There are fewer, but at least one, where they would take
-/// more than a quarter of memory, or more than half with what the volume holds.
+/// Returns how many threads read a volume at once: `threads` (0: all cores) of them, and at least
+/// io::kFarReaders where reading waits for a network, or fewer where there is no room for them
+/// (io::readers_that_fit()).
 [[nodiscard]] int reader_count(const io::LabelVolume& volume, int threads, const ReaderRoom& room);
 /// Likewise for labels_of_part(), collect_labels() and label_regions().
 [[nodiscard]] int scanner_count(const io::LabelVolume& volume, int threads, std::uint64_t memory);

@@ -12,6 +12,7 @@
 
 #include "io/file/byte_order.h"
 #include "io/remote/disk_cache.h"
+#include "io/volume/at_once.h"
 #include "io/volume/label_volume.h"
 
 namespace mw::io {
@@ -80,6 +81,9 @@ struct OpenOptions {
   /// Whether files that headers and metadata name may be anywhere, not only in their folder.
   bool trust_paths = false;
   std::uint64_t cache_bytes = 64ULL << 20U;  ///< bytes of decoded chunks that may be kept
+  /// How `object` is looked for where reading waits for a network, within as many bytes again as
+  /// may be kept.
+  VisitAtOnce at_once = visit_in_turn;
 };
 
 }  // namespace mw::io

@@ -332,12 +332,15 @@ namespace {
 /// Opens the object that the options name, in a box around it.
 std::unique_ptr<LabelVolume> open_object_of(const std::filesystem::path& path,
                                             const OpenOptions& options) {
+  constexpr std::uint64_t kCacheShares = 4;  // a volume keeps a quarter of memory at most
   std::vector<VolumeScale> coarser = scales_of(path, options);
   std::erase_if(
       coarser, [&](const VolumeScale& scale) { return scale.number <= options.scale.value_or(0); });
   ScaledVolume scaled{.name = path.string(),
                       .volume = open_whole(path, options),
-                      .copies = static_cast<int>(coarser.size())};
+                      .copies = static_cast<int>(coarser.size()),
+                      .memory = kCacheShares * options.cache_bytes,
+                      .at_once = options.at_once};
   scaled.open_copy = [&](int copy) {
     OpenOptions one = options;
     one.scale = coarser[coarser.size() - 1 - static_cast<std::size_t>(copy)].number;

@@ -8,6 +8,7 @@
 #include "engine/cli/log.h"
 #include "engine/cli/options/shared_options.h"
 #include "engine/cli/options/values.h"
+#include "engine/system/tbb_for.h"
 #include "io/file/errors.h"
 #include "io/file/text_numbers.h"
 #include "io/names/read_names.h"
@@ -241,6 +242,7 @@ io::RawLayout raw_layout(const VolumeRequest& request) {
 
 io::OpenOptions open_options(const VolumeRequest& request) {
   io::OpenOptions options = request.open;
+  options.at_once = engine::tbb_for_each_index;
   if (request.shape) {
     options.raw = raw_layout(request);
   } else if (request.type || request.order) {

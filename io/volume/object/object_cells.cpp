@@ -5,8 +5,10 @@
 
 #include <algorithm>
 #include <array>
+#include <mutex>
 
 #include "io/file/errors.h"
+#include "io/volume/reader_room.h"
 #include "kernels/core/assert.h"
 
 namespace mw::io {
@@ -119,19 +121,21 @@ Index3 cell_size(const VolumeInfo& info) {
   return {cell_edge(info.chunk.x), cell_edge(info.chunk.y), cell_edge(info.chunk.z)};
 }
 
+int cell_readers(const LabelVolume& volume, std::uint64_t memory) {
+  if (!volume.info().is_far) return 1;
+  const auto voxels = static_cast<std::uint64_t>(cell_size(volume.info()).product());
+  return readers_that_fit(volume, kFarReaders,
+                          {.each = voxels * sizeof(RawLabel), .memory = memory});
+}
+
 FoundObject follow_object(const LabelVolume& volume, const ObjectLabels& labels, ObjectCells seeds,
-                          const Box3& bounds) {
+                          const Box3& bounds, const CellReaders& readers) {
   FoundObject out{ObjectCells(volume.info().shape, seeds.size()), {}};
   ObjectCells visited(volume.info().shape, seeds.size());
   const Box3 all = seeds.met_by(bounds);
   std::set<RawLabel> found;
-  while (seeds.count() > 0) {
-    const Index3 cell = seeds.take_first();
-    visited.add(cell);
-    const Box3 voxels = intersection(seeds.voxels(cell), bounds);
-    if (is_empty(voxels)) continue;
-    const CellContent content = look_at(volume, voxels, labels);
-    if (is_empty(content.box)) continue;
+  const auto add = [&](Index3 cell, const CellContent& content) {
+    if (is_empty(content.box)) return;
     out.box = out.cells.count() == 0 ? content.box : hull(out.box, content.box);
     out.cells.add(cell);
     found.insert(content.labels.begin(), content.labels.end());
@@ -139,6 +143,22 @@ FoundObject follow_object(const LabelVolume& volume, const ObjectLabels& labels,
     for_each_index(grown({cell, cell + Index3{1, 1, 1}}, 1), [&](Index3 next) {
       if (content.touched[bit++] && all.contains(next) && !visited.has(next)) seeds.add(next);
     });
+  };
+  std::vector<Index3> cells;
+  while (seeds.count() > 0) {
+    cells.clear();
+    while (seeds.count() > 0 && cells.size() < static_cast<std::size_t>(readers.count)) {
+      cells.push_back(seeds.take_first());
+      visited.add(cells.back());
+    }
+    std::vector<CellContent> contents(cells.size());
+    const Index3 count{static_cast<std::int64_t>(cells.size()), 1, 1};
+    readers.at_once(readers.count, count, [&](Index3 index) {
+      const auto i = static_cast<std::size_t>(index.x);
+      const Box3 voxels = intersection(seeds.voxels(cells[i]), bounds);
+      if (!is_empty(voxels)) contents[i] = look_at(volume, voxels, labels);
+    });
+    for (std::size_t i = 0; i < cells.size(); ++i) add(cells[i], contents[i]);
   }
   ObjectLabels missing;
   std::set_difference(labels.begin(), labels.end(), found.begin(), found.end(),
@@ -163,33 +183,36 @@ Box3 bounds_in_copy(const VolumeInfo& copy, Index3 shape, const Box3& bounds) {
            high(bounds.hi.z, c.z, shape.z)}};
 }
 
-ObjectLabels scan_for_object(const LabelVolume& copy, Index3 shape, const ObjectLabels& labels,
-                             const Box3& bounds, const std::function<void(const Box3&)>& visit) {
-  const Index3 coarse = copy.info().shape;
+ObjectLabels scan_for_object(const LabelVolume& copy, const ObjectScan& scan,
+                             const std::function<void(const Box3&)>& visit,
+                             const CellReaders& readers) {
+  const Index3 coarse = copy.info().shape, shape = scan.shape;
   const auto first = [](std::int64_t at, std::int64_t fine, std::int64_t all) {
     return std::max<std::int64_t>(at - 1, 0) * fine / all;
   };
   const auto past = [](std::int64_t at, std::int64_t fine, std::int64_t all) {
     return std::min((at + 2) * fine / all + 1, fine);
   };
-  const Box3 looked_at = bounds_in_copy(copy.info(), shape, bounds);
+  const Box3 looked_at = bounds_in_copy(copy.info(), shape, scan.bounds);
   const ObjectCells tiles(coarse, cell_size(copy.info()));
+  const Box3 over = tiles.met_by(looked_at);
   std::set<RawLabel> seen;
-  std::vector<RawLabel> voxels;
-  for_each_index(tiles.met_by(looked_at), [&](Index3 tile) {
-    const Box3 box = intersection(tiles.voxels(tile), looked_at);
-    voxels.resize(static_cast<std::size_t>(box.voxels()));
+  std::mutex visiting;
+  readers.at_once(readers.count, over.shape(), [&](Index3 tile) {
+    const Box3 box = intersection(tiles.voxels(over.lo + tile), looked_at);
+    std::vector<RawLabel> voxels(static_cast<std::size_t>(box.voxels()));
     copy.read(box, voxels);
+    const std::lock_guard turn(visiting);
     std::size_t at = 0;
     for_each_index(box, [&](Index3 v) {
       const RawLabel label = voxels[at++];
-      if (!is_one_of(labels, label)) return;
+      if (!is_one_of(scan.labels, label)) return;
       seen.insert(label);
       visit(intersection({{first(v.x, shape.x, coarse.x), first(v.y, shape.y, coarse.y),
                            first(v.z, shape.z, coarse.z)},
                           {past(v.x, shape.x, coarse.x), past(v.y, shape.y, coarse.y),
                            past(v.z, shape.z, coarse.z)}},
-                         bounds));
+                         scan.bounds));
     });
   });
   return {seen.begin(), seen.end()};

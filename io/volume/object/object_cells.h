@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "io/volume/at_once.h"
 #include "io/volume/label_volume.h"
 
 namespace mw::io {
@@ -53,19 +54,38 @@ struct FoundObject {
 /// Returns the size of cells that are worth reading: that of the volume's chunks where it is handy.
 [[nodiscard]] Index3 cell_size(const VolumeInfo& info);
 
+/// How cells are read: `count` of them at once.  What is found does not depend on it.
+struct CellReaders {
+  int count = 1;
+  VisitAtOnce at_once = visit_in_turn;
+};
+/// Returns how many cells of a volume are read at once: several where reading waits for a network,
+/// as far as they fit into `memory` bytes (readers_that_fit()).
+[[nodiscard]] int cell_readers(const LabelVolume& volume, std::uint64_t memory);
+
 /// Follows an object from some cells on, through all voxels of its labels that touch each other by
 /// a face, an edge or a corner.  What touches none of the seeds' voxels is not found, and nothing
 /// outside of `bounds` is looked at.
 /// Cost: reads each cell of the object once, and each cell that the object touches.
 /// ERRORS: mw::Error(kInput) naming a label of which no voxel was found; what reading throws.
 [[nodiscard]] FoundObject follow_object(const LabelVolume& volume, const ObjectLabels& labels,
-                                        ObjectCells seeds, const Box3& bounds);
+                                        ObjectCells seeds, const Box3& bounds,
+                                        const CellReaders& readers = {});
 
-/// Looks for labels in a coarser copy of a volume of this shape, within `bounds`.  For each voxel
-/// of the copy that has one, calls visit(box) with the box of it and one more voxel of the copy
-/// around it.  Boxes are in voxels of the volume.  Returns the labels that were seen, ascending.
-ObjectLabels scan_for_object(const LabelVolume& copy, Index3 shape, const ObjectLabels& labels,
-                             const Box3& bounds, const std::function<void(const Box3&)>& visit);
+/// What scan_for_object() looks for.
+struct ObjectScan {
+  Index3 shape;  ///< of the volume
+  const ObjectLabels& labels;
+  Box3 bounds;  ///< the voxels of the volume that are looked at
+};
+
+/// Looks for labels in a coarser copy of a volume.  For each voxel of the copy that has one, calls
+/// visit(box) with the box of it and one more voxel of the copy around it, in no particular order,
+/// one after the other.  Boxes are in voxels of the volume.  Returns the labels that were seen,
+/// ascending.
+ObjectLabels scan_for_object(const LabelVolume& copy, const ObjectScan& scan,
+                             const std::function<void(const Box3&)>& visit,
+                             const CellReaders& readers = {});
 
 /// Returns the voxels of a copy of the volume that scan_for_object() looks at.
 [[nodiscard]] Box3 bounds_in_copy(const VolumeInfo& copy, Index3 shape, const Box3& bounds);

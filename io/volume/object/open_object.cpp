@@ -56,9 +56,12 @@ class SeedSearch {
                           " voxels; give --crop around the object"));
     }
     ObjectCells& seeds = seeds_.emplace(shape, cell_size(scaled_.volume->info()));
-    seen_ = scan_for_object(copy, shape, labels_, bounds_, [&](const Box3& around) {
-      for_each_index(seeds.met_by(around), [&](Index3 cell) { seeds.add(cell); });
-    });
+    seen_ = scan_for_object(copy, {shape, labels_, bounds_},
+                            [&](const Box3& around) {
+                              for_each_index(seeds.met_by(around),
+                                             [&](Index3 cell) { seeds.add(cell); });
+                            },
+                            {cell_readers(copy, scaled_.memory), scaled_.at_once});
     return seen_ == labels_;
   }
 
@@ -77,7 +80,8 @@ ObjectView open_object(ScaledVolume scaled, ObjectLabels labels, const Box3& bou
     fail_usage("--object: label ", kNotTheObject, " stands for all that is not the object");
   }
   ObjectCells seeds = SeedSearch(scaled, labels, bounds).find();
-  FoundObject found = follow_object(*scaled.volume, labels, std::move(seeds), bounds);
+  FoundObject found = follow_object(*scaled.volume, labels, std::move(seeds), bounds,
+                                    {cell_readers(*scaled.volume, scaled.memory), scaled.at_once});
   const Box3 box = intersection(grown(found.box, kObjectMargin), bounds);
   scaled.volume->drop_buffers();
   return {std::make_unique<ObjectVolume>(std::move(scaled.volume), std::move(labels),

@@ -23,6 +23,9 @@ struct ScaledVolume {
   std::function<std::unique_ptr<LabelVolume>(int)> open_copy = {};
   /// Coarser copies are passed over while the next finer one has at most this many voxels.
   std::uint64_t cheap_voxels = std::uint64_t{1} << 24;
+  /// The bytes of the budget, and the loop, for those that read several cells at once.
+  std::uint64_t memory = std::uint64_t{256} << 20U;
+  VisitAtOnce at_once = visit_in_turn;
 };
 
 /// What is seen of a volume when only an object matters.

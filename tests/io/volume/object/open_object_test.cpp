@@ -25,6 +25,7 @@ class MemoryVolume : public LabelVolume {
     info_.chunk = chunk;
   }
   [[nodiscard]] const VolumeInfo& info() const override { return info_; }
+  void set_far() { info_.is_far = true; }
   void read(const Box3& box, std::span<RawLabel> out) const override {
     const Box3 all{{0, 0, 0}, info_.shape};
     std::size_t at = 0;
@@ -215,6 +216,48 @@ void expect_refused(const Sample& sample, const ObjectLabels& labels, ErrorKind 
     EXPECT_EQ(error.kind(), kind);
     EXPECT_NE(std::string(error.what()).find(words), std::string::npos) << error.what();
   }
+}
+
+/// Visits in no order that cells have, and notes how many were to be visited at once.
+VisitAtOnce shuffled(std::mt19937& random, int& most) {
+  return [&](int threads, Index3 shape, const std::function<void(Index3)>& visit) {
+    most = std::max(most, threads);
+    std::vector<Index3> all;
+    for_each_index(shape, [&](Index3 i) { all.push_back(i); });
+    std::shuffle(all.begin(), all.end(), random);
+    for (const Index3 i : all) visit(i);
+  };
+}
+
+TEST(OpenObject, IsTheSameWhereSeveralCellsAreReadAtOnce) {
+  for (unsigned seed = 0; seed < 20; ++seed) {
+    SCOPED_TRACE(seed);
+    std::mt19937 random(seed);
+    const Sample sample = random_sample(random);
+    if (!has_all(sample, {kOne})) continue;
+    int most = 0;
+    ScaledVolume source = scaled(sample, {7, 3});
+    dynamic_cast<MemoryVolume&>(*source.volume).set_far();
+    source.at_once = shuffled(random, most);
+    const ObjectView view = open_object(std::move(source), {kOne}, sample.box());
+    EXPECT_EQ(most, 8);
+    const ObjectView in_turn = open_object(scaled(sample, {7, 3}), {kOne}, sample.box());
+    EXPECT_EQ(view.box, in_turn.box);
+    std::vector<RawLabel> voxels(sample.voxels.size()), expected(sample.voxels.size());
+    view.volume->read(sample.box(), voxels);
+    in_turn.volume->read(sample.box(), expected);
+    EXPECT_EQ(voxels, expected);
+  }
+}
+
+TEST(OpenObject, ReadsFewerCellsAtOnceWhereMemoryIsLittle) {
+  MemoryVolume volume({64, 64, 64}, {});
+  constexpr std::uint64_t kCell = 16 * 16 * 16 * sizeof(RawLabel);
+  EXPECT_EQ(cell_readers(volume, 1000 * kCell), 1);
+  volume.set_far();
+  EXPECT_EQ(cell_readers(volume, 1000 * kCell), 8);
+  EXPECT_EQ(cell_readers(volume, 12 * kCell), 3);
+  EXPECT_EQ(cell_readers(volume, kCell), 1);
 }
 
 TEST(OpenObject, RefusesWhatIsNotThere) {
