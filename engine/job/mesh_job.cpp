@@ -23,6 +23,7 @@
 #include "engine/labels/fingerprint.h"
 #include "engine/labels/label_scan.h"
 #include "engine/labels/score_crossings.h"
+#include "engine/labels/shared_reads.h"
 #include "engine/labels/size_image.h"
 #include "engine/labels/voxel_lattice.h"
 #include "engine/settings/number_text.h"
@@ -84,7 +85,8 @@ class KeptInput {
  public:
   /// ERRORS: those of KeepFolder and KeptLabels; mw::Error(kUsage) when the labels before are those
   /// of a volume of another shape, and for Delta::kOn when no run before was complete.
-  KeptInput(const io::LabelVolume& opened, const MeshJob& job) : counted_(opened) {
+  KeptInput(const io::LabelVolume& opened, const MeshJob& job)
+      : counted_(opened), memory_(job.run.store.memory) {
     const KeepOptions& options = job.run.keep;
     const bool speaks = job.run.processes == nullptr || job.run.processes->speaks();
     if (options.folder.empty() || !speaks) return;
@@ -104,7 +106,7 @@ class KeptInput {
     if (folder_ == nullptr) return;
     folder_->begin_change(changed_);
     after_ = std::make_unique<io::AtomicFile>(folder_->path() / kLabelsFile);
-    write_kept_labels(volume(), *after_);
+    write_kept_labels(volume(), *after_, scanner_count(volume(), 1, memory_));
     folder_->expect_labels(after_->appended());
   }
 
@@ -130,7 +132,9 @@ class KeptInput {
                     .folder = folder_->path(),
                     .between = job.stop};
     task.memory_bytes = std::min(task.memory_bytes, job.run.store.memory / 8);
-    VolumeDelta delta = delta_of(before.volume(), after, task);
+    const ReaderRoom room{.each = kComparerBytes, .memory = job.run.store.memory};
+    const int readers = reader_count(after, 1, room);
+    VolumeDelta delta = delta_of(before.volume(), after, task, readers);
     delta.is_renumbered = is_renumbered_;
     return delta_json(delta, note_.size, size);
   }
@@ -196,6 +200,7 @@ class KeptInput {
   }
 
   CountedVolume counted_;
+  std::uint64_t memory_;  ///< bytes of the budget
   std::shared_ptr<KeepFolder> folder_;
   std::optional<KeptLabels> before_;
   Note note_;                   ///< of the run before
@@ -430,9 +435,10 @@ report::FinishedRun mesh_and_keep(const io::LabelVolume& opened, const MeshJob& 
   if (sizes) sizes.emplace(sizes->scaled(std::ldexp(1.0, halvings)));
   const StoppableVolume from_file(opened, job.stop);
   KeptInput kept(from_file, job);
-  const io::LabelVolume& stoppable = kept.volume();
-  const io::PreparedInput input(stoppable, job.steps,
-                                io::SpeckLimits::of_budget(job.run.store.memory));
+  const io::SpeckLimits limits = io::SpeckLimits::of_budget(job.run.store.memory);
+  SharedReads shared(kept.volume(), job.run.store.memory - limits.memory);
+  const io::PreparedInput input(shared, job.steps, limits);
+  shared.end();
   return_free_memory_above(0);  // the search for specks has let go of more than is held
   FingerprintVolume volume(input.volume());
   Processes& processes = job.run.processes == nullptr ? one_process() : *job.run.processes;

@@ -7,6 +7,7 @@
 
 #include "engine/job/unpacking.h"
 #include "engine/labels/label_scan.h"
+#include "engine/labels/shared_reads.h"
 #include "engine/march/march.h"
 #include "engine/report/figures.h"
 #include "engine/report/mesh_facts.h"
@@ -160,13 +161,16 @@ report::Bounds bounds_of(const AskedBounds& asked, const io::MeshRecord& record,
 
 report::Verdict verify(const VerifyJob& job, const std::function<void(io::MeshSink&)>& deliver) {
   check_unpacking(job.volume, {.memory = job.memory, .shares = 2});
-  const io::PreparedInput input(job.volume, job.steps, io::SpeckLimits::of_budget(job.memory));
+  const io::SpeckLimits limits = io::SpeckLimits::of_budget(job.memory);
+  SharedReads shared(job.volume, job.memory - limits.memory);
+  const io::PreparedInput input(shared, job.steps, limits);
+  shared.end();
   const io::LabelVolume& volume = input.volume();
   const io::VolumeInfo& info = volume.info();
   report::Verdict verdict{
       .specks = input.specks(),
       .welds = input.welds(),
-      .table = collect_labels(volume, scanner_count(volume, job.threads, job.memory / 2)),
+      .table = collect_labels(volume, scanner_count(volume, job.threads, job.memory)),
       .names = info.names};
   MeshTiles mesh(info, verdict.table, {job.folder, job.memory / 8});
   StoppableSink stoppable(mesh, job.between);

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <map>
+#include <mutex>
 #include <set>
 #include <string>
 #include <utility>
@@ -11,6 +12,7 @@
 #include "engine/labels/label_scan.h"
 #include "engine/labels/reading_tiles.h"
 #include "engine/report/mesh_facts.h"
+#include "engine/system/tbb_for.h"
 #include "engine/verify/tile_grid.h"
 #include "engine/verify/volume_stage.h"
 #include "io/labels/label_table.h"
@@ -20,18 +22,19 @@ namespace mw::engine {
 namespace {
 
 /// Returns the labels of voxels that changed, both of before and after.
-std::set<RawLabel> compare(const io::LabelVolume& before, const io::LabelVolume& after,
+std::set<RawLabel> compare(const io::LabelVolume& before, const io::LabelVolume& after, int readers,
                            VolumeDelta& out) {
   std::set<RawLabel> touched;
+  std::mutex noting;
   const ReadingTiles tiles(after.info());
-  std::vector<RawLabel> old_labels, new_labels;
-  for_each_index(tiles.count(), [&](Index3 tile) {
+  tbb_for_each_index(readers, tiles.count(), [&](Index3 tile) {
     const Box3 box = tiles.box(tile);
-    old_labels.resize(static_cast<std::size_t>(box.voxels()));
-    new_labels.resize(old_labels.size());
+    std::vector<RawLabel> old_labels(static_cast<std::size_t>(box.voxels()));
+    std::vector<RawLabel> new_labels(old_labels.size());
     before.read(box, old_labels);
     after.read(box, new_labels);
     if (old_labels == new_labels) return;
+    const std::lock_guard turn(noting);
     std::size_t at = 0;
     for_each_index(box, [&](Index3 voxel) {
       const RawLabel was = old_labels[at], is = new_labels[at];
@@ -48,9 +51,9 @@ std::set<RawLabel> compare(const io::LabelVolume& before, const io::LabelVolume&
 using FactsByLabel = std::map<RawLabel, LabelFacts>;
 
 FactsByLabel facts_of(const io::LabelVolume& volume, const std::set<RawLabel>& wanted,
-                      const VerifyTask& task) {
-  const io::LabelTable table =
-      collect_labels(volume, scanner_count(volume, task.threads, task.memory_bytes));
+                      const VerifyTask& task, int readers) {
+  const int scanners = scanner_count(volume, task.threads, task.memory_bytes);
+  const io::LabelTable table = collect_labels(volume, std::max(scanners, readers));
   const io::DenseVolume labels(volume, table);
   const VolumeFindings found =
       look_at_volume(labels, TileGrid(volume.info().shape, {1, 1, 1}), task, {});
@@ -69,12 +72,12 @@ std::optional<LabelFacts> fact(const FactsByLabel& facts, RawLabel label) {
 }
 
 std::vector<ContactChange> contact_changes(const io::LabelVolume& before,
-                                           const io::LabelVolume& after) {
+                                           const io::LabelVolume& after, int readers) {
   std::map<std::pair<RawLabel, RawLabel>, ContactChange> all;
-  for (const LabelContact& c : label_contacts(before)) {
+  for (const LabelContact& c : label_contacts(before, readers)) {
     all[{c.first, c.second}] = {c.first, c.second, c.faces, {}};
   }
-  for (const LabelContact& c : label_contacts(after)) {
+  for (const LabelContact& c : label_contacts(after, readers)) {
     ContactChange& change = all[{c.first, c.second}];
     change.first = c.first;
     change.second = c.second;
@@ -119,16 +122,17 @@ io::Json size_json(const MeshSize& size) {
 }  // namespace
 
 VolumeDelta delta_of(const io::LabelVolume& before, const io::LabelVolume& after,
-                     const VerifyTask& task) {
+                     const VerifyTask& task, int readers) {
   VolumeDelta out;
   out.labels_signed = has_signed_labels(after.info());
-  const std::set<RawLabel> touched = compare(before, after, out);
+  const std::set<RawLabel> touched = compare(before, after, readers, out);
   if (touched.empty()) return out;
-  const FactsByLabel was = facts_of(before, touched, task), is = facts_of(after, touched, task);
+  const FactsByLabel was = facts_of(before, touched, task, readers);
+  const FactsByLabel is = facts_of(after, touched, task, readers);
   for (const RawLabel label : touched) {
     out.labels.push_back({label, fact(was, label), fact(is, label)});
   }
-  out.contacts = contact_changes(before, after);
+  out.contacts = contact_changes(before, after, readers);
   out.box = {out.box.lo + after.info().first, out.box.hi + after.info().first};
   if (out.labels_signed) sort_signed(out);
   return out;

@@ -44,11 +44,15 @@ struct VolumeDelta {
   bool is_renumbered = false;  ///< labels were given other numbers (VolumeInfo::numbering)
 };
 
+/// What a thread takes that reads a tile of both volumes.
+inline constexpr std::uint64_t kComparerBytes = std::uint64_t{8} << 20U;
+
 /// Compares two volumes of the same shape, in several passes over both.  Of task, it looks at
-/// threads, memory, folder and between.
-/// ERRORS: those of the volumes, and of temporary files.
+/// threads, readers, memory, folder and between.  Where tiles are only read, `readers` threads do
+/// so at once, each of which takes up to kComparerBytes. ERRORS: those of the volumes, and of
+/// temporary files.
 [[nodiscard]] VolumeDelta delta_of(const io::LabelVolume& before, const io::LabelVolume& after,
-                                   const VerifyTask& task);
+                                   const VerifyTask& task, int readers);
 
 /// The size of a mesh.
 struct MeshSize {

@@ -8,6 +8,7 @@
 #include <array>
 
 #include "engine/store/journal/work_file.h"
+#include "engine/system/in_order.h"
 #include "engine/window/window_grid.h"
 #include "io/codec/checksums.h"
 #include "io/codec/codec.h"
@@ -124,7 +125,7 @@ void append_note(io::AtomicFile& file, const std::string& note) {
   file.append(note);
 }
 
-void write_kept_labels(const io::LabelVolume& volume, io::AtomicFile& file) {
+void write_kept_labels(const io::LabelVolume& volume, io::AtomicFile& file, int threads) {
   const io::VolumeInfo& info = volume.info();
   const ReadingTiles tiles(info);
   const auto number = [](std::int64_t v) { return static_cast<std::uint64_t>(v); };
@@ -142,12 +143,14 @@ void write_kept_labels(const io::LabelVolume& volume, io::AtomicFile& file) {
   const std::size_t head_bytes = (kHeadNumbers + 3 * count + 1) * sizeof(std::uint64_t);
   file.append(std::vector<std::byte>(head_bytes));
   io::ZstdPacker packer(kLabelPackLevel);
-  std::vector<RawLabel> labels;
   std::vector<std::byte> packed;
-  for_each_index(tiles.count(), [&](Index3 tile) {
-    const Box3 box = tiles.box(tile);
-    labels.resize(static_cast<std::size_t>(box.voxels()));
-    volume.read(box, labels);
+  const std::vector<Box3> boxes = tiles.boxes({});
+  const auto read = [&](std::size_t tile) {
+    std::vector<RawLabel> labels(static_cast<std::size_t>(boxes[tile].voxels()));
+    volume.read(boxes[tile], labels);
+    return labels;
+  };
+  const auto append = [&](std::size_t /*tile*/, std::vector<RawLabel>&& labels) {
     packed.clear();
     if constexpr (io::kHostOrder == io::ByteOrder::kLittle) {
       packer.append(std::as_bytes(std::span(labels)), packed);
@@ -158,7 +161,9 @@ void write_kept_labels(const io::LabelVolume& volume, io::AtomicFile& file) {
     head.push_back(packed.size());
     head.push_back(io::checksum(packed));
     file.append(packed);
-  });
+  };
+  const WorkInOrder how{.threads = threads, .at_once = static_cast<std::size_t>(threads)};
+  each_in_order<std::vector<RawLabel>>(how, boxes.size(), read, append);
   head.push_back(io::checksum(bytes_of(head)));
   file.write_at(0, bytes_of(head));
 }

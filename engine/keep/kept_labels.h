@@ -37,7 +37,7 @@ class KeptLabels {
   [[nodiscard]] std::string note() const;
 
  private:
-  friend void write_kept_labels(const io::LabelVolume& volume, io::AtomicFile& file);
+  friend void write_kept_labels(const io::LabelVolume& volume, io::AtomicFile& file, int threads);
   struct Place {
     std::uint64_t offset = 0;
     std::uint64_t size = 0;
@@ -52,8 +52,9 @@ class KeptLabels {
   std::vector<Place> places_;
 };
 
-/// Writes the file that KeptLabels opens.  It reads the volume once, and holds two tiles in memory.
-void write_kept_labels(const io::LabelVolume& volume, io::AtomicFile& file);
+/// Writes the file that KeptLabels opens.  It reads the volume once, on `threads` threads, each of
+/// which holds a tile in memory; the file does not depend on their number.
+void write_kept_labels(const io::LabelVolume& volume, io::AtomicFile& file, int threads = 1);
 
 /// Appends a note to that file.  REQUIRES: write_kept_labels() has written it; called once.
 void append_note(io::AtomicFile& file, const std::string& note);

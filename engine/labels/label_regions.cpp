@@ -131,18 +131,19 @@ std::vector<LabelRegion> label_regions(const io::LabelVolume& volume) {
   return out;
 }
 
-std::vector<LabelContact> label_contacts(const io::LabelVolume& volume) {
+std::vector<LabelContact> label_contacts(const io::LabelVolume& volume, int threads) {
   const ReadingTiles tiles(volume.info());
   const Index3 shape = volume.info().shape;
   ContactCount count;
-  std::vector<RawLabel> labels;
-  for_each_index(tiles.count(), [&](Index3 tile) {
+  std::mutex counting;
+  tbb_for_each_index(threads, tiles.count(), [&](Index3 tile) {
     const Box3 box = tiles.box(tile);
     const Box3 read{box.lo,
                     {std::min(box.hi.x + 1, shape.x), std::min(box.hi.y + 1, shape.y),
                      std::min(box.hi.z + 1, shape.z)}};
-    labels.resize(static_cast<std::size_t>(read.voxels()));
+    std::vector<RawLabel> labels(static_cast<std::size_t>(read.voxels()));
     volume.read(read, labels);
+    const std::lock_guard turn(counting);
     count.add(box, read, labels);
   });
   return count.contacts();

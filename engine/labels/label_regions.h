@@ -29,8 +29,10 @@ struct LabelContact {
 };
 
 /// Returns the contacts, ascending by first, then second, in one pass over the volume.
-/// Memory: a tile (ReadingTiles) and one voxel around it, and some 100 bytes a pair.
+/// `threads` threads read; their number does not change the result.
+/// Memory: on each thread a tile (ReadingTiles) and one voxel around it, and some 100 bytes a pair.
 /// ERRORS: what the volume throws.
-[[nodiscard]] std::vector<LabelContact> label_contacts(const io::LabelVolume& volume);
+[[nodiscard]] std::vector<LabelContact> label_contacts(const io::LabelVolume& volume,
+                                                       int threads = 1);
 
 }  // namespace mw::engine

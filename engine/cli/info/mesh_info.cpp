@@ -4,15 +4,20 @@
 #include "engine/cli/info/mesh_info.h"
 
 #include <algorithm>
+#include <limits>
 #include <memory>
 
 #include "engine/labels/label_regions.h"
+#include "engine/labels/label_scan.h"
+#include "engine/labels/shared_reads.h"
 
 namespace mw::cli {
 
 VolumeSide look_at_volume(const VolumeRequest& request, bool with_areas) {
   const std::unique_ptr<io::LabelVolume> opened = open(request);
-  const io::PreparedInput input(*opened, request.steps);
+  engine::SharedReads shared(*opened);
+  const io::PreparedInput input(shared, request.steps);
+  shared.end();
   const io::VolumeInfo& info = input.volume().info();
   VolumeSide out{.voxels = {}, .unit = info.space.unit, .names = info.names, .areas = {}};
   for (const engine::LabelRegion& region : engine::label_regions(input.volume())) {
@@ -21,7 +26,9 @@ VolumeSide look_at_volume(const VolumeRequest& request, bool with_areas) {
   const auto& edge = info.space.spacing;
   for (const double length : edge) out.voxel_volume *= length;
   if (!with_areas) return out;
-  for (const engine::LabelContact& c : engine::label_contacts(input.volume())) {
+  constexpr auto kMuch = std::numeric_limits<std::uint64_t>::max();
+  const int readers = engine::scanner_count(input.volume(), 1, kMuch);
+  for (const engine::LabelContact& c : engine::label_contacts(input.volume(), readers)) {
     double area = 0;
     for (std::size_t k = 0; k < 3; ++k) {
       area += static_cast<double>(c.faces[k]) * edge[(k + 1) % 3] * edge[(k + 2) % 3];

@@ -9,6 +9,7 @@
 #include <iostream>
 
 #include "engine/cli/info/fact_text.h"
+#include "engine/labels/shared_reads.h"
 #include "engine/report/figures.h"
 #include "io/remote/address.h"
 #include "io/volume/open_volume.h"
@@ -92,7 +93,9 @@ bool reads_labels(const VolumeRequest& request) {
 
 VolumeFacts::VolumeFacts(const VolumeRequest& request) {
   const std::unique_ptr<io::LabelVolume> opened = open(request);
-  const io::PreparedInput input(*opened, request.steps);
+  engine::SharedReads shared(*opened);
+  const io::PreparedInput input(shared, request.steps);
+  shared.end();
   info_ = input.volume().info();
   if (reads_labels(request)) regions_ = engine::label_regions(input.volume());
   facts_ = facts_of(request, info_, regions_);

@@ -77,6 +77,21 @@ class Remote(unittest.TestCase):
                     self.assertLessEqual(max(server.waiting), 8)
             self.assertEqual(run("digest", "remote.vtkhdf"), self.digests["precomputed"])
 
+    def test_several_requests_wait_at_once_before_a_run(self):
+        """Where labels are looked through for an object, for specks and for what is welded."""
+        with Server("stores") as server:
+            for steps in (["--object", "3,4,5"], ["--drop-specks", "9"], ["--weld", "0"]):
+                with self.subTest(steps[0]):
+                    server.wait, server.waiting = 0.05, []
+                    facts = json.loads(run("info", f"{server.address}/zarr2", "--scale", "0",
+                                           "--json", *steps))
+                    paths = [path for path, _ in server.requests[-len(server.waiting):]]
+                    first = next(i for i, path in enumerate(paths) if path[-1].isdigit())
+                    self.assertGreater(max(server.waiting[first:first + 20]), 1)
+                    self.assertLessEqual(max(server.waiting), 8)
+                    local = json.loads(run("info", "stores/zarr2", "--scale", "0", "--json", *steps))
+                    self.assertEqual(facts["labels"], local["labels"])
+
     def test_a_fifth_of_the_requests_fails(self):
         failed = 0
         for seed in range(5):

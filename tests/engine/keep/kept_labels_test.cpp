@@ -84,6 +84,21 @@ bool is_refused(const std::filesystem::path& path, Index3 shape) {
   }
 }
 
+TEST(KeptLabels, AreTheSameFileFromAnyNumberOfThreads) {
+  std::mt19937 random(3515);
+  const test::SmallVolume volume = random_volume_of(random, VolumeKind::kBlobs, {300, 90, 90}, 9);
+  const TempFolder folder;
+  std::vector<std::string> files;
+  for (const int threads : {1, 8}) {
+    const auto path = folder.path() / std::to_string(threads);
+    io::AtomicFile file(path);
+    write_kept_labels(MemoryVolume(volume, {}), file, threads);
+    file.commit();
+    files.push_back(mw::test::content_of(path));
+  }
+  EXPECT_EQ(files[0], files[1]);
+}
+
 TEST(KeptLabels, TellDamage) {
   std::mt19937 random(3514);
   const test::SmallVolume volume = random_volume_of(random, VolumeKind::kNoise, {20, 20, 20}, 50);
