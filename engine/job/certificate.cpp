@@ -3,6 +3,9 @@
 // A verification with what the run promised.
 #include "engine/job/certificate.h"
 
+#include <algorithm>
+#include <limits>
+
 #include "engine/job/verify_job.h"
 #include "engine/march/march.h"
 #include "engine/report/figures.h"
@@ -19,6 +22,33 @@ namespace {
 // Memory for buffers and lists, and on each thread for a tile with what is around it.
 constexpr std::uint64_t kShared = std::uint64_t{48} << 20U;
 constexpr std::uint64_t kPerThread = std::uint64_t{40} << 20U;
+
+std::uint64_t certificate_bytes(int threads, int readers, std::uint64_t reader_bytes) {
+  const auto n = static_cast<std::uint64_t>(threads);
+  const std::uint64_t reading =
+      readers > 1 ? static_cast<std::uint64_t>(readers) * reader_bytes : 0;
+  return kShared + n * (kPerThread + reading);
+}
+
+/// Returns the plan with most threads, and with all of their readers, that takes no more than
+/// `memory` bytes; with one thread there may be fewer readers.  It is the least there is where even
+/// that takes more.
+CertificatePlan largest_plan(int threads, std::uint64_t reader_bytes, std::uint64_t memory) {
+  const auto fits = [&](int n, int readers) {
+    return certificate_bytes(n, readers, reader_bytes) <= memory;
+  };
+  constexpr std::uint64_t kAll = std::numeric_limits<std::uint64_t>::max();
+  int readers = readers_of_thread(threads, reader_bytes, kAll);
+  while (threads > 1 && !fits(threads, readers)) {
+    readers = readers_of_thread(--threads, reader_bytes, kAll);
+  }
+  while (readers > 1 && !fits(threads, readers)) --readers;
+  return {.why_not = {},
+          .threads = threads,
+          .readers = readers,
+          .reader_bytes = reader_bytes,
+          .memory_bytes = certificate_bytes(threads, readers, reader_bytes)};
+}
 
 /// Returns "P2 faces: 3 triangles ..., P3 ...".
 std::string failures(const audit::AuditReport& report) {
@@ -48,17 +78,14 @@ std::string obstacle(const MeshJob& job) {
 
 }  // namespace
 
-CertificatePlan plan_certificate(const MeshJob& job) {
+CertificatePlan plan_certificate(const MeshJob& job, std::uint64_t reader_bytes) {
   if (job.certify == Certify::kOff) return {.why_not = "not asked for"};
   const std::string why_not = obstacle(job);
   if (!why_not.empty() && job.certify == Certify::kOn) {
     io::fail_usage("--certify on: " + why_not);
   }
   if (!why_not.empty()) return {.why_not = why_not};
-  const std::uint64_t max = (job.run.store.memory / 4 - kShared) / kPerThread;
-  const auto threads =
-      std::min<std::uint64_t>(max, static_cast<std::uint64_t>(thread_count(job.run.threads)));
-  return {.threads = static_cast<int>(threads), .memory_bytes = kShared + threads * kPerThread};
+  return largest_plan(thread_count(job.run.threads), reader_bytes, job.run.store.memory / 4);
 }
 
 CertificatePlan beside_others(const CertificatePlan& plan, const MeshJob& job,
@@ -66,11 +93,10 @@ CertificatePlan beside_others(const CertificatePlan& plan, const MeshJob& job,
   if (!plan.why_not.empty()) return plan;
   const std::uint64_t memory = job.run.store.memory;
   const std::uint64_t least = kShared + kPerThread;
-  CertificatePlan out = plan;
-  while (out.threads > 1 && (out.memory_bytes > memory || others > memory - out.memory_bytes)) {
-    out.memory_bytes = kShared + static_cast<std::uint64_t>(--out.threads) * kPerThread;
+  const std::uint64_t room = memory - std::min(others, memory);
+  if (job.certify == Certify::kOn || others + least <= memory) {
+    return plan.memory_bytes <= room ? plan : largest_plan(plan.threads, plan.reader_bytes, room);
   }
-  if (job.certify == Certify::kOn || others + least <= memory) return out;
   return {.why_not = "needs --memory " + io::mebibytes(others + least) + " or more here"};
 }
 
@@ -87,6 +113,7 @@ void Certifier::certify(const CertificatePlan& plan) {
   const io::MeshPromises promises = tiles_.header().record.promises.value();
   VerifyTask task{.options = audit_options(promises, volume_.info().space),
                   .threads = plan.threads,
+                  .readers = plan.readers,
                   .memory_bytes = kShared / 2,
                   .folder = folder_,
                   .between = stop_};

@@ -30,6 +30,7 @@
 #include "engine/settings/promises.h"
 #include "engine/store/journal/workdir.h"
 #include "engine/system/memory.h"
+#include "engine/verify/verify_mesh.h"
 #include "engine/version.h"
 #include "engine/window/window_memory.h"
 #include "io/file/errors.h"
@@ -134,6 +135,7 @@ class KeptInput {
     task.memory_bytes = std::min(task.memory_bytes, job.run.store.memory / 8);
     const ReaderRoom room{.each = kComparerBytes, .memory = job.run.store.memory};
     const int readers = reader_count(after, 1, room);
+    task.readers = readers_of_thread(task.threads, reader_bytes(after), task.memory_bytes);
     VolumeDelta delta = delta_of(before.volume(), after, task, readers);
     delta.is_renumbered = is_renumbered_;
     return delta_json(delta, note_.size, size);
@@ -414,7 +416,7 @@ namespace {
 report::FinishedRun mesh_and_keep(const io::LabelVolume& opened, const MeshJob& asked,
                                   io::MeshSink& sink) {
   MeshJob job = asked;
-  CertificatePlan plan = plan_certificate(job);
+  CertificatePlan plan = plan_certificate(job, reader_bytes(opened));
   const report::ResourceMeter meter;
   std::optional<SizeImage> sizes = size_image(opened.info(), job);
   const double smallest =

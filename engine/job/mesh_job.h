@@ -61,11 +61,14 @@ struct MeshJob {
 struct CertificatePlan {
   std::string why_not;  ///< empty if it is made
   int threads = 0;
-  std::uint64_t memory_bytes = 0;
+  int readers = 1;                 ///< of each thread (VerifyTask::readers)
+  std::uint64_t reader_bytes = 0;  ///< of each of them, if there are several; see reader_bytes()
+  std::uint64_t memory_bytes = 0;  ///< of all together
 };
 
-/// ERRORS: mw::Error(kUsage) when it is asked for and cannot be had.
-[[nodiscard]] CertificatePlan plan_certificate(const MeshJob& job);
+/// reader_bytes is that of the volume.  ERRORS: mw::Error(kUsage) when it is asked for and cannot
+/// be had.
+[[nodiscard]] CertificatePlan plan_certificate(const MeshJob& job, std::uint64_t reader_bytes = 0);
 
 /// Returns the pairs of labels that are written and whose interface has a size of its own, as
 /// ConnectOptions::watched has them.

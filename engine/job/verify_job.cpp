@@ -181,8 +181,10 @@ report::Verdict verify(const VerifyJob& job, const std::function<void(io::MeshSi
   const audit::KeptLabels partial = leave_parts_out(record, mesh.labels(), verdict.table, kept);
   tell_doubles(record, merged.merged(), kept);
   verdict.bounds = bounds_of(job.asked, record, kept);
+  const int threads = thread_count(job.threads);
   VerifyTask task{.options = audit_options(verdict.bounds.promises, info.space),
-                  .threads = thread_count(job.threads),
+                  .threads = threads,
+                  .readers = readers_of_thread(threads, reader_bytes(volume), job.memory / 8),
                   .memory_bytes = job.memory / 2,
                   .folder = job.folder,
                   .between = job.between};

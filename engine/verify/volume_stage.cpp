@@ -7,11 +7,12 @@
 #include <cmath>
 #include <limits>
 
-#include "engine/labels/label_scan.h"
+#include "engine/labels/reading_tiles.h"
 #include "engine/system/in_order.h"
 #include "engine/system/tbb_for.h"
 #include "engine/verify/part_links.h"
 #include "engine/verify/tile_labels.h"
+#include "io/volume/reader_room.h"
 #include "kernels/audit/distance/tile.h"
 #include "kernels/audit/shape/volumes.h"
 #include "kernels/audit/topology/parts_union.h"
@@ -52,13 +53,6 @@ struct LoadedVoxels {
   }
 };
 
-/// Returns how many readers each of the threads has that look at tiles: where reading waits for a
-/// network, they share those that scan such a volume, and otherwise a thread reads itself.
-int readers_of_thread(const io::DenseVolume& volume, int threads) {
-  const int all = scanner_count(volume.raw(), 1, std::numeric_limits<std::uint64_t>::max());
-  return (all + threads - 1) / threads;
-}
-
 Box3 scaled(const Box3& box, Index3 by) {
   return {layered_shape(box.lo, by), layered_shape(box.hi, by)};
 }
@@ -73,7 +67,7 @@ class VolumeStage {
         pieces_(mesh.pieces),
         junctions_(mesh.junctions),
         label_count_(volume.table().size()),
-        readers_(readers_of_thread(volume, task.threads)),
+        readers_(volume.info().is_far ? task.readers : 1),
         layers_(task.options.layers),
         limit_(audit::distance_limit(task.options.max_distance)),
         parts_(label_count_),
@@ -344,6 +338,21 @@ class VolumeStage {
 };
 
 }  // namespace
+
+std::uint64_t reader_bytes(const io::LabelVolume& volume) {
+  // Labels of a tile, dense and, in part, as they are read; and what a request takes.
+  constexpr std::uint64_t kTileBytes = std::uint64_t{3} << 20U;
+  if (!volume.info().is_far) return 0;
+  return kTileBytes + volume.buffer_bytes(2) - volume.buffer_bytes(1);
+}
+
+int readers_of_thread(int threads, std::uint64_t reader_bytes, std::uint64_t memory) {
+  if (reader_bytes == 0) return 1;
+  const auto n = static_cast<std::uint64_t>(threads);
+  int each = (io::kFarReaders + threads - 1) / threads;
+  while (each > 1 && n * static_cast<std::uint64_t>(each) * reader_bytes > memory) --each;
+  return each;
+}
 
 VolumeFindings look_at_volume(const io::DenseVolume& volume, const TileGrid& grid,
                               const VerifyTask& task, const MeshInterface& mesh) {

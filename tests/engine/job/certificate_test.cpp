@@ -5,6 +5,8 @@
 
 #include <nlohmann/json.hpp>
 
+#include "engine/labels/reading_tiles.h"
+#include "engine/verify/verify_mesh.h"
 #include "kernels/core/error.h"
 #include "tests/engine/cli/run_program.h"
 #include "tests/engine/memory_run.h"
@@ -132,6 +134,61 @@ TEST(CertificatePlan, IsDroppedWhereTheRunWouldNotFitBesideIt) {
             std::string::npos);
   job.certify = engine::Certify::kOn;
   EXPECT_EQ(engine::beside_others(plan, job, kGibibyte).why_not, "");
+}
+
+/// A volume far away, of which nothing is read.
+class FarVolume : public io::LabelVolume {
+ public:
+  FarVolume() { info_.is_far = true; }
+  [[nodiscard]] const io::VolumeInfo& info() const override { return info_; }
+  void read(const Box3& /*box*/, std::span<RawLabel> /*out*/) const override { FAIL(); }
+  [[nodiscard]] std::uint64_t buffer_bytes(int threads) const override {
+    return 1000 + kEach * static_cast<std::uint64_t>(threads);
+  }
+
+  static constexpr std::uint64_t kEach = 1 << 20;
+
+ private:
+  io::VolumeInfo info_;
+};
+
+TEST(CertificatePlan, CountsTheReadersOfAVolumeFarAway) {
+  engine::MeshJob job;
+  job.run.store.memory = kGibibyte;
+  const std::uint64_t each = engine::reader_bytes(FarVolume());
+  EXPECT_GT(each, FarVolume::kEach + engine::ReadingTiles::kMaxVoxels * sizeof(Label));
+  const std::vector<std::pair<int, int>> readers{{1, 8}, {2, 4}, {3, 3}};
+  for (const auto& [threads, of_thread] : readers) {
+    job.run.threads = threads;
+    const engine::CertificatePlan near = engine::plan_certificate(job);
+    const engine::CertificatePlan far = engine::plan_certificate(job, each);
+    EXPECT_EQ(near.readers, 1);
+    EXPECT_EQ(far.threads, threads);
+    EXPECT_EQ(far.readers, of_thread);
+    EXPECT_EQ(far.memory_bytes,
+              near.memory_bytes + static_cast<std::uint64_t>(threads * of_thread) * each);
+  }
+}
+
+/// Threads are given up first, and then readers.
+TEST(CertificatePlan, HasFewerReadersWhereMemoryIsLittle) {
+  engine::MeshJob job;
+  job.run.threads = 2;
+  const std::uint64_t each = engine::reader_bytes(FarVolume());
+  const auto planned = [&](std::uint64_t mebibytes) {
+    job.run.store.memory = mebibytes << 20U;
+    const engine::CertificatePlan plan = engine::plan_certificate(job, each);
+    EXPECT_LE(plan.memory_bytes, job.run.store.memory / 4);
+    return std::pair(plan.threads, plan.readers);
+  };
+  EXPECT_EQ(planned(1024), std::pair(2, 4));
+  EXPECT_EQ(planned(512), std::pair(1, 8));
+  EXPECT_EQ(planned(352 + 4 * 3 * 4), std::pair(1, 3));
+  EXPECT_EQ(planned(352), std::pair(1, 1));
+  job.run.store.memory = kGibibyte;
+  const engine::CertificatePlan plan = engine::plan_certificate(job, each);
+  const std::uint64_t others = kGibibyte - (std::uint64_t{88} << 20U) - 5 * each;
+  EXPECT_EQ(engine::beside_others(plan, job, others).readers, 5);
 }
 
 TEST_F(CertificateTest, IsMadeWhereLabelsAreLeftOut) {

@@ -229,5 +229,14 @@ TEST(VerifyMesh, LooksAsFarAsItMust) {
   EXPECT_EQ(report.distance->far_samples, 0U);
 }
 
+TEST(ReadersOfThread, AreEightTogetherAndFewerWhereMemoryIsLittle) {
+  EXPECT_EQ(readers_of_thread(1, 0, 1000), 1);
+  EXPECT_EQ(readers_of_thread(1, 10, 1000), 8);
+  EXPECT_EQ(readers_of_thread(3, 10, 1000), 3);
+  EXPECT_EQ(readers_of_thread(8, 10, 1000), 1);
+  EXPECT_EQ(readers_of_thread(1, 10, 59), 5);
+  EXPECT_EQ(readers_of_thread(3, 10, 59), 1);
+}
+
 }  // namespace
 }  // namespace mw::engine
