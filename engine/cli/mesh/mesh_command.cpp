@@ -289,6 +289,11 @@ int mesh(const MeshRequest& request, const OptionSet& options) {
   MeshFiles files(request, open_shared_output(request, is_certified));
   log_info("reading " + request.volume.path.string());
   const std::unique_ptr<io::LabelVolume> volume = open(request.volume);
+  if (volume->info().is_far && !request.volume.open.cache) {
+    log_warning(
+        "chunks that memory no longer holds are fetched anew in each pass over the volume, two or "
+        "three times in all; with --cache DIR each is fetched once, for later runs, too");
+  }
   check_changed(request, volume->info().shape);
   if (volume->scores() != nullptr) {
     log_warning(std::string(engine::kVolumesOfScores) + "; volumes are not promised (P8)");

@@ -211,7 +211,7 @@ void add_volume_options(OptionSet& options, VolumeRequest& request) {
                .assign = into(request.open.object, parse_labels)});
   options.add({.name = "cache",
                .value = "DIR[,SIZE]",
-               .help = "keeps what servers send, at most 10GiB, for later runs",
+               .help = "keeps what servers send, at most 10GiB: chunks are fetched once",
                .group = kInputGroup,
                .listed = Listed::kInHelpAll,
                .assign = into(request.open.cache, engine::parse_cache_folder)});

@@ -92,6 +92,14 @@ class Remote(unittest.TestCase):
                     local = json.loads(run("info", "stores/zarr2", "--scale", "0", "--json", *steps))
                     self.assertEqual(facts["labels"], local["labels"])
 
+    def test_a_run_without_a_cache_tells_of_it(self):
+        with Server("stores") as server:
+            for more, is_told in ((["--cache", "told"], False), ([], True)):
+                done = start("mesh", f"{server.address}/n5", "-o", "told.vtkhdf", "--force", *more)
+                self.assertEqual(done.returncode, 0, done.stderr)
+                self.assertEqual("with --cache DIR" in done.stderr, is_told, done.stderr)
+        self.assertNotIn("--cache", start("mesh", "v.npy", "-o", "told.vtkhdf", "--force").stderr)
+
     def test_a_fifth_of_the_requests_fails(self):
         failed = 0
         for seed in range(5):
