@@ -5,12 +5,13 @@
 
 #include <algorithm>
 #include <array>
-#include <fstream>
+#include <span>
 #include <string_view>
 #include <vector>
 
 #include "engine/cli/options/file_names.h"
 #include "io/file/errors.h"
+#include "io/file/source/file_source.h"
 
 namespace mw::cli {
 namespace {
@@ -77,15 +78,21 @@ constexpr std::array<std::string_view, 7> kMarks{"mwmesh",
                                                  "number,name,side,first,second\n",
                                                  "material,set,from,to,mean,tets,volume\n"};
 
+/// Returns what a file begins and ends with; nothing where it cannot be read.
 std::string ends_of(const fs::path& path) {
-  constexpr std::streamoff kBytes = 1 << 16;
-  std::ifstream file(path, std::ios::binary);
-  std::string out(2 * kBytes, '\0');
-  file.read(out.data(), kBytes);
-  if (!file) return out;
-  file.seekg(-kBytes, std::ios::end);
-  file.read(out.data() + kBytes, kBytes);
-  return out;
+  constexpr std::uint64_t kBytes = 1 << 16;
+  try {
+    const io::FileSource file(path);
+    const std::size_t size = std::min(file.size(), kBytes);
+    std::string out(2 * size, '\0');
+    const auto bytes = std::as_writable_bytes(std::span(out));
+    file.read_at(0, bytes.first(size));
+    file.read_at(file.size() - size, bytes.last(size));
+    return out;
+  } catch (const Error& error) {
+    if (error.kind() != ErrorKind::kInput) throw;
+    return {};
+  }
 }
 
 bool is_there(const fs::path& path) {
