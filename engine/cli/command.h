@@ -32,6 +32,7 @@ struct Command {
 [[nodiscard]] Command convert_command();
 [[nodiscard]] Command surface_command();
 [[nodiscard]] Command picture_command();
+[[nodiscard]] Command serve_command();
 [[nodiscard]] Command digest_command();
 [[nodiscard]] Command synth_command();
 

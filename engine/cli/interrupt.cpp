@@ -51,6 +51,10 @@ void end_if_interrupted() {
   handle(end_now);
 }
 
+void end_well_if_interrupted() {
+  handle([](int) { ::_exit(kExitDone); });
+}
+
 void watch_save_requests() {
   struct sigaction action {};
   action.sa_handler = [](int) { save_requested = true; };

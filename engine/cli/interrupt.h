@@ -20,6 +20,10 @@ void watch_interrupts();
 /// watch_interrupts() is called: before that there is nothing to be left in order.
 void end_if_interrupted();
 
+/// Makes these signals end the program at once with kExitDone: for a command that goes on until
+/// then and leaves nothing behind.
+void end_well_if_interrupted();
+
 /// ERRORS: Interrupted when a signal has been noted.  Thread-safe.
 void stop_if_interrupted();
 

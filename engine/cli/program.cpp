@@ -24,8 +24,9 @@ namespace {
 
 std::vector<Command> all_commands() {
   std::vector<Command> out;
-  for (const auto make : {mesh_command, verify_command, info_command, surface_command,
-                          picture_command, convert_command, digest_command, synth_command}) {
+  for (const auto make :
+       {mesh_command, verify_command, info_command, surface_command, picture_command, serve_command,
+        convert_command, digest_command, synth_command}) {
     out.push_back(make());
   }
   return out;

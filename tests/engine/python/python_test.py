@@ -8,7 +8,6 @@ import copy
 import csv
 import doctest
 import gc
-import http.client
 import inspect
 import json
 import os
@@ -23,8 +22,6 @@ import threading
 import time
 import unittest
 import unittest.mock
-import urllib.parse
-import urllib.request
 import warnings
 
 try:
@@ -35,7 +32,6 @@ except ImportError:
 
 import mwmesh
 import mwmesh._mesh
-import mwmesh.serve
 
 PROGRAM = os.environ["MW_PROGRAM"]
 
@@ -1323,81 +1319,6 @@ class Sessions(InFolder):
             mwmesh.Session(before, order="raster")
         with self.assertRaises(mwmesh.UsageError):
             mwmesh.Session(before, keep=self.path("kept"), window=8)
-
-
-class Serve(InFolder):
-    """python3 -m mwmesh.serve, as a program and as the viewer's pages meet it."""
-
-    def setUp(self):
-        super().setUp()
-        mwmesh.mesh(grains(), spacing=(2, 2, 3)).save(self.path("m.vtu"))
-
-    def state_of(self, address):
-        return json.loads(urllib.parse.unquote(address.split("#!", 1)[1]))
-
-    def test_the_link_shows_where_the_meshes_are(self):
-        for form in ("draco", "precomputed"):
-            self.program("surface", "m.vtu", "--format", form, "--unit", "um", "-o", form)
-            state = self.state_of(mwmesh.serve.link(self.path(form), "http://127.0.0.1:1"))
-            np.testing.assert_allclose(state["position"], [22e3, 18e3, 30e3])
-            [layer] = state["layers"]
-            self.assertEqual(layer["source"], "precomputed://http://127.0.0.1:1")
-            volumes = mwmesh.read(self.path("m.vtu")).volumes()
-            largest = sorted(volumes, key=lambda label: -volumes[label])
-            self.assertEqual(layer["segments"], [str(l) for l in largest if l != 0])
-
-    def test_parts_of_files_are_served_to_pages_from_anywhere(self):
-        self.program("surface", "m.vtu", "--format", "draco", "-o", "meshes")
-        whole = pathlib.Path(self.path("meshes/1")).read_bytes()
-        with mwmesh.serve.Server(self.path("meshes")) as server:
-            threading.Thread(target=server.serve_forever, daemon=True).start()
-            parts = {"bytes=3-17": (206, whole[3:18]), "bytes=9-": (206, whole[9:]),
-                     "bytes=-5": (206, whole[-5:]), "bytes=0-99999999": (206, whole),
-                     "bytes=99999999-": (416, b""), "bytes=-": (200, whole), None: (200, whole),
-                     f"bytes={5000 * '9'}-": (200, whole), f"bytes=0-{5000 * '9'}": (200, whole)}
-            for asked, (code, content) in parts.items():
-                connection = http.client.HTTPConnection("127.0.0.1", server.server_port)
-                connection.request("GET", "/1", headers={"Range": asked} if asked else {})
-                answer = connection.getresponse()
-                self.assertEqual((answer.status, answer.read()), (code, content), asked)
-                self.assertEqual(answer.headers["Access-Control-Allow-Origin"], "*")
-                connection.close()
-            os.symlink("../m.vtu", self.path("meshes/out"))
-            os.symlink("1", self.path("meshes/link"))
-            os.symlink("..", self.path("meshes/above"))
-            os.mkdir(self.path("meshes/pages"))
-            os.symlink("../../m.vtu", self.path("meshes/pages/index.html"))
-            statuses = {"/../m.vtu": 404, "/out": 404, "/above/m.vtu": 404, "/above/": 404,
-                        "/pages/": 404, "/1%00": 404, "/%00/1": 404, "/link": 200, "/1": 200}
-            for path, status in statuses.items():
-                for method in ("GET", "HEAD"):
-                    connection = http.client.HTTPConnection("127.0.0.1", server.server_port)
-                    connection.request(method, path, headers={"Range": "bytes=x-"})
-                    self.assertEqual(connection.getresponse().status, status, (method, path))
-                    connection.close()
-                connection = http.client.HTTPConnection("127.0.0.1", server.server_port)
-                connection.request("GET", path, headers={"Range": "bytes=0-3"})
-                self.assertEqual(connection.getresponse().status, 206 if status == 200 else 404)
-                connection.close()
-            server.shutdown()
-
-    def test_the_program_says_what_is_no_folder_of_meshes(self):
-        os.mkdir(self.path("empty"))
-        for folder in ("empty", "none"):
-            done = subprocess.run([sys.executable, "-m", "mwmesh.serve", self.path(folder)],
-                                  capture_output=True, text=True)
-            self.assertEqual(done.returncode, 2)
-            self.assertIn("no precomputed meshes", done.stderr)
-
-    def test_the_program_serves_until_it_is_interrupted(self):
-        self.program("surface", "m.vtu", "--format", "draco", "-o", "meshes")
-        with subprocess.Popen([sys.executable, "-m", "mwmesh.serve", self.path("meshes")],
-                              stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True) as running:
-            source = self.state_of(running.stdout.readline())["layers"][0]["source"]
-            with urllib.request.urlopen(source.split("//", 1)[1] + "/info") as answer:
-                self.assertIn("neuroglancer_multilod_draco", answer.read().decode())
-            running.send_signal(signal.SIGINT)
-            self.assertEqual(running.wait(20), 0)
 
 
 if __name__ == "__main__":
