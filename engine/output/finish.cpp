@@ -3,6 +3,7 @@
 // Two passes over the final blocks: count, then write.
 #include "engine/output/finish.h"
 
+#include "engine/labels/score_surface.h"
 #include "engine/output/block_figures.h"
 #include "engine/output/block_triangles.h"
 #include "engine/output/interface_shape.h"
@@ -171,6 +172,13 @@ FinishedMesh finish(const FinalMesh& mesh, io::MeshSink& sink, const OutputOptio
   VertexUses uses = count(mesh, selection, options, out);
   io::MeshHeader header = header_of(mesh.volume, selection, out.tets, options.promises);
   if (options.values != nullptr) header.values = options.values->names();
+  std::optional<ScoreSurface> surface;
+  if (mesh.volume.raw().scores() != nullptr) {
+    surface.emplace(mesh.volume);
+    header.interface_place = [&surface](const io::Position& near, RawLabel one, RawLabel other) {
+      return surface->nearest(near, one, other);
+    };
+  }
   sink.begin(header);
   Writer writer(mesh, selection, std::move(uses), sink, options);
   const Index3 blocks = mesh.grid.blocks();

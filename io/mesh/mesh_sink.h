@@ -5,6 +5,7 @@
 
 #include <array>
 #include <cstdint>
+#include <functional>
 #include <optional>
 #include <span>
 #include <string>
@@ -26,6 +27,10 @@ struct WedgeHeader {
   std::vector<std::array<RawLabel, 2>> interfaces{};
 };
 
+/// Returns a place near another one where the interface of two labels is known to lie, or nothing.
+using InterfacePlace =
+    std::function<std::optional<Position>(const Position& near, RawLabel one, RawLabel other)>;
+
 /// What is known before the first row.  The number of vertices is not, because a writer that merges
 /// blocks learns it with the last of them.
 struct MeshHeader {
@@ -38,6 +43,8 @@ struct MeshHeader {
   /// Set by readers alone: the file's tets are curved, and come as kTetParts
   /// (kernels/core/ten_nodes.h), the eight of each tet one after the other.
   bool in_parts = false;
+  /// Set by runs of volumes that tell more than labels; may be called until finish() returns.
+  InterfacePlace interface_place{};
 };
 
 /// Receives a mesh: begin(), then vertices and tets by turns, each in row order, then finish().  A

@@ -29,6 +29,7 @@ enum class CornerKind : std::uint8_t { kStays, kOnSurface, kOnLine };
 struct Corner {
   Position direction{};  ///< unit normal or unit tangent of a line; before, a sum of normals
   Position move{};
+  Position known{};                     ///< `move` to where the interface is known to lie
   double lengths = 0;                   ///< sum of those of the summands of `direction`
   double area = 0;                      ///< a third of the area of its triangles
   double volume = 0;                    ///< what its surroundings took, for it to give back
@@ -41,6 +42,7 @@ struct Corner {
   std::uint32_t lines_in_box = 0;
   std::uint8_t sides = 0;  ///< a bit for each side of the box
   bool has_more_groups = false;
+  bool is_known = false;
   CornerKind kind = CornerKind::kStays;
 };
 
@@ -96,6 +98,7 @@ class Curving {
     for (std::uint64_t v = 0; v < corners_.size(); ++v) classify(v);
     each_edge([this](std::uint64_t number, const Edge& edge) { bulge(number, edge); });
     for (std::uint64_t v = 0; v < corners_.size(); ++v) go_back(v);
+    if (mesh_.header().interface_place) go_to_known_places();
     for (int round = 0; round < kRounds; ++round) balance();
     return straightened(mesh_, moves(), folder_, rule_.has_straight_parts);
   }
@@ -287,6 +290,42 @@ class Curving {
     corners_.change(v, [&](Corner& c) { c.move = position_of(within(move, c)); });
   }
 
+  /// Moves corners and middles of edges inside of an interface to where that is known to lie.
+  void go_to_known_places() {
+    for (std::uint64_t v = 0; v < corners_.size(); ++v) {
+      const Corner corner = corners_.get(v);
+      if (corner.facets == 0) continue;
+      const auto found =
+          corner.kind == CornerKind::kOnSurface ? known_move(place(v), corner.group) : std::nullopt;
+      corners_.change(v, [&](Corner& c) {
+        if (found) c.move = position_of(within(*found, c));
+        c.known = c.move;
+        c.is_known = found.has_value();
+      });
+    }
+    each_edge([this](std::uint64_t number, const Edge& edge) {
+      if (edge.is_line()) return;
+      const auto [a, b] = edge.corners;
+      const Vec3 middle = 0.5 * (place(a) + place(b)) + middle_move(edge);
+      const auto found = known_move(middle, edge.group);
+      if (!found) return;
+      const Vec3 bulge = vector_of(edge.bulge) + *found;
+      if (!(bulge.norm() <= kMaxBulge * (place(b) - place(a)).norm())) return;
+      edges_.change(number, [&](Edge& e) { e.bulge = position_of(bulge); });
+    });
+  }
+
+  /// Returns how far the interface of a group is known to be from a place.
+  [[nodiscard]] std::optional<Vec3> known_move(const Vec3& from, std::uint32_t group) {
+    const FacetGroup sides = mesh_.facet_groups()[group];
+    if (sides.second == kExterior) return std::nullopt;
+    const LabelTable& table = mesh_.table();
+    const auto found = mesh_.header().interface_place(position_of(from), table.raw(sides.first),
+                                                      table.raw(sides.second));
+    if (!found) return std::nullopt;
+    return Vec3(vector_of(*found) - from);
+  }
+
   [[nodiscard]] Vec3 within(const Vec3& move, const Corner& corner) const {
     return no_longer(move, std::min(kMaxMove * corner.shortest, rule_.most_move));
   }
@@ -307,17 +346,45 @@ class Curving {
     }
   }
 
+  /// Returns the volumes at three corners between a triangle and the interface through the known
+  /// places of its nodes, and through that of its middle, to which it bulges (27 times the product
+  /// of the three hat functions, whose mean is 9 / 20).
+  [[nodiscard]] std::array<double, 3> known_volumes(const std::array<Corner, 3>& corners,
+                                                    const QuadraticTriangle& from,
+                                                    const QuadraticTriangle& to) {
+    QuadraticTriangle known;
+    for (std::size_t i = 0; i < 3; ++i) known[i] = from[i] + vector_of(corners[i].known);
+    for (std::size_t i = 0; i < 3; ++i) {
+      const std::size_t next = (i + 1) % 3;
+      known[3 + i] = to[3 + i] + 0.5 * (known[i] - to[i] + known[next] - to[next]);
+    }
+    std::array<double, 3> out = swept_volumes(from, known);
+    const Vec3 middle =
+        (4.0 * (known[3] + known[4] + known[5]) - known[0] - known[1] - known[2]) / 9;
+    const Vec3 normal = (known[1] - known[0]).cross(known[2] - known[0]);
+    if (const auto bulge = known_move(middle, corners[0].group)) {
+      for (double& volume : out) volume += 0.5 * normal.dot(*bulge) * (9.0 / 20) / 3;
+    }
+    return out;
+  }
+
   void take_volume(const Facet& facet) {
     const std::array<std::uint64_t, 3> middles = mesh_.facet_middles(facet);
     QuadraticTriangle from, to;
+    std::array<Corner, 3> corners;
     for (std::size_t i = 0; i < 3; ++i) {
+      corners[i] = corners_.get(facet.rows[i]);
       from[i] = place(facet.rows[i]);
       from[3 + i] = place(middles[i]);
-      to[i] = from[i] + vector_of(corners_.get(facet.rows[i]).move);
+      to[i] = from[i] + vector_of(corners[i].move);
       to[3 + i] = from[3 + i] + middle_move(edges_.get(edge_of(middles[i])));
     }
     std::array<double, 3> volumes =
         rule_.has_straight_parts ? swept_part_volumes(from, to) : swept_volumes(from, to);
+    if (std::ranges::any_of(corners, &Corner::is_known)) {
+      const std::array<double, 3> wanted = known_volumes(corners, from, to);
+      for (std::size_t i = 0; i < 3; ++i) volumes[i] -= corners[i].is_known ? wanted[i] : 0;
+    }
     hand_on(facet, volumes);
     for (std::size_t i = 0; i < 3; ++i) {
       corners_.change(facet.rows[i], [&](Corner& corner) { corner.volume += volumes[i]; });

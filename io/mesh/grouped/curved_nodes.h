@@ -27,6 +27,10 @@ struct CurveRule {
 /// corners move along their normals until the volume on each side of the surface is what it was,
 /// corner by corner.
 ///
+/// Where the header knows places of an interface (MeshHeader::interface_place), corners and middles
+/// inside of it go there instead, and its volume is that of the curved triangles between them:
+/// straight parts keep it, too, by corners that move along their normals.
+///
 /// Where an interface ends (at other labels, or in the box) and where it bends by more than 60
 /// degrees its edges form lines.  These are curved likewise, by tangents; in a side of the box they
 /// stay in it.  Corners at the ends of lines stay, and so does a side of a periodic box.

@@ -85,7 +85,7 @@ void GroupedSink::finish() {
 std::uint64_t GroupedSink::buffer_bytes() const {
   constexpr std::uint64_t kOfCorners = 64 << 20;
   constexpr std::uint64_t kOfMiddles = 32 << 20;
-  constexpr std::uint64_t kOfCurves = 32 << 20;
+  constexpr std::uint64_t kOfCurves = 40 << 20;
   return kOfCorners + (has_middles(mesh_.element_) ? kOfMiddles : 0) + (curves_ ? kOfCurves : 0);
 }
 

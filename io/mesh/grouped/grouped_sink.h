@@ -12,7 +12,7 @@
 namespace mw::io {
 
 /// Collects a mesh; finish() groups it and calls the writer.
-/// Memory: 64 MiB, 96 with kTet10, 128 with curves, whatever the mesh; the rest waits in
+/// Memory: 64 MiB, 96 with kTet10, 136 with curves, whatever the mesh; the rest waits in
 /// temporary files in `folder`, at most some 400 bytes a tet (1,000 with kTet10, 1,300 with curved
 /// ones).
 /// ERRORS: see MeshSink; kInput when a tet names a vertex that never came, or three tets share a

@@ -10,6 +10,7 @@ import unittest
 from program import enter_folder, run, start
 
 try:
+    import meshio
     import nibabel
     import numpy as np
     from tet_mesh import Mesh
@@ -30,6 +31,25 @@ def voxel_centres():
 
 def ball():
     return np.linalg.norm(voxel_centres() - CENTRE[:, None, None, None], axis=0) - RADIUS
+
+
+def curved_volume(tets):
+    """The volume of tets of ten nodes, (n, 10, 3), by 64 points of Gauss in each."""
+    at, weights = np.polynomial.legendre.leggauss(4)
+    at, weights = (at + 1) / 2, weights / 2
+    edges = [(0, 1), (1, 2), (0, 2), (0, 3), (1, 3), (2, 3)]
+    slopes = np.array([[-1, -1, -1], [1, 0, 0], [0, 1, 0], [0, 0, 1]])
+    volume = 0
+    for i, j, k in np.ndindex(4, 4, 4):
+        u, v = at[i], at[j] * (1 - at[i])
+        w = at[k] * (1 - at[i]) * (1 - at[j])
+        hats = np.array([1 - u - v - w, u, v, w])
+        of_nodes = np.concatenate([
+            (4 * hats - 1)[:, None] * slopes,
+            [4 * (hats[a] * slopes[b] + hats[b] * slopes[a]) for a, b in edges]])
+        scale = weights[i] * weights[j] * weights[k] * (1 - at[i])**2 * (1 - at[j])
+        volume += scale * np.linalg.det(np.einsum("nkd,ke->nde", tets, of_nodes)).sum()
+    return volume
 
 
 class Values(unittest.TestCase):
@@ -55,6 +75,42 @@ class Values(unittest.TestCase):
                 self.assertLess(np.abs(off).mean(), mean_bound)
                 verdict = run("verify", "f.npy", "m.vtu", "--values", "distances")
                 self.assertIn("all checks hold", verdict)
+
+    def test_curved_tets_follow_the_values(self):
+        """Corners and middles of edges lie where distances are 0, except for some that tets hold
+        back, and the volume is that of the ball."""
+        np.save("f.npy", ball())
+        run("mesh", "f.npy", "-o", "c.vtu", "--values", "distances", "--size", "3",
+            "--element", "tet10-curved")
+        mesh = meshio.read("c.vtu")
+        tets = mesh.cells_dict["tetra10"]
+        is_ball = mesh.cell_data_dict["label"]["tetra10"].ravel() == 1
+        nodes = np.intersect1d(tets[is_ball], tets[~is_ball])
+        off = np.abs(np.linalg.norm(mesh.points[nodes] - CENTRE, axis=1) - RADIUS)
+        self.assertGreater((off < 0.01).mean(), 0.95)
+        self.assertLess(np.median(off), 0.004)
+        true = 4 / 3 * np.pi * RADIUS**3
+        self.assertLess(abs(curved_volume(mesh.points[tets[is_ball]]) / true - 1), 4e-4)
+        # Tets that are cut have corners outside of the ball, by as much as their volume asks for.
+        made = self.mesh("f.npy", "--values", "distances", "--size", "1")
+        off = np.abs(np.linalg.norm(made.interface() - CENTRE, axis=1) - RADIUS)
+        self.assertGreater((off < 0.03).mean(), 0.95)
+        self.assertLess(abs(made.volume(1) / true - 1), 6e-4)
+        self.assertIn("all checks hold", run("verify", "f.npy", "m.vtu", "--values", "distances"))
+
+    def test_curved_tets_of_three_classes(self):
+        """Two half-spaces, and a slab between them that ends where all three meet."""
+        x, y, z = voxel_centres()
+        np.save("f.npy", np.stack([x - 9.3 + 0.2 * y, 14.6 - x - 0.1 * z]))
+        run("mesh", "f.npy", "-o", "c.vtu", "--values", "distances", "--element", "tet10-curved")
+        self.assertIn("all checks hold", run("verify", "f.npy", "c.vtu", "--values", "distances"))
+        mesh = meshio.read("c.vtu")
+        tets = mesh.cells_dict["tetra10"]
+        labels = mesh.cell_data_dict["label"]["tetra10"].ravel()
+        one, none = (np.unique(tets[labels == label]) for label in (1, 0))
+        at = mesh.points[np.intersect1d(one, none)]
+        inside = ((at > 1) & (at < EDGE - 1)).all(axis=1)
+        self.assertLess(np.median(np.abs(at[:, 0] - 9.3 + 0.2 * at[:, 1])[inside]), 1e-3)
 
     def test_planes_are_nearer_to_their_distances_than_to_voxels(self):
         random = np.random.default_rng(5)

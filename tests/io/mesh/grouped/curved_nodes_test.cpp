@@ -178,6 +178,55 @@ TEST(CurvedNodes, StraightPartsOfABallAreRoundAndKeepItsVolume) {
   EXPECT_FALSE(curved.header().record.curved);
 }
 
+/// Groups the mesh of a ball that is known to be a sphere a little larger than it is.
+GroupedMesh& known_ball(GroupedSink& sink, double radius) {
+  const MeshData data = ball_mesh();
+  MeshHeader header{.tets = data.tets.size(), .record = data.record};
+  header.interface_place = [radius](const Position& near, RawLabel one, RawLabel other) {
+    EXPECT_EQ(one + other, 1U);
+    const double far = distance_of(near, {kMiddle, kMiddle, kMiddle});
+    Position out{};
+    for (std::size_t k = 0; k < 3; ++k) out[k] = kMiddle + (near[k] - kMiddle) * (radius / far);
+    return std::optional(out);
+  };
+  sink.begin(header);
+  sink.write_vertices(data.vertices);
+  sink.write_tets(data.tets, data.labels);
+  sink.finish();
+  return sink.mesh();
+}
+
+TEST(CurvedNodes, GoToWhereTheInterfaceIsKnownToLie) {
+  const double radius = 1.05 * kRadius;
+  const double volume = 4.0 / 3.0 * std::acos(-1.0) * radius * radius * radius;
+  const TempDir dir;
+  for (const bool has_straight_parts : {false, true}) {
+    GroupedSink sink(dir.path(), nullptr,
+                     has_straight_parts ? Element::kTet10 : Element::kCurvedTet10,
+                     CurveRule{.has_straight_parts = has_straight_parts});
+    GroupedMesh& curved = known_ball(sink, radius);
+    const std::set<std::uint64_t> rows = interface_nodes(curved);
+    std::size_t off = 0;
+    double mean = 0;
+    for (const std::uint64_t row : rows) {
+      const double r = distance_of(curved.node(row), {kMiddle, kMiddle, kMiddle});
+      mean += r / static_cast<double>(rows.size());
+      if (std::abs(r - radius) > 0.02) ++off;
+    }
+    // Nodes that would spoil tets stay behind, and those of straight parts lie a little outside.
+    EXPECT_LT(off, rows.size() / 10);
+    EXPECT_NEAR(mean, radius, 0.015);
+    const RowRange ball = curved.label_tets()[1];
+    double found = 0;
+    for (std::uint64_t t = ball.begin; t < ball.end; ++t) {
+      const QuadraticTet tet = nodes_of(curved, t);
+      found +=
+          has_straight_parts ? volume_of(tet) : (4 * volume_of(tet, 3) - volume_of(tet, 2)) / 3;
+    }
+    EXPECT_NEAR(found / volume, 1, 5e-3) << has_straight_parts;
+  }
+}
+
 /// The guarantees of curve_nodes() for any mesh.
 void expect_sound(GroupedMesh& straight, GroupedMesh& curved) {
   for (std::uint64_t t = 0; t < curved.tet_count(); ++t) {
