@@ -23,7 +23,7 @@ constexpr unsigned kPatience = 20;                ///< seconds that a connection
 constexpr std::size_t kHeaderBytes = 32U << 10U;  ///< of a request; more of them are refused
 constexpr std::size_t kPieceBytes = 64U << 10U;   ///< are read at a time
 
-/// Of every answer.
+/// The headers that every answer has.
 constexpr std::pair<const char*, const char*> kHeaders[] = {
     {"Access-Control-Allow-Origin", "*"},
     {"Access-Control-Allow-Headers", "Range"},
