@@ -12,17 +12,13 @@ io::LabelNames written_names(const io::DenseVolume& volume, const LabelSelection
       [&](RawLabel label) { return table.contains(label) && selection.keeps(table.dense(label)); });
 }
 
-/// Returns the masks that the labels that are written do not tell by their names.
+/// Returns the masks by those of their labels that are written.
 std::vector<io::MaskLabels> written_masks(const io::DenseVolume& volume,
                                           const LabelSelection& selection) {
   const io::LabelTable& table = volume.table();
-  std::vector<io::MaskLabels> masks = io::only_masks(volume.info().masks, [&](RawLabel label) {
+  return io::only_masks(volume.info().masks, [&](RawLabel label) {
     return table.contains(label) && selection.keeps(table.dense(label));
   });
-  std::erase_if(masks, [&](const io::MaskLabels& mask) {
-    return mask.labels.size() == 1 && volume.info().names.name(mask.labels.front()) == mask.name;
-  });
-  return masks;
 }
 
 io::MeshBox box_of(const io::VolumeInfo& info) {

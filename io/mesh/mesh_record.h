@@ -77,8 +77,8 @@ struct MeshRecord {
   bool curved = false;
   /// The wedges are no content of their own: they follow from the tets and the doubled vertices.
   CohesiveRule cohesive{};
-  /// The masks of the volume that labels alone do not tell: those that have several of the labels
-  /// that the mesh holds, or one under another name.  No two have one name.
+  /// The masks that the volume's labels were made of (VolumeInfo::masks), by the labels that the
+  /// mesh holds.  No two have one name.
   std::vector<MaskLabels> masks{};
 
   friend bool operator==(const MeshRecord&, const MeshRecord&) = default;

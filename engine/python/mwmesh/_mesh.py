@@ -223,17 +223,23 @@ class Mesh:
 
     @property
     def masks(self):
-        """The masks that labels alone do not tell, where overlapping masks were meshed with
-        overlap="all": {name: labels of the mask}."""
+        """The masks that were meshed with overlap="all": {name: labels of the mask}."""
         return {mask["name"]: mask["labels"] for mask in self._record().get("masks", [])}
 
     def _record(self):
         return json.loads(self._core.record or "{}")
 
     def _mask_cells(self):
-        """Returns {"mask_NAME": for each tet whether it is in the mask, 1 or 0}, as files have it."""
-        return {f"mask_{name}": np.isin(self.labels, np.array(labels, self.labels.dtype))
-                .astype(np.uint8) for name, labels in self.masks.items()}
+        """Returns {"mask_NAME": for each tet whether it is in the mask, 1 or 0}, as files have it:
+        with "_" for "/", and behind a name that values or another mask have."""
+        out = {}
+        for mask, labels in self.masks.items():
+            name = f"mask_{mask}".replace("/", "_")
+            while name in out or name in self.values:
+                name += "_"
+            inside = np.isin(self.labels, np.array(labels, self.labels.dtype))
+            out[name] = inside.astype(np.uint8)
+        return out
 
     @property
     def digest(self):

@@ -111,10 +111,12 @@ void FebioWriter::write_part(GroupedMesh& mesh, RowRange tets, const std::string
 }
 
 void FebioWriter::write_masks(const GroupedMesh& mesh) {
-  for (const MaskGroup& mask : mask_groups(mesh)) {
-    file_.append(text("    <ElementSet name=\"", kMaskNames, xml_escaped(mask.name), "\">"));
+  const GroupNames names(mesh);
+  const std::vector<MaskGroup> masks = mask_groups(mesh);
+  for (std::size_t i = 0; i < masks.size(); ++i) {
+    file_.append(text("    <ElementSet name=\"", xml_escaped(names.mask(i)), "\">"));
     const char* between = "";
-    for (const Label rank : mask.ranks) {
+    for (const Label rank : masks[i].ranks) {
       const RowRange tets = mesh.label_tets()[rank];
       for (std::uint64_t tet = tets.begin; tet < tets.end; ++tet) {
         file_.append(text(between, tet + 1));

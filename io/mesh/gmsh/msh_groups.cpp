@@ -47,16 +47,6 @@ void write_wedge_names(MshEncoder& out, const GroupedMesh& mesh, const LabelNumb
   }
 }
 
-void write_mask_names(MshEncoder& out, const GroupedMesh& mesh, const LabelNumbers& labels) {
-  const PlainNames plain(mesh);
-  const std::vector<MaskGroup> masks = mask_groups(mesh);
-  for (std::size_t i = 0; i < masks.size(); ++i) {
-    std::string name = std::string(kMaskNames) + without_quotes(masks[i].name);
-    if (name.size() > kMaxNameBytesOfGmsh) name = plain.mask(i);
-    out.add_line(name_line(kMshVolume, mask_volume(labels, mesh, i), name));
-  }
-}
-
 /// Writes a section ElementData, alike in both versions; number_of(tet) is the number of a tet.
 template <class NumberOf>
 void write_column(MshEncoder& out, GroupedMesh& mesh, const std::string& name, NumberOf number_of) {
@@ -140,7 +130,9 @@ void write_physical_names(MshEncoder& out, const GroupedMesh& mesh, const LabelN
     out.add_line(name_line(kMshVolume, labels[rank], names.volume(rank)));
   }
   if (!mesh.wedge_groups().empty()) write_wedge_names(out, mesh, labels);
-  if (masks > 0) write_mask_names(out, mesh, labels);
+  for (std::size_t i = 0; i < masks; ++i) {
+    out.add_line(name_line(kMshVolume, mask_volume(labels, mesh, i), names.mask(i)));
+  }
   out.add_line("$EndPhysicalNames");
 }
 

@@ -8,6 +8,7 @@
 #include <unordered_set>
 
 #include "io/file/errors.h"
+#include "io/mesh/grouped/mask_groups.h"
 #include "io/mesh/grouped/plain_names.h"
 #include "io/names/csv_names.h"
 
@@ -58,6 +59,20 @@ GroupNames::GroupNames(const GroupedMesh& mesh, const Spelling& spelled, std::si
       taken.insert(name);
     }
     if (name.find('|') != std::string::npos) barred_.insert(name);
+  }
+  name_masks(mesh, spelled, max_bytes, {volumes_.begin(), volumes_.end()});
+}
+
+void GroupNames::name_masks(const GroupedMesh& mesh, const Spelling& spelled, std::size_t max_bytes,
+                            std::set<std::string> taken) {
+  const std::vector<MaskGroup> masks = mask_groups(mesh);
+  if (masks.empty()) return;
+  const PlainNames plain(mesh);
+  for (std::size_t i = 0; i < masks.size(); ++i) {
+    std::string name = std::string(kMaskNames) + (spelled ? spelled(masks[i].name) : masks[i].name);
+    if (name.size() > max_bytes) name = plain.mask(i);
+    while (!taken.insert(name).second) name += '_';
+    masks_.push_back(std::move(name));
   }
 }
 

@@ -36,16 +36,22 @@ class GroupNames {
   /// Returns the label's name; "label_7" where it has none, "name (7)" where another has the same
   /// (or is spelled so).  Where that is the name of another label, " (7)" follows once more.
   [[nodiscard]] const std::string& volume(Label rank) const { return volumes_[rank]; }
+  /// Returns the name of one of mask_groups(mesh): "mask_liver", with '_' behind it as often as it
+  /// is that of a label or another mask, or PlainNames' where it is longer than max_bytes.
+  [[nodiscard]] const std::string& mask(std::size_t number) const { return masks_[number]; }
   /// Returns the names of both labels of an interface, the lower label first: "liver|kidney".  The
   /// labels follow, as in "a|b|c (1|2)", where a name has a '|' or a label is called like that.
   /// Facets on a side of the box have the name of that side, which is the same for all labels.
   [[nodiscard]] std::string facets(const FacetGroup& group) const;
 
  private:
+  void name_masks(const GroupedMesh& mesh, const Spelling& spelled, std::size_t max_bytes,
+                  std::set<std::string> taken);
   [[nodiscard]] bool is_barred(Label rank) const { return barred_.contains(volumes_[rank]); }
 
   const LabelTable& table_;
   std::vector<std::string> volumes_;
+  std::vector<std::string> masks_;
   std::set<std::string> barred_;  ///< those of volumes_ that have a '|'
 };
 

@@ -104,7 +104,8 @@ void PlainNames::name_volumes(Taken& taken) {
 void PlainNames::name_masks(Taken& taken) {
   for (const MaskGroup& mask : mask_groups(mesh_)) {
     const std::string number = std::to_string(masks_.size() + 1);
-    const std::string wanted = "MASK_" + plain_text(mask.name, rule_);
+    const std::string plain = plain_text(mask.name, rule_);
+    const std::string wanted = "MASK_" + (plain.empty() ? number : plain);
     std::string name = wanted;
     for (int i = 1; name.size() > rule_.max_bytes || !taken.insert(in_capitals(name)).second; ++i) {
       name = with_number(wanted, number, i, rule_.max_bytes);

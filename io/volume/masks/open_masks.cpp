@@ -85,7 +85,9 @@ std::vector<std::filesystem::path> listed_masks(const std::filesystem::path& lis
 std::unique_ptr<LabelVolume> open_masks(const std::vector<std::filesystem::path>& files,
                                         const std::string& name, const OpenOptions& options) {
   OpenOptions each = options;
+  // What follows from all masks together is found once they are put together.
   each.crop.reset();
+  each.object.clear();
   each.overlap = Overlap::kRefused;
   std::optional<MaskMerger> merger;
   for (const std::filesystem::path& file : files) {

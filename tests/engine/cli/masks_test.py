@@ -28,7 +28,10 @@ SHAPE = (16, 14, 12)  # z, y, x
 # The liver is a ring that only the tumour closes, so that neither "liver" nor "liver + tumour" has
 # the topology of the mask by itself.
 PARTS = {1: "Leber, links", 2: "tumour/x", 3: "vessel", 4: "Leber, links + tumour/x"}
-LABELS_OF = {"Leber, links": [1, 4], "tumour/x": [2, 4]}
+LABELS_OF = {"Leber, links": [1, 4], "tumour/x": [2, 4], "vessel": [3]}
+
+# Names where few characters are allowed.
+PLAIN = {"Leber, links": "MASK_Leber_links", "tumour/x": "MASK_tumour_x", "vessel": "MASK_vessel"}
 
 
 def save_mask(name, mask):
@@ -88,7 +91,7 @@ class Masks(unittest.TestCase):
     def check_cells(self, arrays, labels):
         self.assertEqual(len(labels), len(self.labels))
         self.assertEqual({name for name in arrays if name.startswith("mask")},
-                         {"mask_Leber, links", "mask_tumour_x"})
+                         {"mask_Leber, links", "mask_tumour_x", "mask_vessel"})
         for name, inside in self.wanted(labels).items():
             array = np.asarray(arrays["mask_" + name.replace("/", "_")]).ravel()
             self.assertEqual(array.dtype, np.uint8)
@@ -124,7 +127,8 @@ class Masks(unittest.TestCase):
                       for a in grid.findall("Attribute")}
         self.check_cells(arrays, arrays["label"])
         cells = meshio.read("m.cells.xdmf").cell_data
-        self.assertEqual(sorted(cells), ["label", "mask_Leber, links", "mask_tumour_x"])
+        self.assertEqual(sorted(cells),
+                         ["label", "mask_Leber, links", "mask_tumour_x", "mask_vessel"])
 
     def test_gmsh_has_physical_volumes(self):
         for arguments in (("m.msh",), ("m.msh", "--ascii"), ("two.msh",)):
@@ -143,6 +147,7 @@ class Masks(unittest.TestCase):
                 gmsh.finalize()
             self.assertEqual(groups["mask_Leber, links"], [1, 4])
             self.assertEqual(groups["mask_tumour/x"], [2, 4])
+            self.assertEqual(groups["mask_vessel"], [3])
             self.assertEqual([groups[name] for name in PARTS.values()], [[1], [2], [3], [4]])
             # meshio, which knows one group of a tet, has the labels.
             tags = meshio.read(arguments[0]).cell_data_dict["gmsh:physical"]["tetra"]
@@ -162,12 +167,12 @@ class Masks(unittest.TestCase):
         with Dataset("m.exo") as file:
             names = ["".join(c.decode() for c in row.compressed() if c)
                      for row in np.ma.array(file["els_names"][:])]
-            self.assertEqual(names, ["MASK_Leber_links", "MASK_tumour_x"])
+            self.assertEqual(names, list(PLAIN.values()))
             for i, name in enumerate(LABELS_OF, 1):
                 self.assertEqual(file[f"elem_els{i}"][:].tolist(), self.numbers(name))
         with open("m.cdb", encoding="utf-8") as file:
             text = file.read()
-        for plain, name in (("MASK_Leber_links", "Leber, links"), ("MASK_tumour_x", "tumour/x")):
+        for name, plain in PLAIN.items():
             block = re.search(rf"CMBLOCK,{plain},ELEM, *\d+\n\(8i10\)\n([-\d \n]+)\n", text)
             items, tets = [int(word) for word in block.group(1).split()], []
             for item in items:
@@ -176,8 +181,7 @@ class Masks(unittest.TestCase):
         with open("m.k", encoding="utf-8") as file:
             text = file.read()
         numbers = {row["name"]: int(row["number"]) for row in table("m.k.labels.csv")}
-        for number, (plain, name) in enumerate(
-                (("MASK_Leber_links", "Leber, links"), ("MASK_tumour_x", "tumour/x")), 1):
+        for number, (name, plain) in enumerate(PLAIN.items(), 1):
             parts = "".join(f"{numbers[PARTS[label]]:10d}" for label in LABELS_OF[name])
             self.assertIn(f"*SET_PART_LIST_TITLE\n{plain}\n{number:10d}\n{parts}\n", text)
         sets = xml.etree.ElementTree.parse("m.feb").findall("./Mesh/ElementSet")
@@ -201,6 +205,7 @@ class Masks(unittest.TestCase):
         self.assertNotIn("betti_closed", json.loads(run("info", "m.vtu", "--json"))["masks"][0])
         volume = json.loads(run("info", *self.options[:3], "--json"))
         voxels = {name: int(mask.sum()) for name, mask in masks().items()}
+        self.assertEqual(rows["vessel"]["betti_open"], per_label[3]["betti_open"])
         self.assertEqual({row["name"]: row["voxels"] for row in volume["masks"]},
                          {"Leber, links": voxels["Leber, links"], "tumour/x": voxels["tumour"],
                           "vessel": voxels["vessel"]})
@@ -211,19 +216,36 @@ class Masks(unittest.TestCase):
             facts = json.loads(run("info", "c.vtu", "--json"))
             return {row["name"]: row["labels"] for row in facts.get("masks", [])}
 
-        self.assertEqual(told("--labels", "1,2"), {})
+        self.assertEqual(told("--labels", "1,2"), {"Leber, links": [1], "tumour/x": [2]})
         self.assertEqual(told("--labels", "4"), {"Leber, links": [4], "tumour/x": [4]})
-        self.assertEqual(told("--merge", "4=1"), {})  # "tumour/x" would have all of the liver
-        self.assertEqual(told("--merge", "1,2,4=9"), {})
-        self.assertEqual(told("--merge", "3=9"), LABELS_OF | {"vessel": [9]})  # 9 has no name
+        # "tumour/x" would have all of the liver.
+        self.assertEqual(told("--merge", "4=1"), {"vessel": [3], "Leber, links": [1]})
+        self.assertEqual(told("--merge", "1,2,4=9"), {"vessel": [3]})
+        self.assertEqual(told("--merge", "3=9"), LABELS_OF | {"vessel": [9]})
         self.assertEqual(told("--background", "0"), LABELS_OF)
+        self.assertEqual(told("--object", "4"), {"Leber, links": [4], "tumour/x": [4]})
 
-    def test_without_overlaps_there_are_none(self):
-        os.makedirs("apart", exist_ok=True)
-        for name in ("tumour", "vessel"):
-            save_mask(f"apart/{name}.nrrd", masks()[name])
-        run("mesh", "apart", "--overlap", "all", "-o", "a.vtu")
-        self.assertNotIn("masks", json.loads(run("info", "a.vtu", "--json")))
+    def test_names_that_others_have(self):
+        """A mask can be called as the group of another one, or have no letter that is allowed."""
+        os.makedirs("named", exist_ok=True)
+        for name, mask in zip(("liver", "mask_liver", "ä"), masks().values()):
+            save_mask(f"named/{name}.nrrd", mask)
+        run("mesh", "named", "--overlap", "all", "-o", "n.msh", "--ascii")
+        with open("n.msh", encoding="utf-8") as file:
+            names = re.findall(r'^3 \d+ "(.*)"$', file.read(), re.MULTILINE)
+        self.assertEqual(sorted(names), sorted(set(names)))
+        self.assertIn("mask_liver_", names)
+        run("convert", "n.msh", "n.feb")
+        names = [e.get("name") for e in xml.etree.ElementTree.parse("n.feb").find("Mesh")]
+        self.assertEqual(sorted(names), sorted(set(names)))
+        run("convert", "n.msh", "n.inp")
+        with open("n.inp", encoding="utf-8") as file:
+            self.assertIn("*ELSET, ELSET=MASK_3\n", file.read())
+        # The box of an object is that of all masks together, also where these are files.
+        regions = json.loads(run("info", "named", "--overlap", "all", "--object", "2", "--json"))
+        self.assertEqual([row["label"] for row in regions["labels"]["per_label"]], [0, 2])
+
+    def test_without_a_label_for_each_set_there_are_none(self):
         run("mesh", *self.options[:1], "--overlap", "last", "-o", "l.vtu")
         self.assertNotIn("masks", json.loads(run("info", "l.vtu", "--json")))
         self.assertEqual(start("verify", "v.seg.nrrd", "m.vtu", *self.options[1:3]).returncode, 0)
