@@ -265,6 +265,30 @@ class Watched:
         return part
 
 
+class Masks(InFolder):
+    def save(self, name, mask):
+        z, y, x = mask.shape
+        head = f"NRRD0004\ntype: uchar\ndimension: 3\nsizes: {x} {y} {z}\nencoding: raw\n\n"
+        pathlib.Path(self.path(name)).write_bytes(head.encode() + mask.astype(np.uint8).tobytes())
+
+    def test_each_mask_is_known_as_a_whole(self):
+        z, y, x = np.indices((10, 11, 12))
+        os.mkdir(self.path("masks"))
+        self.save("masks/a.nrrd", (x < 7) & (y < 8))
+        self.save("masks/b.nrrd", (x > 3) & (y > 2) & (z > 2))
+        np.save(self.path("image.npy"), np.ones((10, 11, 12)))
+        made = mwmesh.mesh(self.path("masks"), overlap="all",
+                           sample={"mask_a": self.path("image.npy")})
+        made.save(self.path("m.vtkhdf"))
+        for mesh in (made, mwmesh.read(self.path("m.vtkhdf")), copy.copy(made)):
+            self.assertEqual(mesh.masks, {"a": [1, 3], "b": [2, 3]})
+            # A value has that name already, as in files.
+            self.assertEqual(list(mesh._mask_cells()), ["mask_a_", "mask_b"])
+            for labels, cells in zip(mesh.masks.values(), mesh._mask_cells().values()):
+                np.testing.assert_array_equal(cells, np.isin(mesh.labels, labels))
+        self.assertEqual(mwmesh.mesh(self.path("masks"), overlap="last").masks, {})
+
+
 class Regions(unittest.TestCase):
 
     def test_the_volume_is_never_whole(self):
