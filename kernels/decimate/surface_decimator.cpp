@@ -3,7 +3,7 @@
 // A queue of edges; those whose ends have changed since are skipped.
 #include "kernels/decimate/surface_decimator.h"
 
-#include <Eigen/Geometry>
+#include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
 #include <iterator>
@@ -17,6 +17,9 @@ using Triangle = SurfaceDecimator::Triangle;
 /// Weight of the vertex's own place beside the planes of its triangles, which alone do not say
 /// where in a plane it should be.
 constexpr double kPointWeight = 1e-3;
+/// The least area that a star shows along its mean normal, as a share of its whole area, for which
+/// its volume says where its vertex goes.  A star around the tip of a thread shows next to nothing.
+constexpr double kLeastSpan = 0.01;
 /// The least cosine between the normals of a triangle before and after a contraction.
 constexpr double kLeastCosine = 0.2;
 /// The least quality of a new triangle that is worse than the one before; an equilateral one has 1.
@@ -95,7 +98,7 @@ void SurfaceDecimator::decimate(double bound) {
     const Candidate c = queue_.top();
     queue_.pop();
     if (!is_current(c) || !keeps_topology(c.keep, c.drop)) continue;
-    for (const Vec3& place : places_for(c.keep, c.drop)) {
+    for (const Vec3& place : places_for(c.keep, c.drop, sum_of(c.keep, c.drop))) {
       const double moved = moved_to(place, c.keep, c.drop);
       if (moved > bound) continue;
       if (!keeps_sides(c.keep, c.drop, place) || !keeps_sides(c.drop, c.keep, place)) continue;
@@ -111,9 +114,9 @@ void SurfaceDecimator::push(std::uint32_t a, std::uint32_t b) {
   if (vertices_[a].is_fixed && vertices_[b].is_fixed) return;
   const bool keeps_b = vertices_[b].is_fixed || (!vertices_[a].is_fixed && b < a);
   const std::uint32_t keep = keeps_b ? b : a, drop = keeps_b ? a : b;
-  const Vec3 way = places_for(keep, drop).front() - vertices_[keep].place;
-  queue_.push(
-      {sum_of(keep, drop).value(way), keep, drop, vertices_[keep].age, vertices_[drop].age});
+  const Quadric sum = sum_of(keep, drop);
+  const Vec3 way = places_for(keep, drop, sum).front() - vertices_[keep].place;
+  queue_.push({sum.value(way), keep, drop, vertices_[keep].age, vertices_[drop].age});
 }
 
 bool SurfaceDecimator::is_current(const Candidate& c) const {
@@ -127,13 +130,43 @@ Quadric SurfaceDecimator::sum_of(std::uint32_t keep, std::uint32_t drop) const {
   return vertices_[keep].quadric + vertices_[drop].quadric.shifted(way);
 }
 
-/// Returns where the kept vertex may go, the best place first.
-std::vector<Vec3> SurfaceDecimator::places_for(std::uint32_t keep, std::uint32_t drop) const {
+/// Returns where the kept vertex may go, the best place first.  Each is moved the cheapest way to
+/// the plane of places that keep the volume.
+std::array<Vec3, 3> SurfaceDecimator::places_for(std::uint32_t keep, std::uint32_t drop,
+                                                 const Quadric& sum) const {
   const Vec3& at = vertices_[keep].place;
-  if (vertices_[keep].is_fixed) return {at};
-  const Vec3 best = at + minimum(sum_of(keep, drop), 0).offset;
-  const Vec3 middle = 0.5 * (at + vertices_[drop].place);
-  return {best, 0.5 * (best + middle), middle};
+  if (vertices_[keep].is_fixed) return {at, at, at};
+  const Eigen::Matrix3d inverse = sum.matrix().inverse();
+  const Vec3 least = -(inverse * sum.linear()), middle = 0.5 * (vertices_[drop].place - at);
+  std::array<Vec3, 3> out{least, 0.5 * (least + middle), middle};
+  const Plane plane = volume_plane(keep, drop);
+  Vec3 way = inverse * plane.normal;
+  const double height = plane.normal.dot(way);
+  if (height > 0.0) way /= height;
+  for (Vec3& x : out) x += at + (plane.at - plane.normal.dot(x)) * way;
+  return out;
+}
+
+/// Returns the plane of all places, relative to that of the kept vertex, from which triangles to
+/// the rim of both stars enclose as much as the stars do.  Its normal is zero if it is ill-defined.
+SurfaceDecimator::Plane SurfaceDecimator::volume_plane(std::uint32_t keep,
+                                                       std::uint32_t drop) const {
+  Plane out;
+  double area = 0.0;
+  const Vec3& at = vertices_[keep].place;
+  const auto add = [&](const Triangle& t) {
+    const std::array<Vec3, 3> corners{vertices_[t[0]].place - at, vertices_[t[1]].place - at,
+                                      vertices_[t[2]].place - at};
+    const Vec3 normal = normal_of(corners);
+    out.normal += normal;
+    out.at += normal.dot(corners[0]);
+    area += normal.norm();
+  };
+  for (const std::uint32_t t : vertices_[keep].triangles) add(triangles_[t]);
+  for (const std::uint32_t t : vertices_[drop].triangles) {
+    if (!has(triangles_[t], keep)) add(triangles_[t]);
+  }
+  return out.normal.norm() > kLeastSpan * area ? out : Plane{};
 }
 
 /// Returns the other ends of the edges of v, ascending, once for each triangle of the edge.

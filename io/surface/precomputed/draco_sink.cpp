@@ -19,7 +19,7 @@ namespace mw::io {
 namespace {
 
 /// The most levels of detail, and the most triangles of a level that needs no coarser one.
-constexpr int kMostLevels = 8;
+constexpr std::size_t kMostLevels = 8;
 constexpr std::size_t kFewTriangles = 200;
 /// A level is of use if it has at most this share of the triangles of the one before.
 constexpr double kLeastGain = 0.8;
@@ -47,15 +47,21 @@ struct Octree {
   }
 };
 
-Octree octree_of(const TriangleSurface& surface, const EdgeLengths& edges) {
+/// Returns a grid that holds all levels: to keep their volume, coarse ones reach out of the box of
+/// the first.  Edges are those of the first level.
+Octree octree_of(const std::vector<TriangleSurface>& levels, const EdgeLengths& edges) {
   Octree out;
   double longest = 0;
   for (std::size_t k = 0; k < 3; ++k) {
-    const auto [lo, hi] =
-        std::minmax_element(surface.vertices.begin(), surface.vertices.end(),
-                            [k](const Position& a, const Position& b) { return a[k] < b[k]; });
-    out.origin[k] = static_cast<float>((*lo)[k]);
-    out.extent[k] = std::max(0.0, (*hi)[k] - static_cast<double>(out.origin[k]));
+    double low = std::numeric_limits<double>::infinity(), high = -low;
+    for (const TriangleSurface& level : levels) {
+      for (const Position& p : level.vertices) {
+        low = std::min(low, p[k]);
+        high = std::max(high, p[k]);
+      }
+    }
+    out.origin[k] = static_cast<float>(low);
+    out.extent[k] = std::max(0.0, high - static_cast<double>(out.origin[k]));
     longest = std::max(longest, out.extent[k]);
   }
   const double cell = std::max({kCellEdges * edges.mean, edges.longest, longest / kMostCells});
@@ -95,6 +101,20 @@ TriangleSurface surface_of(const SurfaceDecimator& decimator) {
   TriangleSurface out;
   for (const Vec3& p : surface.vertices) out.vertices.push_back({p[0], p[1], p[2]});
   for (const auto& [a, b, c] : surface.triangles) out.triangles.push_back({a, b, c});
+  return out;
+}
+
+/// Returns the surface and coarser ones, which are within 2, 4, 8 times a length of it.
+std::vector<TriangleSurface> levels_of(TriangleSurface surface, double length) {
+  SurfaceDecimator decimator = decimator_of(surface);
+  std::vector<TriangleSurface> out;
+  out.push_back(std::move(surface));
+  while (decimator.triangle_count() > kFewTriangles && out.size() < kMostLevels) {
+    const auto before = static_cast<double>(decimator.triangle_count());
+    decimator.decimate(std::ldexp(length, static_cast<int>(out.size())));
+    if (static_cast<double>(decimator.triangle_count()) > kLeastGain * before) break;
+    out.push_back(surface_of(decimator));
+  }
   return out;
 }
 
@@ -219,21 +239,15 @@ void DracoSink::write_triangles(std::span<const Triangle> triangles) {
   surface_.triangles.insert(surface_.triangles.end(), triangles.begin(), triangles.end());
 }
 
-/// Coarser levels are within 2, 4, 8 mean edges of the surface.
 void DracoSink::finish() {
   const EdgeLengths edges = edge_lengths(surface_);
-  const Octree octree = octree_of(surface_, edges);
-  double scale = edges.mean;
+  const std::vector<TriangleSurface> surfaces = levels_of(std::exchange(surface_, {}), edges.mean);
+  const Octree octree = octree_of(surfaces, edges);
   std::string fragments;
-  std::vector<Level> levels{add_level(surface_, octree, {}, fragments)};
-  levels.back().scale = static_cast<float>(scale);
-  SurfaceDecimator decimator = decimator_of(std::exchange(surface_, {}));
-  while (decimator.triangle_count() > kFewTriangles && levels.size() < kMostLevels) {
-    const auto before = static_cast<double>(decimator.triangle_count());
-    scale *= 2;
-    decimator.decimate(scale);
-    if (static_cast<double>(decimator.triangle_count()) > kLeastGain * before) break;
-    levels.push_back(add_level(surface_of(decimator), octree, levels, fragments));
+  std::vector<Level> levels;
+  for (const TriangleSurface& surface : surfaces) {
+    const double scale = std::ldexp(edges.mean, static_cast<int>(levels.size()));
+    levels.push_back(add_level(surface, octree, levels, fragments));
     levels.back().scale = static_cast<float>(scale);
   }
   segments_.add(segment_, fragments, manifest_of(octree, levels));

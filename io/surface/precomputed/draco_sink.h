@@ -13,13 +13,13 @@
 namespace mw::io {
 
 /// Writes levels of detail on an octree.  The first is the surface itself; each later one has its
-/// topology, may be twice as far from it as the one before (SurfaceDecimator), and has cells twice
-/// as long; one of few triangles is the last.  A cell is 64 mean edges long, so that its mesh has
-/// some 10^4 triangles at any level, and a viewer fetches the cells that it shows. Meshes are
-/// Draco's, with whole coordinates of 1/1024 mean edge.  Vertices of the first level that are
-/// rounded to the same place stay apart, so that the surface stays as closed in a cell as it is,
-/// and cells meet along their planes point by point. Memory: the segment, 500 bytes a triangle at
-/// most.
+/// topology, keeps its volume as far as SurfaceDecimator does, may be twice as far from it as the
+/// one before, and has cells twice as long; one of few triangles is the last.  A cell is 64 mean
+/// edges long, so that its mesh has some 10^4 triangles at any level, and a viewer fetches the
+/// cells that it shows. Meshes are Draco's, with whole coordinates of 1/1024 mean edge.  Vertices
+/// of the first level that are rounded to the same place stay apart, so that the surface stays as
+/// closed in a cell as it is, and cells meet along their planes point by point. Memory: the
+/// segment, 500 bytes a triangle at most.
 class DracoSink : public SurfaceSink {
  public:
   /// REQUIRES: segments outlives it.

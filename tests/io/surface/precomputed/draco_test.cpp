@@ -254,8 +254,7 @@ TEST(DracoMeshes, EachLevelIsCoarserAndWithinItsBound) {
     for (std::size_t i = 0; i < corners.size(); i += 97) {
       EXPECT_LT(distance_to(corners[i], surface.vertices), bound) << level;
     }
-    const double share = volume_of(found) / volume_of(fine);
-    EXPECT_NEAR(share, 1, level < 2 ? 0.05 : 0.4) << level;
+    EXPECT_NEAR(volume_of(found) / volume_of(fine), 1, 0.01) << level;
   }
   EXPECT_LE(triangles, 200U);
 }
