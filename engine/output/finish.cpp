@@ -3,11 +3,11 @@
 // Two passes over the final blocks: count, then write.
 #include "engine/output/finish.h"
 
-#include "engine/labels/score_surface.h"
 #include "engine/output/block_figures.h"
 #include "engine/output/block_triangles.h"
 #include "engine/output/interface_shape.h"
 #include "engine/output/remembered.h"
+#include "engine/output/score_surface.h"
 #include "engine/output/vertex_rows.h"
 #include "engine/output/written_block.h"
 

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: The mwmesh authors
 // SPDX-License-Identifier: Apache-2.0
 // Nearest points on balls and between three labels, across tiles, in voxels of any shape.
-#include "engine/labels/score_surface.h"
+#include "engine/output/score_surface.h"
 
 #include <gtest/gtest.h>
 

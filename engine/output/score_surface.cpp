@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: The mwmesh authors
 // SPDX-License-Identifier: Apache-2.0
 // The nearest point where the scores of two labels are equal.
-#include "engine/labels/score_surface.h"
+#include "engine/output/score_surface.h"
 
 #include <algorithm>
 #include <cmath>
