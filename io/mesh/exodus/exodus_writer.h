@@ -22,8 +22,9 @@ namespace mw::io {
 /// Wedges between the sides of an interface are blocks of WEDGE behind those of labels, with ids
 /// above theirs and names such as COHESIVE_1_2; between tets of ten nodes they are not written,
 /// because VTK's reader and libMesh know no wedge of 12 nodes.
-/// Materials are element sets, and empty ones are left out; so are masks (MASK_liver).  Memory: 26
-/// MiB. ERRORS: see NetcdfOutput; mw::Error(kUsage) above 2,147,483,647 nodes or elements.
+/// Masks (MASK_liver) and materials are element sets; materials without elements are left out.
+/// Memory: 26 MiB.
+/// ERRORS: see NetcdfOutput; mw::Error(kUsage) above 2,147,483,647 nodes or elements.
 class ExodusWriter : public GroupedWriter {
  public:
   explicit ExodusWriter(const std::filesystem::path& path, const MeshExtras& extras = {})

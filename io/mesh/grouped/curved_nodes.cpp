@@ -29,10 +29,10 @@ enum class CornerKind : std::uint8_t { kStays, kOnSurface, kOnLine };
 struct Corner {
   Position direction{};  ///< unit normal or unit tangent of a line; before, a sum of normals
   Position move{};
-  Position known{};                     ///< `move` to where the interface is known to lie
   double lengths = 0;                   ///< sum of those of the summands of `direction`
   double area = 0;                      ///< a third of the area of its triangles
   double volume = 0;                    ///< what its surroundings took, for it to give back
+  double wanted = 0;                    ///< what they are to take, where places are known
   double shortest = 0;                  ///< length of its shortest edge on an interface
   std::array<std::uint64_t, 2> line{};  ///< the first two corners that its lines go to
   std::uint32_t group = 0;
@@ -299,7 +299,6 @@ class Curving {
           corner.kind == CornerKind::kOnSurface ? known_move(place(v), corner.group) : std::nullopt;
       corners_.change(v, [&](Corner& c) {
         if (found) c.move = position_of(within(*found, c));
-        c.known = c.move;
         c.is_known = found.has_value();
       });
     }
@@ -312,6 +311,9 @@ class Curving {
       const Vec3 bulge = vector_of(edge.bulge) + *found;
       if (!(bulge.norm() <= kMaxBulge * (place(b) - place(a)).norm())) return;
       edges_.change(number, [&](Edge& e) { e.bulge = position_of(bulge); });
+    });
+    each_facet([this](std::uint32_t group, Side side, const Facet& facet) {
+      if (!is_box_side(side)) want_volume(group, facet);
     });
   }
 
@@ -330,7 +332,8 @@ class Curving {
     return no_longer(move, std::min(kMaxMove * corner.shortest, rule_.most_move));
   }
 
-  /// Moves corners so that each gives back the volume that its surroundings took.
+  /// Moves corners so that each gives back the volume that its surroundings took beyond what is
+  /// wanted.
   void balance() {
     each_facet([this](std::uint32_t, Side side, const Facet& facet) {
       if (!is_box_side(side)) take_volume(facet);
@@ -338,7 +341,8 @@ class Curving {
     for (std::uint64_t v = 0; v < corners_.size(); ++v) {
       const Corner corner = corners_.get(v);
       if (corner.kind != CornerKind::kOnSurface) continue;
-      const Vec3 back = vector_of(corner.direction) * (corner.volume / corner.area);
+      const Vec3 back =
+          vector_of(corner.direction) * ((corner.volume - corner.wanted) / corner.area);
       corners_.change(v, [&](Corner& c) {
         c.volume = 0;
         c.move = position_of(within(vector_of(c.move) - back, c));
@@ -346,45 +350,42 @@ class Curving {
     }
   }
 
-  /// Returns the volumes at three corners between a triangle and the interface through the known
-  /// places of its nodes, and through that of its middle, to which it bulges (27 times the product
-  /// of the three hat functions, whose mean is 9 / 20).
-  [[nodiscard]] std::array<double, 3> known_volumes(const std::array<Corner, 3>& corners,
-                                                    const QuadraticTriangle& from,
-                                                    const QuadraticTriangle& to) {
-    QuadraticTriangle known;
-    for (std::size_t i = 0; i < 3; ++i) known[i] = from[i] + vector_of(corners[i].known);
+  /// Returns a triangle of an interface as it is, and as it becomes.
+  [[nodiscard]] std::array<QuadraticTriangle, 2> before_and_after(const Facet& facet) {
+    const std::array<std::uint64_t, 3> middles = mesh_.facet_middles(facet);
+    QuadraticTriangle from, to;
     for (std::size_t i = 0; i < 3; ++i) {
-      const std::size_t next = (i + 1) % 3;
-      known[3 + i] = to[3 + i] + 0.5 * (known[i] - to[i] + known[next] - to[next]);
+      from[i] = place(facet.rows[i]);
+      from[3 + i] = place(middles[i]);
+      to[i] = from[i] + vector_of(corners_.get(facet.rows[i]).move);
+      to[3 + i] = from[3 + i] + middle_move(edges_.get(edge_of(middles[i])));
     }
-    std::array<double, 3> out = swept_volumes(from, known);
-    const Vec3 middle =
-        (4.0 * (known[3] + known[4] + known[5]) - known[0] - known[1] - known[2]) / 9;
-    const Vec3 normal = (known[1] - known[0]).cross(known[2] - known[0]);
-    if (const auto bulge = known_move(middle, corners[0].group)) {
-      for (double& volume : out) volume += 0.5 * normal.dot(*bulge) * (9.0 / 20) / 3;
+    return {from, to};
+  }
+
+  /// Notes the volumes up to the interface through known places: those of the nodes, which are
+  /// there, and that of the triangle's middle, to which it bulges (27 times the product of the
+  /// three hat functions, whose mean is 9 / 20).
+  void want_volume(std::uint32_t group, const Facet& facet) {
+    const auto [from, to] = before_and_after(facet);
+    std::array<double, 3> volumes = swept_volumes(from, to);
+    const Vec3 middle = (4.0 * (to[3] + to[4] + to[5]) - to[0] - to[1] - to[2]) / 9;
+    const Vec3 normal = (to[1] - to[0]).cross(to[2] - to[0]);
+    const Vec3 bulge = known_move(middle, group).value_or(Vec3::Zero());
+    for (std::size_t i = 0; i < 3; ++i) {
+      volumes[i] += 0.5 * normal.dot(bulge) * (9.0 / 20) / 3;
+      if (!corners_.get(facet.rows[i]).is_known) volumes[i] = 0;
     }
-    return out;
+    hand_on(facet, volumes);
+    for (std::size_t i = 0; i < 3; ++i) {
+      corners_.change(facet.rows[i], [&](Corner& corner) { corner.wanted += volumes[i]; });
+    }
   }
 
   void take_volume(const Facet& facet) {
-    const std::array<std::uint64_t, 3> middles = mesh_.facet_middles(facet);
-    QuadraticTriangle from, to;
-    std::array<Corner, 3> corners;
-    for (std::size_t i = 0; i < 3; ++i) {
-      corners[i] = corners_.get(facet.rows[i]);
-      from[i] = place(facet.rows[i]);
-      from[3 + i] = place(middles[i]);
-      to[i] = from[i] + vector_of(corners[i].move);
-      to[3 + i] = from[3 + i] + middle_move(edges_.get(edge_of(middles[i])));
-    }
+    const auto [from, to] = before_and_after(facet);
     std::array<double, 3> volumes =
         rule_.has_straight_parts ? swept_part_volumes(from, to) : swept_volumes(from, to);
-    if (std::ranges::any_of(corners, &Corner::is_known)) {
-      const std::array<double, 3> wanted = known_volumes(corners, from, to);
-      for (std::size_t i = 0; i < 3; ++i) volumes[i] -= corners[i].is_known ? wanted[i] : 0;
-    }
     hand_on(facet, volumes);
     for (std::size_t i = 0; i < 3; ++i) {
       corners_.change(facet.rows[i], [&](Corner& corner) { corner.volume += volumes[i]; });

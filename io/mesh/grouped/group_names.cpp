@@ -4,6 +4,7 @@
 // files.
 #include "io/mesh/grouped/group_names.h"
 
+#include <optional>
 #include <unordered_map>
 #include <unordered_set>
 
@@ -66,11 +67,13 @@ GroupNames::GroupNames(const GroupedMesh& mesh, const Spelling& spelled, std::si
 void GroupNames::name_masks(const GroupedMesh& mesh, const Spelling& spelled, std::size_t max_bytes,
                             std::set<std::string> taken) {
   const std::vector<MaskGroup> masks = mask_groups(mesh);
-  if (masks.empty()) return;
-  const PlainNames plain(mesh);
+  std::optional<PlainNames> plain;  // made where a name is too long, as it looks at all interfaces
   for (std::size_t i = 0; i < masks.size(); ++i) {
     std::string name = std::string(kMaskNames) + (spelled ? spelled(masks[i].name) : masks[i].name);
-    if (name.size() > max_bytes) name = plain.mask(i);
+    if (name.size() > max_bytes) {
+      if (!plain) plain.emplace(mesh);
+      name = plain->mask(i);
+    }
     while (!taken.insert(name).second) name += '_';
     masks_.push_back(std::move(name));
   }

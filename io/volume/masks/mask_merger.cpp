@@ -193,7 +193,10 @@ std::vector<MaskLabels> MaskMerger::masks_of(const std::vector<RawLabel>& labels
     out[mask].name = clean_name(names_[mask].name);
     const std::string number = std::to_string(names_[mask].label);
     if (out[mask].name.empty()) out[mask].name = number;
-    while (!taken.insert(out[mask].name).second) out[mask].name += " (" + number + ")";
+    while (!taken.insert(out[mask].name).second) {
+      out[mask].name += " (" + number + ")";
+      if (out[mask].name.size() > kMaxNameBytes) out[mask].name = number;
+    }
   }
   std::erase_if(out, [](const MaskLabels& mask) { return mask.labels.empty(); });
   return out;

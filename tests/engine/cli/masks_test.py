@@ -49,9 +49,8 @@ def masks():
     return {"Leber, links": ring, "tumour": tumour, "vessel": (z < 3) & (x > 3) & (x < 8) & (y > 4)}
 
 
-def write_segmentation(path, layers):
+def write_segmentation(path, layers, names=("Leber, links", "tumour/x", "vessel")):
     """A .seg.nrrd with a layer for each mask, as Slicer writes overlapping segments."""
-    names = ["Leber, links", "tumour/x", "vessel"]
     lines = ["NRRD0004", "type: uchar", "dimension: 4",
              f"sizes: {len(layers)} {SHAPE[2]} {SHAPE[1]} {SHAPE[0]}", "space dimension: 3",
              "space directions: none (1,0,0) (0,1,0) (0,0,1)", "kinds: list domain domain domain",
@@ -241,6 +240,11 @@ class Masks(unittest.TestCase):
         run("convert", "n.msh", "n.inp")
         with open("n.inp", encoding="utf-8") as file:
             self.assertIn("*ELSET, ELSET=MASK_3\n", file.read())
+        # Names may be as long as any that are kept, and the same.
+        write_segmentation("long.seg.nrrd", masks().values(), ["n" * 1000] * 3)
+        run("mesh", "long.seg.nrrd", "--overlap", "all", "-o", "n.vtu")
+        rows = json.loads(run("info", "n.vtu", "--json"))["masks"]
+        self.assertEqual([row["name"] for row in rows], ["n" * 1000, "2", "3"])
         # The box of an object is that of all masks together, also where these are files.
         regions = json.loads(run("info", "named", "--overlap", "all", "--object", "2", "--json"))
         self.assertEqual([row["label"] for row in regions["labels"]["per_label"]], [0, 2])
