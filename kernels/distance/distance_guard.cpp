@@ -8,8 +8,6 @@
 namespace mw {
 namespace {
 
-constexpr double kRoundingGuard = 1e-9;
-
 /// A triangle looks the way of a voxel face when the cosine of their normals is at least this.
 constexpr double kMinCosine = -0.1;
 constexpr double kAnyCosine = -2.0;

@@ -11,9 +11,6 @@
 namespace mw {
 namespace {
 
-/// Proofs aim this much below the bound, against rounding in the last bits.
-constexpr double kRoundingGuard = 1e-9;
-
 /// Pieces with no edge longer than this share of the bound are not halved again.
 constexpr double kSmallestPiece = 1.0 / 16.0;
 

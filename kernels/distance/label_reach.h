@@ -10,6 +10,9 @@
 
 namespace mw {
 
+/// Proofs aim this much below a bound, against rounding in the last bits.
+inline constexpr double kRoundingGuard = 1e-9;
+
 /// Decides whether all of a triangle between labels A and B lies within D of the input's boundary
 /// of A and of B.
 ///

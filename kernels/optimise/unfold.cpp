@@ -13,7 +13,7 @@ namespace mw {
 namespace {
 
 /// A smaller gain in bend energy is not worth a try.
-constexpr double kMinGain = 0.02;
+constexpr double kMinBendGain = 0.02;
 /// Energy of a bend, in shape energies of a tet, for each unit of SurfaceWeights::bend.
 constexpr double kBendFactor = 5.0;
 /// Energy of the mean squared distance of carried faces, in shape energies of a tet, for each voxel
@@ -113,7 +113,7 @@ bool Unfolder::unfold_one(LocalVertex v) {
     const LocalVertex q = star_.triangles()[spoke.first].a;
     const Hinge h = hinge(spoke);
     const double gain = h.gain();
-    if (gain > kMinGain) {
+    if (gain > kMinBendGain) {
       const double misfits = misfit(*h.first, h) + misfit(*h.second, h);
       const double of_surface =
           kBendFactor * weights_.bend * gain - kMisfitFactor / h.area() * misfits;

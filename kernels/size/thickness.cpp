@@ -40,7 +40,7 @@ constexpr double kFarther = 0.75;
 /// Directions with a smaller cosine (more than 41 degrees) lead along a part and not through it.
 constexpr double kThrough = 0.75;
 constexpr float kNotThin = std::numeric_limits<float>::infinity();
-constexpr std::uint8_t kFar = kThinReach + 1;  ///< no side within reach
+constexpr std::uint8_t kOutOfReach = kThinReach + 1;  ///< no side within reach
 
 class Thickness {
  public:
@@ -120,11 +120,12 @@ class Thickness {
       const auto here = static_cast<std::size_t>(i),
                  there = static_cast<std::size_t>(i + sign * step);
       if (!all.contains(other)) {
-        runs[here] = kFar;
+        runs[here] = kOutOfReach;
       } else if (labels_.labels[here] != labels_.labels[there]) {
         runs[here] = 0;
       } else {
-        runs[here] = std::min<std::uint8_t>(kFar, static_cast<std::uint8_t>(runs[there] + 1));
+        runs[here] =
+            std::min<std::uint8_t>(kOutOfReach, static_cast<std::uint8_t>(runs[there] + 1));
       }
     };
     std::int64_t i = 0;
@@ -136,7 +137,7 @@ class Thickness {
   /// Lowers nearest_ to the distance from the middle of the voxel to the nearer side along d.
   void take_nearest(Index3 d, std::size_t i, std::size_t in) {
     const std::uint8_t run = std::min(before_[in], behind_[in]);
-    if (run == kFar) return;
+    if (run == kOutOfReach) return;
     nearest_[i] = std::min(nearest_[i], static_cast<float>((run + 0.5) * length(d)));
   }
 
