@@ -3,7 +3,9 @@
 // The whole command line: commands, messages, exit codes.
 #pragma once
 
-#include "engine/run/processes.h"
+namespace mw::engine {
+class Processes;
+}
 
 namespace mw::cli {
 
