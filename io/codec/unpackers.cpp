@@ -22,14 +22,14 @@ namespace {
 constexpr int kZlib = 15;       // zlib's window bits: largest window, its own framing
 constexpr int kGzip = 15 + 16;  // the same window, gzip's framing
 
-class Inflater : public StreamDecoder {
+class DeflateDecoder : public StreamDecoder {
  public:
-  Inflater(int window_bits, const PackedName& name) {
+  DeflateDecoder(int window_bits, const PackedName& name) {
     if (inflateInit2(&stream_, window_bits) != Z_OK) fail_no_memory(name);
   }
-  ~Inflater() override { inflateEnd(&stream_); }
-  Inflater(const Inflater&) = delete;
-  Inflater& operator=(const Inflater&) = delete;
+  ~DeflateDecoder() override { inflateEnd(&stream_); }
+  DeflateDecoder(const DeflateDecoder&) = delete;
+  DeflateDecoder& operator=(const DeflateDecoder&) = delete;
 
   [[nodiscard]] Step step(std::span<const std::byte> packed, std::span<std::byte> out) override {
     // zlib does not write to its input.
@@ -54,7 +54,7 @@ class Inflater : public StreamDecoder {
 
 std::vector<std::byte> inflate_all(int window_bits, std::span<const std::byte> packed,
                                    std::size_t max, const PackedName& name) {
-  Inflater inflater(window_bits, name);
+  DeflateDecoder inflater(window_bits, name);
   return unpack_streams(inflater, packed, max, name);
 }
 
@@ -248,9 +248,9 @@ class ZstdDecoder : public StreamDecoder {
 std::unique_ptr<StreamDecoder> stream_decoder(Codec codec, const PackedName& name) {
   switch (codec) {
     case Codec::kGzip:
-      return std::make_unique<Inflater>(kGzip, name);
+      return std::make_unique<DeflateDecoder>(kGzip, name);
     case Codec::kZlib:
-      return std::make_unique<Inflater>(kZlib, name);
+      return std::make_unique<DeflateDecoder>(kZlib, name);
     case Codec::kBzip2:
       return std::make_unique<Bunzipper>(name);
     case Codec::kXz:

@@ -30,7 +30,8 @@ enum class VoxelType { kU8, kU16, kU32, kU64, kI8, kI16, kI32, kI64, kF32, kF64 
 /// Facts of a volume.  Arrays are (x, y, z).
 struct VolumeInfo {
   Index3 shape;
-  VolumeSpace space{};
+  // With {}, GCC 12 takes the unit for uninitialised in united sources.
+  VolumeSpace space = VolumeSpace();
   VoxelType type = VoxelType::kU8;  ///< as stored
   std::string format;               ///< "npy", "nifti", "nrrd", "raw" and so on
   bool scaled = false;              ///< labels are slope * stored + intercept, hence signed

@@ -89,7 +89,7 @@ void limit_child(const ApartLimits& limits) {
   allow_cpu_seconds(limits.cpu_seconds);
 }
 
-void write_all(int fd, std::span<const std::byte> bytes) {
+void send_all(int fd, std::span<const std::byte> bytes) {
   while (!bytes.empty()) {
     const ssize_t done = ::write(fd, bytes.data(), bytes.size());
     if (done < 0 && errno == EINTR) continue;
@@ -99,14 +99,14 @@ void write_all(int fd, std::span<const std::byte> bytes) {
 }
 
 void tell_end(int fd, ChildEnd end) {
-  write_all(fd, std::as_bytes(std::span(&end, 1)));
+  send_all(fd, std::as_bytes(std::span(&end, 1)));
 }
 
 void throw_over(int fd, const Error& error) {
   const std::string message =
       std::string{static_cast<char>(ChildEnd::kThrew), static_cast<char>(error.kind())} +
       std::string(error.what()).substr(0, kMaxMessage - 2);
-  write_all(fd, std::as_bytes(std::span(message)));
+  send_all(fd, std::as_bytes(std::span(message)));
 }
 
 /// Runs in the child.  ERRORS: std::runtime_error when nobody reads how it ended.
@@ -114,7 +114,7 @@ void do_work(const Pipe& data, const Pipe& errors,
              const std::function<void(const SendBytes&)>& work) {
   try {
     try {
-      work([&](std::span<const std::byte> bytes) { write_all(data.in.get(), bytes); });
+      work([&](std::span<const std::byte> bytes) { send_all(data.in.get(), bytes); });
       tell_end(errors.in.get(), ChildEnd::kAnswered);
     } catch (const Error& error) {
       throw_over(errors.in.get(), error);

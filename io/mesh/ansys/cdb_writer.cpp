@@ -11,7 +11,6 @@
 namespace mw::io {
 namespace {
 
-constexpr std::uint64_t kMaxNumber = 99'999'999;
 constexpr std::size_t kColumns = 9;
 constexpr std::uint64_t kTetType = 1, kFaceType = 2;
 
@@ -25,8 +24,9 @@ void CdbWriter::write(GroupedMesh& mesh) {
                                 .of_triangles = "F_"});
   std::uint64_t elements = mesh.tet_count();
   for_each_faces(mesh, names, [&](const Faces& faces) { elements += faces.facets.size(); });
-  check_number(name_, std::max(mesh.node_count(), elements),
-               {.max = kMaxNumber, .subject = "Ansys files have", .others = ".exo or .vtkhdf"});
+  check_number(
+      name_, std::max(mesh.node_count(), elements),
+      {.max = kMaxFieldNumber, .subject = "Ansys files have", .others = ".exo or .vtkhdf"});
   const auto labels = static_cast<std::int64_t>(mesh.table().size());
   const LabelNumbers numbers(mesh.table(), {.min = 1, .max = std::max<std::int64_t>(labels, 1)});
 

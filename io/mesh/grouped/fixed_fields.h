@@ -15,6 +15,9 @@
 
 namespace mw::io {
 
+/// The largest number of a node, an element or a group in fixed fields: it has 8 digits.
+inline constexpr std::int64_t kMaxFieldNumber = 99'999'999;
+
 /// Returns the number at the right of a field.  REQUIRES: it has no more digits than columns.
 [[nodiscard]] inline std::string fixed_integer(std::uint64_t number, std::size_t columns) {
   const std::string digits = std::to_string(number);

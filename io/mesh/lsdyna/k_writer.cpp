@@ -11,7 +11,6 @@
 namespace mw::io {
 namespace {
 
-constexpr std::uint64_t kMaxNumber = 99'999'999;
 constexpr int kDigits = 9;          // behind the point of a coordinate
 constexpr std::size_t kShort = 8;   // columns of a field in nodes and elements
 constexpr std::size_t kField = 10;  // columns of other fields
@@ -30,11 +29,11 @@ std::string card(std::initializer_list<std::uint64_t> numbers, std::size_t colum
 
 void LsdynaWriter::write(GroupedMesh& mesh) {
   check_number(name_, std::max(mesh.node_count(), mesh.tet_count()),
-               {.max = kMaxNumber, .subject = "LS-DYNA has", .others = ".exo or .vtkhdf"});
+               {.max = kMaxFieldNumber, .subject = "LS-DYNA has", .others = ".exo or .vtkhdf"});
   check_digits(name_, mesh, kDigits + 1);
   constexpr std::uint64_t kTet4Form = 10, kTet10Form = 16;
   const bool ten = has_middles(mesh.element());
-  const LabelNumbers numbers(mesh.table(), {.max = kMaxNumber});
+  const LabelNumbers numbers(mesh.table(), {.max = kMaxFieldNumber});
   const PlainNames names(mesh);
   line("*KEYWORD");
   line("*TITLE");

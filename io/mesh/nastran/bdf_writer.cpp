@@ -10,7 +10,6 @@
 namespace mw::io {
 namespace {
 
-constexpr std::int64_t kMaxNumber = 99'999'999;
 constexpr std::size_t kColumns = 72;      // in a line of the case control
 constexpr std::size_t kFieldColumns = 8;  // in a small field
 constexpr int kDigits = 9;                // behind the point of a coordinate
@@ -29,9 +28,9 @@ std::string number_field(std::uint64_t number, std::size_t columns = kFieldColum
 
 void BdfWriter::write(GroupedMesh& mesh) {
   check_number(name_, std::max(mesh.node_count(), mesh.tet_count()),
-               {.max = kMaxNumber, .subject = "Nastran has", .others = ".exo or .vtkhdf"});
+               {.max = kMaxFieldNumber, .subject = "Nastran has", .others = ".exo or .vtkhdf"});
   check_digits(name_, mesh, kDigits + 1);
-  const LabelNumbers numbers(mesh.table(), {.max = kMaxNumber});
+  const LabelNumbers numbers(mesh.table(), {.max = kMaxFieldNumber});
   const PlainNames names(mesh);
   line(text("$ mwmesh: tetrahedra of ", mesh.table().size(),
             " labels; materials are placeholders."));
