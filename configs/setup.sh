@@ -74,7 +74,7 @@ build() {
   [[ "$what" == program ]] && tests=OFF
   cd "$root"
   local minutes=12
-  [[ $tests == OFF ]] && minutes=3
+  [[ $tests == OFF ]] && minutes=4
   echo "setup: building build/release (about $minutes minutes on two cores, when it is built anew)"
   quietly cmake --preset release -DMW_BUILD_TESTS=$tests -DMW_BUILD_BENCH=$tests || die "cmake failed (see above)"
   quietly cmake --build --preset release --parallel 2 || die "the build failed (see above)"
