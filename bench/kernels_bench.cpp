@@ -6,7 +6,7 @@
 #include <tbb/global_control.h>
 #include <tbb/task_arena.h>
 
-#include "engine/system/tbb_for.h"
+#include "engine/system/crew.h"
 #include "kernels/optimise/optimise.h"
 #include "kernels/simplify/simplify.h"
 #include "kernels/start/coarsen/coarsen.h"

@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: The mwmesh authors
 # SPDX-License-Identifier: Apache-2.0
-"""A .vtu file as mwmesh and cgal_mesh write it (io/mesh/vtu/vtu_layout.h), as numpy arrays."""
+"""A .vtu file as mwmesh and cgal_mesh write it (io/mesh/vtu/vtu.h), as numpy arrays."""
 
 import dataclasses
 import xml.etree.ElementTree

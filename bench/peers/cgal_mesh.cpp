@@ -11,8 +11,8 @@
 #include <optional>
 
 #include "bench/peers/cgal_mesher.h"
-#include "engine/report/resource_meter.h"
 #include "engine/report/run_report.h"
+#include "engine/system/stopwatch.h"
 #include "io/json/json.h"
 #include "io/labels/label_table.h"
 #include "io/mesh/open_mesh.h"
@@ -58,7 +58,7 @@ io::MeshData with_raw_labels(io::MeshData mesh, const io::LabelTable& table) {
 
 /// Keys as in the report of mwmesh.
 io::Json report_of(const io::VolumeInfo& info, std::size_t labels, const io::MeshData& mesh,
-                   const report::Resources& used) {
+                   const engine::Resources& used) {
   const auto voxels = static_cast<double>(info.shape.product());
   return {{"input",
            {{"shape_xyz", {info.shape.x, info.shape.y, info.shape.z}},
@@ -76,7 +76,7 @@ io::Json report_of(const io::VolumeInfo& info, std::size_t labels, const io::Mes
 }
 
 void run(const Job& job) {
-  const report::ResourceMeter meter;
+  const engine::ResourceMeter meter;
   const std::unique_ptr<io::MeshSink> sink = io::open_mesh_sink(job.mesh);
   const std::unique_ptr<io::LabelVolume> volume = io::open_volume(job.volume);
   const io::LabelTable table = io::collect_labels(*volume);

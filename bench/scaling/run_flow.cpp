@@ -4,7 +4,7 @@
 
 #include <utility>
 
-#include "engine/store/block_route.h"
+#include "engine/store/run_layout.h"
 
 namespace mw::bench {
 

@@ -7,7 +7,8 @@
 #include <latch>
 #include <thread>
 
-#include "engine/march/flow_march.h"
+#include "engine/march/march.h"
+#include "engine/system/crew.h"
 #include "tests/engine/team/thread_exchange.h"
 
 namespace mw::bench {

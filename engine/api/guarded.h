@@ -9,7 +9,7 @@
 #include <string>
 
 #include "engine/mwmesh.h"
-#include "engine/system/file_failure.h"
+#include "io/file/errors.h"
 #include "kernels/core/error.h"
 
 namespace mw::api {
@@ -43,7 +43,7 @@ auto guarded(const Work& work) {
   } catch (const Error& error) {
     throw library_error(error);
   } catch (const std::filesystem::filesystem_error& failure) {
-    throw library_error(engine::file_failure(failure));
+    throw library_error(io::file_failure(failure));
   } catch (const std::length_error&) {
     throw mwmesh::Error(mwmesh::ErrorKind::kResource,
                         "this is more than memory can hold: give a smaller volume");

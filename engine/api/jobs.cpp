@@ -12,7 +12,7 @@
 #include "engine/system/memory.h"
 #include "io/file/errors.h"
 #include "io/file/scratch/scratch_file.h"
-#include "io/labels/merged_labels.h"
+#include "io/labels/merged_volume.h"
 #include "io/volume/open_volume.h"
 #include "kernels/core/error.h"
 

@@ -1,17 +1,15 @@
 // SPDX-FileCopyrightText: The mwmesh authors
 // SPDX-License-Identifier: Apache-2.0
 // Volumes to meshes, and meshes held against volumes.
-
 #include "engine/api/guarded.h"
 #include "engine/api/jobs.h"
 #include "engine/api/types.h"
-#include "engine/api/volume_access.h"
 #include "engine/job/verify_job.h"
 #include "engine/version.h"
 #include "io/file/scratch/scratch_file.h"
 #include "io/mesh/digest.h"
+#include "io/mesh/mesh_sink.h"
 #include "io/mesh/open_mesh.h"
-#include "io/mesh/tee_sink.h"
 #include "io/volume/open_volume.h"
 
 namespace mwmesh {

@@ -5,7 +5,7 @@
 
 #include "engine/api/guarded.h"
 #include "engine/api/jobs.h"
-#include "engine/settings/near_words.h"
+#include "engine/settings/number_text.h"
 #include "engine/settings/setting_table.h"
 #include "io/file/errors.h"
 

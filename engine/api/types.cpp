@@ -7,12 +7,11 @@
 #include <cmath>
 
 #include "engine/api/guarded.h"
-#include "engine/settings/material_text.h"
+#include "engine/settings/size_text.h"
 #include "io/file/errors.h"
 #include "io/mesh/field_names.h"
 #include "io/mesh/open_mesh.h"
 #include "io/volume/checks.h"
-#include "io/volume/file_space.h"
 #include "io/volume/open_volume.h"
 
 namespace mw::api {

@@ -7,7 +7,7 @@
 #include <algorithm>
 #include <deque>
 
-#include "engine/settings/near_words.h"
+#include "engine/settings/number_text.h"
 #include "io/file/errors.h"
 
 namespace mw::cli {

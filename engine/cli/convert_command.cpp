@@ -8,11 +8,10 @@
 #include "engine/cli/options/file_names.h"
 #include "engine/cli/options/shared_options.h"
 #include "engine/cli/options/values.h"
-#include "engine/settings/material_text.h"
+#include "engine/settings/size_text.h"
 #include "io/file/errors.h"
-#include "io/mesh/no_sink.h"
+#include "io/mesh/mesh_sink.h"
 #include "io/mesh/open_mesh.h"
-#include "io/mesh/tee_sink.h"
 
 namespace mw::cli {
 namespace {

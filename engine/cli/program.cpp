@@ -14,7 +14,6 @@
 
 #include "engine/cli/command.h"
 #include "engine/cli/exit_code.h"
-#include "engine/cli/interrupt.h"
 #include "engine/cli/log.h"
 #include "engine/cli/mesh/run_processes.h"
 #include "io/file/errors.h"

@@ -4,9 +4,12 @@
 // goes as bytes through shared memory.
 #pragma once
 
+#include <boost/interprocess/mapped_region.hpp>
+
 #include <array>
 #include <cstddef>
 #include <span>
+#include <string>
 
 #include "kernels/odt/triangulation.h"
 
@@ -47,5 +50,28 @@ void put(const Triangulation& made, std::span<std::byte> to);
 /// Return nothing when the counts do not fit the bytes.
 [[nodiscard]] std::optional<Plc> get_plc(std::span<const std::byte> from);
 [[nodiscard]] std::optional<Triangulation> get_triangulation(std::span<const std::byte> from);
+
+/// Mapped shared memory.  It outlives its name, which is needed only until the other side has
+/// opened it.
+class SharedMemory {
+ public:
+  SharedMemory() = default;
+
+  /// Makes memory under a new name, with all pages reserved (a hole would raise SIGBUS later).
+  /// ERRORS: kResource.
+  [[nodiscard]] static SharedMemory create(std::size_t bytes);
+  /// Maps the memory of that name.  ERRORS: kInternal when it is not there.
+  [[nodiscard]] static SharedMemory open(const std::string& name);
+
+  [[nodiscard]] const std::string& name() const { return name_; }
+  void remove_name() const;
+  [[nodiscard]] std::span<std::byte> bytes() const {
+    return {static_cast<std::byte*>(region_.get_address()), region_.get_size()};
+  }
+
+ private:
+  std::string name_;
+  boost::interprocess::mapped_region region_;
+};
 
 }  // namespace mw::engine::codt

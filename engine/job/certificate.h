@@ -10,7 +10,7 @@
 
 #include "engine/job/mesh_job.h"
 #include "engine/verify/mesh_tiles.h"
-#include "io/mesh/tee_sink.h"
+#include "io/mesh/mesh_sink.h"
 #include "kernels/audit/audit.h"
 
 namespace mw::engine {

@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "engine/job/mesh_job.h"
-#include "engine/output/block_figures.h"
+#include "engine/output/written_block.h"
 #include "io/mesh/grouped/halved_sink.h"
 
 namespace mw::engine {

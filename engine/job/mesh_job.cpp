@@ -12,18 +12,16 @@
 #include "engine/connect/connected_sink.h"
 #include "engine/job/certificate.h"
 #include "engine/job/count_pilot.h"
+#include "engine/job/earlier_run.h"
 #include "engine/job/halving.h"
-#include "engine/job/object_box.h"
-#include "engine/job/steps_text.h"
-#include "engine/job/unpacking.h"
 #include "engine/job/volume_delta.h"
 #include "engine/keep/keep_folder.h"
+#include "engine/keep/keep_options.h"
 #include "engine/keep/kept_labels.h"
-#include "engine/keep/results_id.h"
-#include "engine/labels/fingerprint.h"
+#include "engine/labels/label_counts.h"
 #include "engine/labels/label_scan.h"
+#include "engine/labels/reading_tiles.h"
 #include "engine/labels/score_crossings.h"
-#include "engine/labels/shared_reads.h"
 #include "engine/labels/size_image.h"
 #include "engine/labels/voxel_lattice.h"
 #include "engine/settings/number_text.h"
@@ -35,6 +33,7 @@
 #include "engine/window/window_memory.h"
 #include "io/file/errors.h"
 #include "io/volume/label_volume.h"
+#include "io/volume/volume_readers.h"
 #include "kernels/core/error.h"
 
 namespace mw::engine {
@@ -262,7 +261,7 @@ std::uint64_t labels_without_size(const MeshJob& job, const io::LabelTable& tabl
 
 /// Finds the scale by a pilot, unless an earlier run has done so.
 report::CountFacts count_facts(const PilotTask& task, const report::FinishedRun& run) {
-  const report::ResourceMeter meter;
+  const engine::ResourceMeter meter;
   const std::optional<report::CountFacts> saved = saved_count(task.job, run);
   report::CountFacts out = saved ? *saved : scale_for_count(task);
   if (!saved) out.seconds = meter.read().wall_seconds;
@@ -316,7 +315,7 @@ report::RaisedSizes raised_sizes(const SizeImage& image, double smallest,
 }
 
 /// Returns the room to read the volume, beside the program and the preparation of labels.
-ReadingRoom reading_room(const MeshJob& job, bool has_scores = false) {
+io::ReadingRoom reading_room(const MeshJob& job, bool has_scores = false) {
   const Processes* const processes = job.run.processes;
   const int sharers = processes == nullptr ? 1 : processes->count_here();
   const auto shares = static_cast<std::uint64_t>(sharers);
@@ -417,7 +416,7 @@ report::FinishedRun mesh_and_keep(const io::LabelVolume& opened, const MeshJob& 
                                   io::MeshSink& sink) {
   MeshJob job = asked;
   CertificatePlan plan = plan_certificate(job, reader_bytes(opened));
-  const report::ResourceMeter meter;
+  const engine::ResourceMeter meter;
   std::optional<SizeImage> sizes = size_image(opened.info(), job);
   const double smallest =
       sizes ? least_size_of(*sizes, job) : std::numeric_limits<double>::infinity();
@@ -428,8 +427,9 @@ report::FinishedRun mesh_and_keep(const io::LabelVolume& opened, const MeshJob& 
   check_object_box(opened.info(), job);
   const io::LabelScores* const scores = opened.scores();
   if (scores != nullptr) check_scored(job);
-  check_unpacking(opened, reading_room(job, scores != nullptr));
-  for (const SampleImage& sample : job.samples) check_unpacking(*sample.image, reading_room(job));
+  io::check_unpacking(opened, reading_room(job, scores != nullptr));
+  for (const SampleImage& sample : job.samples)
+    io::check_unpacking(*sample.image, reading_room(job));
   report::RaisedSizes raised;
   if (sizes && asked.settings.sizes.count == 0) {
     raised = raised_sizes(*sizes, smallest, opened.info(), halvings);

@@ -5,9 +5,8 @@
 
 #include <algorithm>
 
-#include "engine/job/unpacking.h"
 #include "engine/labels/label_scan.h"
-#include "engine/labels/shared_reads.h"
+#include "engine/labels/reading_tiles.h"
 #include "engine/march/march.h"
 #include "engine/report/figures.h"
 #include "engine/report/mesh_facts.h"
@@ -16,7 +15,8 @@
 #include "io/file/errors.h"
 #include "io/file/text_numbers.h"
 #include "io/mesh/merged_vertices.h"
-#include "kernels/core/layers.h"
+#include "io/volume/volume_readers.h"
+#include "kernels/core/lattice.h"
 
 namespace mw::engine {
 namespace {
@@ -160,7 +160,7 @@ report::Bounds bounds_of(const AskedBounds& asked, const io::MeshRecord& record,
 }  // namespace
 
 report::Verdict verify(const VerifyJob& job, const std::function<void(io::MeshSink&)>& deliver) {
-  check_unpacking(job.volume, {.memory = job.memory, .shares = 2});
+  io::check_unpacking(job.volume, {.memory = job.memory, .shares = 2});
   const io::SpeckLimits limits = io::SpeckLimits::of_budget(job.memory);
   SharedReads shared(job.volume, job.memory - limits.memory);
   const io::PreparedInput input(shared, job.steps, limits);

@@ -12,7 +12,7 @@
 #include "engine/labels/label_scan.h"
 #include "engine/labels/reading_tiles.h"
 #include "engine/report/mesh_facts.h"
-#include "engine/system/tbb_for.h"
+#include "engine/system/crew.h"
 #include "engine/verify/tile_grid.h"
 #include "engine/verify/volume_stage.h"
 #include "io/labels/label_table.h"

@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: The mwmesh authors
 // SPDX-License-Identifier: Apache-2.0
-// What a run keeps for later runs, and what it takes from an earlier one.
+// What a run keeps for later runs, what it takes from an earlier one, and an id of the sources that
+// decide on results, as facts from other sources are not used.
 #pragma once
 
 #include <cstdint>
@@ -52,5 +53,9 @@ struct KeepFacts {
   std::uint64_t bytes_kept = 0;     ///< what the folder takes at the end
   std::uint64_t bytes_written = 0;  ///< bytes of blocks written
 };
+
+/// Returns 16 hexadecimal digits, which differ for other sources.  results_id.cmake makes the file
+/// that defines it.
+[[nodiscard]] const char* results_id();
 
 }  // namespace mw::engine

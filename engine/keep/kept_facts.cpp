@@ -7,7 +7,7 @@
 #include <filesystem>
 #include <utility>
 
-#include "engine/keep/drop_order.h"
+#include "engine/keep/window_records.h"
 #include "engine/store/journal/folder_lock.h"
 #include "engine/store/journal/mapped_file.h"
 #include "io/file/sink/partial_file.h"

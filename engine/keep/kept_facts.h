@@ -11,7 +11,7 @@
 
 #include "engine/keep/keep_folder.h"
 #include "engine/keep/window_records.h"
-#include "engine/store/journal/record_log.h"
+#include "engine/store/journal/journal.h"
 #include "engine/store/run_layout.h"
 #include "engine/store/run_store.h"
 #include "engine/store/table/segment_file.h"

@@ -12,9 +12,8 @@
 #include "engine/window/window_grid.h"
 #include "io/codec/checksums.h"
 #include "io/codec/codec.h"
-#include "io/codec/pack_zstd.h"
 #include "io/file/byte_order.h"
-#include "kernels/core/copy_box.h"
+#include "kernels/core/index.h"
 
 namespace mw::engine {
 namespace {

@@ -6,8 +6,8 @@
 #include <array>
 #include <bit>
 
-#include "engine/labels/bricks.h"
-#include "engine/system/tbb_for.h"
+#include "engine/labels/reading_tiles.h"
+#include "engine/system/crew.h"
 #include "kernels/core/index.h"
 #include "kernels/distance/label_reach.h"
 #include "kernels/start/graded_start.h"

@@ -12,7 +12,7 @@
 #include "engine/labels/prepared_labels.h"
 #include "engine/settings/settings.h"
 #include "engine/window/window_grid.h"
-#include "io/codec/content_digest.h"
+#include "io/codec/hasher.h"
 
 namespace mw::engine {
 

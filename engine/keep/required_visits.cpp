@@ -5,7 +5,7 @@
 
 #include <algorithm>
 
-#include "engine/store/block_route.h"
+#include "engine/store/run_layout.h"
 
 namespace mw::engine {
 namespace {

@@ -8,5 +8,5 @@ foreach(file ${SOURCES})
 endforeach()
 string(SHA256 digest "${digests}")
 string(SUBSTRING ${digest} 0 16 digest)
-file(WRITE ${OUTPUT} "#include \"engine/keep/results_id.h\"\n
+file(WRITE ${OUTPUT} "#include \"engine/keep/keep_options.h\"\n
 const char* mw::engine::results_id() {\n  return \"${digest}\";\n}\n")

@@ -17,7 +17,7 @@
 #include "engine/keep/label_digests.h"
 #include "engine/store/block_keeper.h"
 #include "engine/store/memory_budget.h"
-#include "io/codec/pack_zstd.h"
+#include "io/codec/codec.h"
 
 namespace mw::engine {
 

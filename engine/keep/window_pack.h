@@ -7,7 +7,7 @@
 #include <span>
 #include <vector>
 
-#include "io/codec/pack_zstd.h"
+#include "io/codec/codec.h"
 
 namespace mw::engine {
 

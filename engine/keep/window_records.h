@@ -1,16 +1,19 @@
 // SPDX-FileCopyrightText: The mwmesh authors
 // SPDX-License-Identifier: Apache-2.0
-// Facts about visits: what went in, what came out, and where that is.
+// Facts about visits: what went in, what came out, where that is, and which bytes go first when a
+// folder has to become smaller.
 #pragma once
 
 #include <array>
+#include <cstdint>
 #include <span>
 #include <vector>
 
 #include "engine/store/block_keeper.h"
 #include "engine/store/codec/byte_codes.h"
-#include "engine/store/table/extent_allocator.h"
-#include "io/codec/content_digest.h"
+#include "engine/store/run_layout.h"
+#include "engine/store/table/segment_file.h"
+#include "io/codec/hasher.h"
 
 namespace mw::engine {
 
@@ -50,5 +53,22 @@ struct WindowRecord {
 [[nodiscard]] ByteWriter encode(const WindowRecord& record);
 /// ERRORS: BadBytes.
 [[nodiscard]] WindowRecord decode_window_record(std::span<const std::byte> bytes);
+
+/// A window whose bytes are kept.
+struct KeptBytes {
+  std::uint64_t window = 0;
+  std::uint32_t run = 0;    ///< the run that visited it
+  std::uint64_t bytes = 0;  ///< what it takes of the file
+};
+
+/// True if the output reads a block as this window leaves it; such bytes are never given up, since
+/// every later run reads them.
+[[nodiscard]] bool leaves_final_block(const RunLayout& layout, const WindowKey& key);
+
+/// Returns those that may be given up, in the order in which they go: windows of the earliest runs
+/// first, among these the farthest from the box that the last run visited, then the last window.
+[[nodiscard]] std::vector<KeptBytes> drop_order(const RunLayout& layout,
+                                                std::vector<KeptBytes> kept,
+                                                std::uint32_t last_run);
 
 }  // namespace mw::engine

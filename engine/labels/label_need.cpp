@@ -5,7 +5,6 @@
 
 #include <algorithm>
 
-#include "engine/labels/bricks.h"
 #include "engine/labels/reading_tiles.h"
 #include "kernels/start/coarsen/coarsen.h"
 #include "kernels/start/graded_start.h"

@@ -12,7 +12,7 @@
 
 #include "engine/labels/label_scan.h"
 #include "engine/labels/reading_tiles.h"
-#include "engine/system/tbb_for.h"
+#include "engine/system/crew.h"
 #include "kernels/core/index.h"
 
 namespace mw::engine {

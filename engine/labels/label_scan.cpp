@@ -8,8 +8,8 @@
 #include <algorithm>
 
 #include "engine/march/march.h"
-#include "engine/system/tbb_for.h"
-#include "io/labels/label_set.h"
+#include "engine/system/crew.h"
+#include "io/labels/label_table.h"
 
 namespace mw::engine {
 namespace {

@@ -5,7 +5,7 @@
 
 #include "engine/labels/reading_tiles.h"
 #include "io/labels/label_table.h"
-#include "io/volume/reader_room.h"
+#include "io/volume/volume_readers.h"
 
 namespace mw::engine {
 

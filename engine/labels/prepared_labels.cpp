@@ -9,12 +9,10 @@
 #include <optional>
 #include <utility>
 
-#include "engine/labels/bricks.h"
 #include "engine/labels/periodic_labels.h"
 #include "engine/labels/reading_tiles.h"
 #include "engine/labels/score_crossings.h"
-#include "engine/system/tbb_for.h"
-#include "kernels/core/copy_box.h"
+#include "engine/system/crew.h"
 #include "kernels/core/index.h"
 #include "kernels/size/thickness.h"
 #include "kernels/source/crossing.h"

@@ -15,7 +15,7 @@
 #include "kernels/core/label.h"
 #include "kernels/inner/inner_demand.h"
 #include "kernels/size/size_field.h"
-#include "kernels/start/cells/level_map.h"
+#include "kernels/start/cells/cell_levels.h"
 
 namespace mw::engine {
 

@@ -1,8 +1,11 @@
 // SPDX-FileCopyrightText: The mwmesh authors
 // SPDX-License-Identifier: Apache-2.0
-// The boxes in which a whole volume is read, and the bricks in them.
+// The boxes in which a whole volume is read, and the bricks in them; lets one thread that reads a
+// volume far away have several requests in flight.
 #pragma once
 
+#include <atomic>
+#include <cstdint>
 #include <functional>
 #include <span>
 #include <vector>
@@ -13,6 +16,9 @@
 #include "kernels/core/label.h"
 
 namespace mw::engine {
+
+/// Voxels along each edge of a brick.
+inline constexpr std::int64_t kBrick = io::BrickVolume::kEdge;
 
 /// One of `count` parts that a sequence is cut into; their sizes differ by at most one.
 struct SequencePart {
@@ -67,5 +73,23 @@ using OnBrick = std::function<void(Index3 brick, const Box3& box, std::span<cons
 /// Calls visit for each brick of a tile.
 /// REQUIRES: the tile begins at a brick, and ends at one or with the volume.
 void for_each_brick(const LabelBox& tile, const OnBrick& visit);
+
+/// A volume far away (io::VolumeInfo::is_far) whose reads are shared by several threads, tile by
+/// tile (ReadingTiles), until end().  Other volumes are read as they are, and so are those whose
+/// voxels may be no labels, so that the error names the first such voxel.
+/// Memory: as scanner_count() has it.
+class SharedReads : public io::VolumeView {
+ public:
+  /// The volume outlives it.  memory is the budget of which the threads take a part.
+  explicit SharedReads(const io::LabelVolume& volume,
+                       std::uint64_t memory = std::uint64_t{256} << 20U);
+
+  /// From here on a thread reads alone: there are several that read.
+  void end() { readers_ = 1; }
+  void read(const Box3& box, std::span<RawLabel> out) const override;
+
+ private:
+  std::atomic<int> readers_;
+};
 
 }  // namespace mw::engine

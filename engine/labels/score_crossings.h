@@ -6,7 +6,7 @@
 #include <cstdint>
 
 #include "io/labels/label_table.h"
-#include "io/volume/label_scores.h"
+#include "io/volume/number_volume.h"
 #include "kernels/core/label.h"
 #include "kernels/source/source_surface.h"
 

@@ -11,7 +11,6 @@
 #include "io/file/errors.h"
 #include "kernels/core/face_sample.h"
 #include "kernels/core/lattice.h"
-#include "kernels/core/layers.h"
 #include "kernels/start/cells/cell_template.h"
 
 namespace mw::engine {

@@ -5,7 +5,7 @@
 
 #include "engine/settings/settings.h"
 #include "io/labels/label_table.h"
-#include "io/labels/layered_volume.h"
+#include "io/labels/repeated_volume.h"
 
 namespace mw::engine {
 

@@ -4,6 +4,7 @@
 #include "engine/march/arrival_front.h"
 
 #include <algorithm>
+#include <utility>
 
 #include "kernels/core/assert.h"
 
@@ -79,6 +80,51 @@ void ArrivalFront::advance() {
   while (first_ < mine_.size() && states_[first_] == State::kFinished) ++first_;
   const std::size_t end = std::min<std::size_t>(first_ + look_ahead_, mine_.size());
   for (; seen_ < end; ++seen_) make_ready_if_due(seen_);
+}
+
+void Arrivals::add(Window window) {
+  const std::lock_guard lock(mutex_);
+  ++counts_[window];
+  touched_[window.first].push_back(window.second);
+}
+
+std::uint32_t Arrivals::count(Window window) const {
+  const std::lock_guard lock(mutex_);
+  const auto found = counts_.find(window);
+  return found == counts_.end() ? 0 : found->second;
+}
+
+void Arrivals::forget(Window window) {
+  const std::lock_guard lock(mutex_);
+  counts_.erase(window);
+}
+
+std::vector<std::uint64_t> Arrivals::take_touched(std::uint32_t march) {
+  const std::lock_guard lock(mutex_);
+  return std::exchange(touched_[march], {});
+}
+
+void Arrivals::wake() {
+  const std::lock_guard lock(waking_);
+  if (wake_) wake_();
+}
+
+void Arrivals::fail(std::exception_ptr error) {
+  {
+    const std::lock_guard lock(mutex_);
+    if (!error_) error_ = std::move(error);
+  }
+  wake();
+}
+
+std::exception_ptr Arrivals::error() const {
+  const std::lock_guard lock(mutex_);
+  return error_;
+}
+
+void Arrivals::on_wake(std::function<void()> wake) {
+  const std::lock_guard lock(waking_);
+  wake_ = std::move(wake);
 }
 
 }  // namespace mw::engine

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // A loop of two nodes: the keeper, called one at a time, sends windows; the visitor, called by many
 // threads at once, sends outcomes back.
-#include "engine/march/flow_march.h"
+#include "engine/march/march.h"
 
 #include <oneapi/tbb/flow_graph.h>
 #include <oneapi/tbb/task_arena.h>
@@ -12,7 +12,7 @@
 #include <memory>
 #include <tuple>
 
-#include "engine/march/march.h"
+#include "engine/system/crew.h"
 
 namespace mw::engine {
 namespace {

@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <thread>
 
-#include "engine/march/flow_march.h"
+#include "engine/system/crew.h"
 #include "engine/system/stopwatch.h"
 #include "kernels/core/assert.h"
 

@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: The mwmesh authors
 // SPDX-License-Identifier: Apache-2.0
-// The march: every window once, none before its predecessors (Sec 4.1).
+// The march: every window once, none before its predecessors (Sec 4.1), by one thread or, on a
+// oneTBB flow graph, by many.
 #pragma once
 
 #include <chrono>
@@ -12,6 +13,8 @@
 #include "engine/march/wavefront.h"
 
 namespace mw::engine {
+
+class Crew;
 
 /// Visits one window.  Windows without a path between them may be visited at the same time.
 using VisitWindow = std::function<void(Index3 window)>;
@@ -77,5 +80,10 @@ void march_by_choice(const WindowOrder& order, const VisitWindow& visit, const P
 
 /// Visits the window and says when.  ERRORS: what visit throws.
 [[nodiscard]] Visited timed_visit(const VisitWindow& visit, Index3 window, int slot);
+
+/// Does what march() does, by this crew, always through the graph.  REQUIRES: order.size() >= 1.
+/// Memory: that of the wavefront, and for each thread two messages and one admission.
+void flow_march(const WindowOrder& order, const VisitWindow& visit, const MarchOptions& options,
+                Crew& crew);
 
 }  // namespace mw::engine

@@ -5,7 +5,7 @@
 
 #include <memory>
 
-#include "engine/team/exchange.h"
+#include "engine/team/team.h"
 
 namespace mw::engine {
 

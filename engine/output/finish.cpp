@@ -3,7 +3,6 @@
 // Two passes over the final blocks: count, then write.
 #include "engine/output/finish.h"
 
-#include "engine/output/block_figures.h"
 #include "engine/output/block_triangles.h"
 #include "engine/output/interface_shape.h"
 #include "engine/output/remembered.h"

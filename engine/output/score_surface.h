@@ -11,8 +11,8 @@
 #include <vector>
 
 #include "io/labels/label_table.h"
-#include "io/volume/label_scores.h"
-#include "kernels/source/cubic_zero.h"
+#include "io/volume/number_volume.h"
+#include "kernels/source/crossing.h"
 
 namespace mw::engine {
 

@@ -12,8 +12,8 @@
 
 #include "io/file/sink/atomic_file.h"
 #include "io/json/json.h"
-#include "io/labels/despeckled_volume.h"
 #include "io/labels/label_table.h"
+#include "io/labels/specks.h"
 #include "io/labels/welded_volume.h"
 #include "io/mesh/mesh_data.h"
 #include "io/names/label_names.h"

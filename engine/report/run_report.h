@@ -8,12 +8,12 @@
 
 #include "engine/connect/connect_options.h"
 #include "engine/report/mesh_facts.h"
-#include "engine/report/resource_meter.h"
 #include "engine/run/run.h"
 #include "engine/sample/sample_text.h"
+#include "engine/system/stopwatch.h"
 #include "io/file/sink/atomic_file.h"
 #include "io/json/json.h"
-#include "io/labels/despeckled_volume.h"
+#include "io/labels/specks.h"
 #include "io/labels/welded_volume.h"
 #include "kernels/audit/audit.h"
 #include "kernels/audit/shape/volumes.h"
@@ -52,10 +52,10 @@ struct FinishedRun {
   std::optional<io::WeldFacts> welds;
   std::vector<engine::SampleFacts> samples;
   engine::RunReport engine;
-  double labels_seconds = 0;  ///< reading the volume once for its labels
-  Resources resources;        ///< times until the mesh was written, memory until its digest
-  std::string digest;         ///< empty if it was not made
-  std::string fingerprint;    ///< of the labels
+  double labels_seconds = 0;    ///< reading the volume once for its labels
+  engine::Resources resources;  ///< times until the mesh was written, memory until its digest
+  std::string digest;           ///< empty if it was not made
+  std::string fingerprint;      ///< of the labels
   std::optional<audit::AuditReport> certificate;  ///< empty if none was made
   std::optional<io::Json> delta;                  ///< delta_json() (engine/job/volume_delta.h)
   std::optional<engine::ConnectFacts> connected;  ///< empty if not counted

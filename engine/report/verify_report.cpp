@@ -183,7 +183,8 @@ Json verdict_json(const Verdict& verdict) {
           {"topology", topology_json(verdict)}};
 }
 
-Json verify_report(const Json& settings, const Verdict& verdict, const Resources& resources) {
+Json verify_report(const Json& settings, const Verdict& verdict,
+                   const engine::Resources& resources) {
   Json out{{"version", engine::version()}, {"settings", settings}};
   out.update(verdict_json(verdict));
   out["performance"] = {{"wall_s", resources.wall_seconds},

@@ -3,7 +3,7 @@
 // What `mwmesh verify` found, in words and as JSON.
 #pragma once
 
-#include "engine/report/resource_meter.h"
+#include "engine/system/stopwatch.h"
 #include "io/json/json.h"
 #include "io/labels/prepared_input.h"
 #include "io/mesh/mesh_record.h"
@@ -50,6 +50,6 @@ void add_topology(Label label, const audit::AuditReport& report, io::Json& row);
 
 /// Returns the whole report, with the settings of the command.
 [[nodiscard]] io::Json verify_report(const io::Json& settings, const Verdict& verdict,
-                                     const Resources& resources);
+                                     const engine::Resources& resources);
 
 }  // namespace mw::report

@@ -12,7 +12,6 @@
 #include <vector>
 
 #include "engine/keep/window_keep.h"
-#include "engine/labels/fingerprint.h"
 #include "engine/labels/label_counts.h"
 #include "engine/labels/label_need.h"
 #include "engine/march/arrival_front.h"

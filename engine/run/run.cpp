@@ -12,13 +12,13 @@
 #include "engine/run/marches.h"
 #include "engine/run/run_context.h"
 #include "engine/store/journal/work_file.h"
+#include "engine/system/crew.h"
 #include "engine/system/memory.h"
 #include "engine/system/stopwatch.h"
-#include "engine/system/tbb_for.h"
-#include "engine/window/inner_quality.h"
 #include "engine/window/window_memory.h"
+#include "engine/window/window_visitor.h"
 #include "io/file/errors.h"
-#include "io/labels/periodic_volume.h"
+#include "io/labels/repeated_volume.h"
 
 namespace mw::engine {
 namespace {

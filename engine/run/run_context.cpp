@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-#include "engine/keep/results_id.h"
+#include "engine/keep/keep_options.h"
 #include "engine/labels/label_scan.h"
 #include "engine/labels/periodic_labels.h"
 #include "engine/settings/promises.h"

@@ -7,7 +7,6 @@
 #include <cctype>
 #include <functional>
 
-#include "engine/settings/near_words.h"
 #include "engine/settings/number_text.h"
 #include "engine/settings/size_text.h"
 #include "io/file/errors.h"

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The mwmesh authors
 // SPDX-License-Identifier: Apache-2.0
-// Sizes of edges from text and back.
+// Sizes of edges from text and back, and materials from text.
 #include "engine/settings/size_text.h"
 
 #include <algorithm>
@@ -150,6 +150,26 @@ std::string format_sizes(const SizeRules& rules) {
   if (rules.others) add("*=", *rules.others);
   if (!rules.image.empty()) add("@", rules.image);
   return out;
+}
+
+io::MaterialRule parse_materials(std::string_view text) {
+  const std::size_t equals = std::min(text.find('='), text.size());
+  const std::size_t colon = std::min(text.find(':', equals), text.size());
+  const std::size_t second = std::min(text.find(':', colon + 1), text.size());
+  if (equals == text.size() || (colon < text.size() && second == text.size())) {
+    io::fail_usage("expected NAME=N or NAME=N:LO:HI, got '", text, "'");
+  }
+  const std::int64_t count = parse_integer(text.substr(equals + 1, colon - equals - 1));
+  if (count < 1 || count > io::kMostMaterials) {
+    io::fail_usage("expected 1 to ", io::kMostMaterials, " materials");
+  }
+  io::MaterialRule out{.values = std::string(text.substr(0, equals)),
+                       .count = static_cast<std::uint32_t>(count)};
+  if (colon == text.size()) return out;
+  out.range = {parse_number(text.substr(colon + 1, second - colon - 1)),
+               parse_number(text.substr(second + 1))};
+  if ((*out.range)[0] < (*out.range)[1]) return out;
+  io::fail_usage("the first value of a range is below the last");
 }
 
 }  // namespace mw::engine

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The mwmesh authors
 // SPDX-License-Identifier: Apache-2.0
-// Sizes of edges from text and back.
+// Sizes of edges from text and back, and how users ask for materials by ranges of a value.
 #pragma once
 
 #include <string>
@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "engine/settings/settings.h"
+#include "io/mesh/grouped/material_sets.h"
 
 namespace mw::engine {
 
@@ -32,5 +33,9 @@ namespace mw::engine {
 
 /// Returns what parse_sizes() reads back as the same, without any table.
 [[nodiscard]] std::string format_sizes(const SizeRules& rules);
+
+/// Parses "NAME=N" or "NAME=N:LO:HI".  ERRORS: mw::Error(kUsage) for another form, for fewer than 1
+/// or more than io::kMostMaterials materials, and unless LO is below HI.
+[[nodiscard]] io::MaterialRule parse_materials(std::string_view text);
 
 }  // namespace mw::engine

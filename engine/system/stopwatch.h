@@ -1,9 +1,10 @@
 // SPDX-FileCopyrightText: The mwmesh authors
 // SPDX-License-Identifier: Apache-2.0
-// Wall time for reports; no result may depend on it.
+// Time and memory of this process, for reports; no result may depend on them.
 #pragma once
 
 #include <chrono>
+#include <cstdint>
 #include <ctime>
 
 namespace mw::engine {
@@ -28,5 +29,23 @@ class Stopwatch {
   clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
   return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
 }
+
+struct Resources {
+  double wall_seconds = 0;
+  double cpu_seconds = 0;            ///< user and system; all threads, and workers that have ended
+  std::uint64_t peak_rss_bytes = 0;  ///< VmHWM
+};
+
+class ResourceMeter {
+ public:
+  /// Returns time since construction, and peak memory since the start of the process.
+  [[nodiscard]] Resources read() const;
+
+ private:
+  static double process_cpu_seconds();
+
+  std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
+  double start_cpu_ = process_cpu_seconds();
+};
 
 }  // namespace mw::engine

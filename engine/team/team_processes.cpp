@@ -5,7 +5,6 @@
 #include "engine/run/run_context.h"
 #include "engine/team/output/team_output.h"
 #include "engine/team/saved/saved_run.h"
-#include "engine/team/team_labels.h"
 #include "engine/team/team_run.h"
 #include "io/file/errors.h"
 

@@ -6,7 +6,7 @@
 #include "engine/run/processes.h"
 #include "engine/run/run.h"
 #include "engine/team/blocks/block_traffic.h"
-#include "engine/team/output/line_share.h"
+#include "engine/team/blocks/partition.h"
 #include "engine/team/saved/epochs.h"
 #include "engine/team/saved/team_work.h"
 #include "engine/team/team.h"

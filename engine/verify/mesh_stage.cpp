@@ -11,7 +11,7 @@
 #include "kernels/audit/partition/overlap.h"
 #include "kernels/audit/shape/volumes.h"
 #include "kernels/audit/topology/parts_union.h"
-#include "kernels/core/layers.h"
+#include "kernels/core/lattice.h"
 
 namespace mw::engine {
 namespace {

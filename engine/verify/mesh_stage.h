@@ -5,7 +5,7 @@
 
 #include "engine/verify/junction_ledger.h"
 #include "engine/verify/mesh_tiles.h"
-#include "engine/verify/piece_buckets.h"
+#include "engine/verify/tile_grid.h"
 #include "engine/verify/verify_mesh.h"
 #include "kernels/audit/partition/periodic_faces.h"
 

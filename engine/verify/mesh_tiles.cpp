@@ -7,16 +7,57 @@
 #include <cmath>
 #include <limits>
 
-#include "io/mesh/array_axes.h"
 #include "io/volume/volume_space.h"
 #include "kernels/audit/partition/validity.h"
 #include "kernels/audit/shape/volumes.h"
 #include "kernels/core/error.h"
-#include "kernels/core/layers.h"
+#include "kernels/core/lattice.h"
 #include "kernels/core/sort_distinct.h"
-#include "kernels/core/ten_nodes.h"
+#include "kernels/core/tet_nodes.h"
 
 namespace mw::engine {
+namespace {
+
+/// True if the corner's place in the world is p up to rounding.
+bool is_position_of(const io::VolumeSpace& space, const Vector3& corner, const io::Position& p) {
+  constexpr double kUnitsInLastPlace = 10;
+  constexpr double kRounding = kUnitsInLastPlace * std::numeric_limits<double>::epsilon();
+  const Vector3 position = io::to_world(space, corner);
+  double largest = 0;
+  for (std::size_t i = 0; i < 3; ++i) {
+    largest =
+        std::max({largest, std::abs(space.origin[i]), space.spacing[i] * std::abs(corner[i])});
+  }
+  for (std::size_t k = 0; k < 3; ++k) {
+    if (!(std::abs(position[k] - p[k]) <= kRounding * largest)) return false;
+  }
+  return true;
+}
+
+Vector3 nearest_lattice_point(const Vector3& corner, Index3 layers) {
+  const auto nearest = [](double x, std::int64_t parts) {
+    const auto units = static_cast<double>(parts * kUnitsPerVoxel);
+    return std::nearbyint(x * units) / units;
+  };
+  return {nearest(corner[0], layers.x), nearest(corner[1], layers.y), nearest(corner[2], layers.z)};
+}
+
+/// Undoes the space of a volume for a vertex, and returns spacing * corner.  (Where the world sees
+/// the array in a mirror, the caller swaps two corners of each tet, so that positive tets stay so.)
+/// A vertex that was written from a point of the lattice (1/1024 of a voxel that is cut into
+/// `layers`) comes back as that point exactly: it is taken for one when the point's place in the
+/// world is the vertex to within rounding, some 10 units in the last place of the largest number
+/// that its coordinate is the sum of.  Other vertices come back as the rounded inverse has them.
+io::Position array_position(const io::VolumeSpace& space, const io::Position& p, Index3 layers) {
+  const Vector3 corner = io::to_corner(space, p);
+  const Vector3 point = nearest_lattice_point(corner, layers);
+  const Vector3& found = is_position_of(space, point, p) ? point : corner;
+  io::Position out{};
+  for (std::size_t i = 0; i < 3; ++i) out[i] = space.spacing[i] * found[i];
+  return out;
+}
+
+}  // namespace
 
 MeshTiles::MeshTiles(const io::VolumeInfo& volume, const io::LabelTable& table,
                      const Place& junction)
@@ -44,7 +85,7 @@ audit::Frame MeshTiles::frame() const {
 }
 
 audit::Position MeshTiles::in_array(const io::Position& p) const {
-  return is_upright_ ? p : io::array_position(volume_.space, p, layers_);
+  return is_upright_ ? p : array_position(volume_.space, p, layers_);
 }
 
 void MeshTiles::write_vertices(std::span<const io::Position> positions) {

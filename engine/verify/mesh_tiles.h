@@ -8,7 +8,6 @@
 #include <optional>
 #include <vector>
 
-#include "engine/verify/tile_buckets.h"
 #include "engine/verify/tile_grid.h"
 #include "engine/verify/tile_labels.h"
 #include "io/labels/label_table.h"

@@ -3,7 +3,6 @@
 // How long the edges of tiles are, and in which tile a point lies.
 #include "engine/verify/tile_grid.h"
 
-#include <algorithm>
 #include <cmath>
 
 namespace mw::engine {
@@ -45,6 +44,30 @@ std::uint32_t TileGrid::at(const std::array<double, 3>& point) const {
 Box3 TileGrid::meeting(const Box3& voxels) const {
   const Box3 box = intersection(voxels, {{0, 0, 0}, shape_});
   return {{box.lo.x / edges_.x, box.lo.y / edges_.y, box.lo.z / edges_.z}, counts(box.hi, edges_)};
+}
+
+void PieceBuckets::make_pieces() {
+  radius_ = audit::piece_radius(estimates_);
+  const std::array<double, 3> layers{static_cast<double>(layers_.x), static_cast<double>(layers_.y),
+                                     static_cast<double>(layers_.z)};
+  std::vector<audit::InterfaceTriangle> triangles;
+  for (std::uint32_t tile = 0; tile < grid_.size(); ++tile) {
+    triangles.clear();
+    triangles_.load(tile, triangles);
+    for (const audit::InterfaceTriangle& t : triangles) {
+      audit::for_each_piece(t.corners, radius_, [&](const audit::VoxelTriangle& piece) {
+        audit::VoxelPoint middle = audit::centroid(piece);
+        for (std::size_t k = 0; k < 3; ++k) middle[k] /= layers[k];
+        pieces_.add(grid_.at(middle), {piece, t.labels});
+      });
+    }
+  }
+}
+
+std::vector<audit::InterfaceTriangle> PieceBuckets::near(const Box3& voxels) const {
+  std::vector<audit::InterfaceTriangle> out;
+  for_each_index(grid_.meeting(voxels), [&](Index3 at) { pieces_.load(grid_.number(at), out); });
+  return out;
 }
 
 }  // namespace mw::engine

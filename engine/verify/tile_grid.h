@@ -1,11 +1,19 @@
 // SPDX-FileCopyrightText: The mwmesh authors
 // SPDX-License-Identifier: Apache-2.0
-// The tiles in which a mesh is compared with its volume.
+// The tiles in which a mesh and a volume are looked at, and what belongs to each of them, in
+// temporary files.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
+#include <mutex>
+#include <span>
+#include <type_traits>
+#include <vector>
 
+#include "io/file/scratch/scratch_file.h"
+#include "kernels/audit/distance/mesh.h"
 #include "kernels/core/index.h"
 
 namespace mw::engine {
@@ -35,6 +43,101 @@ class TileGrid {
   Index3 shape_;
   Index3 edges_;
   Index3 count_;
+};
+
+/// Holds a list of records for each tile, in the order in which they were added.
+/// Memory: `memory_bytes` or 32 records a tile, and 16 bytes each time that a tile's share fills
+/// up.
+/// Thread safety: one thread adds, or several load.  ERRORS: see io::ScratchFile.
+template <typename Record>
+class TileBuckets {
+  static_assert(std::is_trivially_copyable_v<Record>);
+
+ public:
+  TileBuckets(const std::filesystem::path& folder, std::uint32_t tiles, std::uint64_t memory_bytes)
+      : file_(folder),
+        tiles_(tiles),
+        max_(std::clamp<std::size_t>(memory_bytes / (sizeof(Record) * std::max(tiles, 1U)), kFewest,
+                                     kMax)) {}
+
+  void add(std::uint32_t tile, const Record& record) {
+    Tile& t = tiles_[tile];
+    t.waiting.push_back(record);
+    if (t.waiting.size() < max_) return;
+    t.chunks.push_back({file_.size(), t.waiting.size()});
+    file_.append(std::as_bytes(std::span(t.waiting)));
+    t.waiting.clear();
+  }
+
+  [[nodiscard]] std::uint64_t count(std::uint32_t tile) const {
+    std::uint64_t sum = tiles_[tile].waiting.size();
+    for (const Chunk& chunk : tiles_[tile].chunks) sum += chunk.records;
+    return sum;
+  }
+
+  /// Adds the tile's records to a list.
+  void load(std::uint32_t tile, std::vector<Record>& out) const {
+    const Tile& t = tiles_[tile];
+    out.reserve(out.size() + count(tile));
+    const std::lock_guard lock(mutex_);
+    for (const Chunk& chunk : t.chunks) {
+      const std::size_t first = out.size();
+      out.resize(first + chunk.records);
+      file_.read_at(chunk.offset, std::as_writable_bytes(std::span(out).subspan(first)));
+    }
+    out.insert(out.end(), t.waiting.begin(), t.waiting.end());
+  }
+
+ private:
+  static constexpr std::size_t kFewest = 32;
+  static constexpr std::size_t kMax = 4096;
+
+  struct Chunk {
+    std::uint64_t offset = 0;
+    std::uint64_t records = 0;
+  };
+  struct Tile {
+    std::vector<Record> waiting;
+    std::vector<Chunk> chunks;
+  };
+
+  mutable std::mutex mutex_;
+  mutable io::ScratchFile file_;
+  std::vector<Tile> tiles_;
+  std::size_t max_;
+};
+
+/// Triangles are added first, with dense labels of the whole volume, in voxels of the lattice; then
+/// pieces are made of all of them.
+class PieceBuckets {
+ public:
+  PieceBuckets(const std::filesystem::path& folder, const TileGrid& grid, Index3 layers,
+               std::uint64_t memory_bytes)
+      : grid_(grid),
+        layers_(layers),
+        triangles_(folder, grid.size(), memory_bytes / 2),
+        pieces_(folder, grid.size(), memory_bytes / 2) {}
+
+  void add(std::uint32_t tile, const audit::InterfaceTriangle& triangle) {
+    triangles_.add(tile, triangle);
+    audit::add_estimates(triangle.corners, estimates_);
+  }
+  /// REQUIRES: called once, after the last triangle.
+  void make_pieces();
+
+  /// Returns the radius that no piece exceeds.
+  [[nodiscard]] double radius() const { return radius_; }
+  /// Returns all pieces whose centroid lies in a tile that meets this box of voxels of the volume;
+  /// centroids outside of the volume count for the nearest tile.  Thread-safe.
+  [[nodiscard]] std::vector<audit::InterfaceTriangle> near(const Box3& voxels) const;
+
+ private:
+  const TileGrid& grid_;
+  Index3 layers_;
+  TileBuckets<audit::InterfaceTriangle> triangles_;
+  TileBuckets<audit::InterfaceTriangle> pieces_;
+  audit::PieceEstimates estimates_{};
+  double radius_ = audit::kPieceRadius;
 };
 
 }  // namespace mw::engine

@@ -8,16 +8,16 @@
 #include <limits>
 
 #include "engine/labels/reading_tiles.h"
+#include "engine/system/crew.h"
 #include "engine/system/in_order.h"
-#include "engine/system/tbb_for.h"
 #include "engine/verify/part_links.h"
 #include "engine/verify/tile_labels.h"
-#include "io/volume/reader_room.h"
+#include "io/volume/volume_readers.h"
 #include "kernels/audit/distance/tile.h"
 #include "kernels/audit/shape/volumes.h"
 #include "kernels/audit/topology/parts_union.h"
-#include "kernels/core/copy_box.h"
-#include "kernels/core/layers.h"
+#include "kernels/core/index.h"
+#include "kernels/core/lattice.h"
 
 namespace mw::engine {
 namespace {

@@ -4,7 +4,7 @@
 #pragma once
 
 #include "engine/verify/junction_ledger.h"
-#include "engine/verify/piece_buckets.h"
+#include "engine/verify/tile_grid.h"
 #include "engine/verify/verify_mesh.h"
 #include "io/labels/label_table.h"
 

@@ -7,8 +7,8 @@
 #include <array>
 
 #include "io/file/errors.h"
-#include "io/file/lower_case.h"
 #include "io/file/scratch/scratch_file.h"
+#include "io/file/text_numbers.h"
 
 namespace mw::io {
 

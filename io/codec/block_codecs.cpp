@@ -1,7 +1,6 @@
 // SPDX-FileCopyrightText: The mwmesh authors
 // SPDX-License-Identifier: Apache-2.0
 // Unpacks what comes in blocks: LZ4 in its three framings, Blosc and LZF.
-
 #include <blosc.h>
 #include <lz4.h>
 

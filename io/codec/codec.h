@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: The mwmesh authors
 // SPDX-License-Identifier: Apache-2.0
-// The ways in which chunks of stores are packed, and how each unpacks.
+// The ways in which chunks of stores are packed, how each unpacks, and how files of our own are
+// packed.
 #pragma once
 
 #include <cstddef>
@@ -12,6 +13,8 @@
 #include <vector>
 
 #include "io/codec/stream.h"
+
+struct ZSTD_CCtx_s;
 
 namespace mw::io {
 
@@ -120,5 +123,22 @@ inline constexpr std::uint64_t kMaxXzBytes = std::uint64_t{80} << 20U;
 /// Unpacks LZF, h5py's filter: a stream of LibLZF without a header.
 [[nodiscard]] std::vector<std::byte> unpack_lzf(std::span<const std::byte> packed, std::size_t max,
                                                 std::string_view name);
+
+/// Makes frames of Zstandard (RFC 8878).  Memory: some 700 KiB at most.  Thread safety: none.
+class ZstdPacker {
+ public:
+  /// REQUIRES: level 1 to 3.
+  explicit ZstdPacker(int level);
+  ~ZstdPacker();
+  ZstdPacker(const ZstdPacker&) = delete;
+  ZstdPacker& operator=(const ZstdPacker&) = delete;
+
+  /// Appends one frame, which knows its content's size.  ERRORS: std::bad_alloc.
+  void append(std::span<const std::byte> bytes, std::vector<std::byte>& out);
+
+ private:
+  ZSTD_CCtx_s* context_;
+  int level_;
+};
 
 }  // namespace mw::io

@@ -1,8 +1,7 @@
 // SPDX-FileCopyrightText: The mwmesh authors
 // SPDX-License-Identifier: Apache-2.0
-// Unpacks what libraries take piece by piece: gzip, zlib, bzip2, xz and Zstandard.
-#include "io/codec/codec.h"
-
+// Unpacks what libraries take piece by piece: gzip, zlib, bzip2, xz and Zstandard; and packs
+// Zstandard.
 #include <bzlib.h>
 #include <lzma.h>
 #include <zlib.h>
@@ -12,7 +11,9 @@
 #include <algorithm>
 #include <bit>
 #include <memory>
+#include <new>
 
+#include "io/codec/codec.h"
 #include "io/codec/stream.h"
 #include "io/file/errors.h"
 
@@ -260,6 +261,23 @@ std::unique_ptr<StreamDecoder> stream_decoder(Codec codec, const PackedName& nam
     default:
       return nullptr;
   }
+}
+
+ZstdPacker::ZstdPacker(int level) : context_(ZSTD_createCCtx()), level_(level) {
+  if (context_ == nullptr) throw std::bad_alloc();
+}
+
+ZstdPacker::~ZstdPacker() {
+  ZSTD_freeCCtx(context_);
+}
+
+void ZstdPacker::append(std::span<const std::byte> bytes, std::vector<std::byte>& out) {
+  const std::size_t before = out.size();
+  out.resize(before + ZSTD_compressBound(bytes.size()));
+  const std::size_t size = ZSTD_compressCCtx(context_, out.data() + before, out.size() - before,
+                                             bytes.data(), bytes.size(), level_);
+  if (ZSTD_isError(size) != 0) throw std::bad_alloc();
+  out.resize(before + size);
 }
 
 }  // namespace mw::io

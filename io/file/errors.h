@@ -6,6 +6,7 @@
 #include <array>
 #include <charconv>
 #include <concepts>
+#include <filesystem>
 #include <string>
 #include <string_view>
 
@@ -47,5 +48,9 @@ template <class... Pieces>
 /// Throws for a failed system call on an output: kResource when the disk is full or broken, kUsage
 /// when the path cannot be written (permissions, missing folder).
 [[noreturn]] void fail_output(std::string_view path, std::string_view action, int error_number);
+
+/// Returns an error that names the path: of kInput where the path is to blame (missing, too long, a
+/// loop of links, not permitted), else of kResource.
+[[nodiscard]] Error file_failure(const std::filesystem::filesystem_error& failure);
 
 }  // namespace mw::io

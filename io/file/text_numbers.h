@@ -1,8 +1,11 @@
 // SPDX-FileCopyrightText: The mwmesh authors
 // SPDX-License-Identifier: Apache-2.0
-// Numbers from and to text, and how damaged text is made fit for a terminal.
+// Numbers from and to text, and texts as others need them: without regard to case, as XML has them,
+// or fit for a terminal.
 #pragma once
 
+#include <array>
+#include <charconv>
 #include <cstdint>
 #include <optional>
 #include <string>
@@ -56,6 +59,66 @@ namespace mw::io {
 /// Returns "it takes at least --memory 97MiB", for where more may turn out to be needed later.
 [[nodiscard]] inline std::string min_memory(std::uint64_t bytes) {
   return "it takes at least --memory " + mebibytes(bytes);
+}
+
+/// Reals are written with the fewest digits that give back the same double.  A line has room for a
+/// dozen of the longest numbers.
+class NumberLine {
+ public:
+  explicit NumberLine(char separator = ' ') : separator_(separator) {}
+
+  template <class T>
+  void add(T number) {
+    end_ = std::to_chars(end_, chars_.data() + chars_.size(), number).ptr;
+    *end_++ = separator_;
+  }
+  /// Returns the numbers, with `last` for the last separator.  REQUIRES: there is a number.
+  [[nodiscard]] std::string_view finish(char last = '\n') {
+    end_[-1] = last;
+    return {chars_.data(), static_cast<std::size_t>(end_ - chars_.data())};
+  }
+  /// Returns the numbers with nothing behind the last.  REQUIRES: there is a number.
+  [[nodiscard]] std::string_view numbers() const {
+    return {chars_.data(), static_cast<std::size_t>(end_ - chars_.data()) - 1};
+  }
+
+ private:
+  char separator_;
+  std::array<char, 320> chars_;
+  char* end_ = chars_.data();
+};
+
+/// Returns the text as it stands in an attribute in double quotes, or in an element.
+[[nodiscard]] inline std::string xml_escaped(std::string_view text) {
+  std::string out;
+  for (const char c : text) {
+    switch (c) {
+      case '&':
+        out += "&amp;";
+        break;
+      case '<':
+        out += "&lt;";
+        break;
+      case '>':
+        out += "&gt;";
+        break;
+      case '"':
+        out += "&quot;";
+        break;
+      default:
+        out += c;
+    }
+  }
+  return out;
+}
+
+/// Returns the text with the letters A to Z in lower case, and all other bytes as they are.
+[[nodiscard]] inline std::string lower_case(std::string_view text) {
+  std::string out(text);
+  for (char& c : out) {
+    if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
+  }
+  return out;
 }
 
 }  // namespace mw::io

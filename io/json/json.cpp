@@ -236,14 +236,14 @@ Json parse_json(std::string_view text, std::string_view file) {
   }
 }
 
-Json read_json(const Place& place) {
-  const auto source = place.open_if_there(kMaxJsonBytes);
+Json read_json(const Place& place, std::uint64_t most) {
+  const auto source = place.open_if_there(most);
   if (!source)
     fail_input(place.string(), {}, "cannot open: there is no such file", "check the path");
-  const std::optional<std::string> content = read_whole(*source, kMaxJsonBytes);
+  const std::optional<std::string> content = read_whole(*source, most);
   if (!content) {
     fail_input(source->name(), "JSON",
-               text("the file has ", source->size(), " bytes, and at most ", kMaxJsonBytes,
+               text("the file has ", source->size(), " bytes, and at most ", most,
                     " are read of a description"),
                "check that it is the store's own");
   }

@@ -136,8 +136,8 @@ inline constexpr int kMaxJsonDepth = 64;
 /// deeper than kMaxJsonDepth.
 [[nodiscard]] Json parse_json(std::string_view text, std::string_view file);
 
-/// Reads and parses a file.  ERRORS: those of parse_json; kInput when the file is missing or larger
-/// than kMaxJsonBytes; kResource when a server does not answer.
-[[nodiscard]] Json read_json(const Place& place);
+/// Reads and parses a file of at most `most` bytes.  ERRORS: those of parse_json; kInput when the
+/// file is missing or larger; kResource when a server does not answer.
+[[nodiscard]] Json read_json(const Place& place, std::uint64_t most = kMaxJsonBytes);
 
 }  // namespace mw::io

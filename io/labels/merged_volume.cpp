@@ -87,4 +87,17 @@ void MergedVolume::read(const Box3& box, std::span<RawLabel> out) const {
   }
 }
 
+std::vector<RawLabel> merged_labels(std::vector<RawLabel> labels,
+                                    const std::vector<MergeRule>& rules) {
+  for (RawLabel& label : labels) {
+    const auto rule = std::find_if(rules.begin(), rules.end(), [&](const MergeRule& r) {
+      return std::find(r.from.begin(), r.from.end(), label) != r.from.end();
+    });
+    if (rule != rules.end()) label = rule->to;
+  }
+  std::sort(labels.begin(), labels.end());
+  labels.erase(std::unique(labels.begin(), labels.end()), labels.end());
+  return labels;
+}
+
 }  // namespace mw::io

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The mwmesh authors
 // SPDX-License-Identifier: Apache-2.0
-// A volume in which some labels have become others (--merge).
+// A volume in which some labels have become others (--merge), and what its labels are called.
 #pragma once
 
 #include <vector>
@@ -38,5 +38,9 @@ class MergedVolume : public VolumeView {
   LabelTable from_;
   std::vector<RawLabel> to_;  ///< by rank in from_
 };
+
+/// Returns the labels that these become by the rules, ascending and each once.
+[[nodiscard]] std::vector<RawLabel> merged_labels(std::vector<RawLabel> labels,
+                                                  const std::vector<MergeRule>& rules);
 
 }  // namespace mw::io

@@ -5,8 +5,8 @@
 
 #include <optional>
 
-#include "io/labels/despeckled_volume.h"
 #include "io/labels/merged_volume.h"
+#include "io/labels/specks.h"
 #include "io/labels/welded_volume.h"
 
 namespace mw::io {

@@ -1,7 +1,6 @@
 // SPDX-FileCopyrightText: The mwmesh authors
 // SPDX-License-Identifier: Apache-2.0
 // Union-find over the runs of two planes; a component that no later plane can reach is finished.
-
 #include <algorithm>
 #include <deque>
 #include <limits>

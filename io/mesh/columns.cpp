@@ -3,8 +3,6 @@
 // Rows of a mesh go into columns.
 #include "io/mesh/columns.h"
 
-#include <algorithm>
-
 #include "kernels/core/assert.h"
 
 namespace mw::io {
@@ -20,7 +18,7 @@ MeshColumns::MeshColumns(PlacedOutput& output, const ColumnPlaces& places, Eleme
   for (const std::uint64_t place : places.values) values_.emplace_back(output, place);
   if (header.wedges.count > 0) cohesive_.emplace(output, places.cohesive);
   for (std::size_t i = 0; i < places.masks.size(); ++i) {
-    masks_.push_back({header.record.masks[i].labels, {output, places.masks[i]}});
+    masks_.push_back({header.record.masks[i], {output, places.masks[i]}});
   }
 }
 
@@ -61,9 +59,7 @@ void MeshColumns::write_wedge(std::span<const std::uint64_t> rows, RawLabel labe
 void MeshColumns::end_cell(std::uint8_t type, RawLabel label) {
   types_.add(type);
   labels_.add(label);
-  for (auto& [labels, cells] : masks_) {
-    cells.add(std::binary_search(labels.begin(), labels.end(), label) ? 1 : 0);
-  }
+  for (auto& [mask, cells] : masks_) cells.add(mask.has(label) ? 1 : 0);
   offsets_.add(node_count(element_) * place_.tet + wedge_node_count(element_) * wedges_);
 }
 

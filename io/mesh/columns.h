@@ -101,9 +101,9 @@ class MeshColumns {
 
   void end_cell(std::uint8_t type, RawLabel label);
 
-  /// 1 for each cell with one of these labels, and 0 for others.
+  /// 1 for each cell with one of the mask's labels, and 0 for others.
   struct MaskColumn {
-    std::vector<RawLabel> labels;
+    MaskLabels mask;
     FileColumn<std::uint8_t> cells;
   };
 

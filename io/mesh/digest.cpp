@@ -8,7 +8,6 @@
 #include "io/codec/hasher.h"
 #include "io/file/errors.h"
 #include "io/file/scratch/scratch_file.h"
-#include "io/mesh/sortable.h"
 #include "io/mesh/tet_record.h"
 
 namespace mw::io {

@@ -6,7 +6,7 @@
 #include <string>
 
 #include "io/file/scratch/external_sort.h"
-#include "io/mesh/no_sink.h"
+#include "io/mesh/mesh_sink.h"
 
 namespace mw::io {
 

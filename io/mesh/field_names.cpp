@@ -7,7 +7,7 @@
 #include <set>
 
 #include "io/file/errors.h"
-#include "io/file/lower_case.h"
+#include "io/file/text_numbers.h"
 
 namespace mw::io {
 namespace {

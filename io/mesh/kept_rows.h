@@ -1,12 +1,16 @@
 // SPDX-FileCopyrightText: The mwmesh authors
 // SPDX-License-Identifier: Apache-2.0
-// Which nodes of a mesh stay when its tets keep nothing but their corners.
+// Curved tets become straight ones as they are read, and nodes go that no corner needs.
 #pragma once
 
 #include <bit>
+#include <cstdint>
+#include <span>
 #include <vector>
 
 #include "io/mesh/mesh_data.h"
+#include "io/mesh/mesh_sink.h"
+#include "kernels/core/tet_nodes.h"
 
 namespace mw::io {
 
@@ -65,6 +69,13 @@ inline void drop_middles(MeshData& mesh, KeptRows& middles) {
     if (middles.stays(row)) mesh.vertices[kept++] = mesh.vertices[row];
   }
   mesh.vertices.resize(kept);
+}
+
+/// Adds the straight parts of a curved tet; rows are the rows of its ten nodes.
+inline void add_parts(std::span<const std::uint64_t, 10> rows, std::vector<TetRows>& out) {
+  for (const auto& part : kTetParts) {
+    out.push_back({rows[part[0]], rows[part[1]], rows[part[2]], rows[part[3]]});
+  }
 }
 
 }  // namespace mw::io

@@ -5,7 +5,6 @@
 
 #include <algorithm>
 
-#include "io/mesh/sortable.h"
 #include "io/mesh/tet_record.h"
 
 namespace mw::io {

@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: The mwmesh authors
 // SPDX-License-Identifier: Apache-2.0
-// The one interface through which a finished mesh leaves the program, in bounded memory.
+// The one interface through which a finished mesh leaves the program, in bounded memory; and the
+// sinks that keep nothing and that pass a mesh on to two.
 #pragma once
 
 #include <array>
@@ -41,7 +42,7 @@ struct MeshHeader {
   std::vector<std::string> values{};  ///< names of numbers that each tet has: letters, digits, '_'
   WedgeHeader wedges{};               ///< set by CellWriter alone (grouped/grouped_mesh.h)
   /// Set by readers alone: the file's tets are curved, and come as kTetParts
-  /// (kernels/core/ten_nodes.h), the eight of each tet one after the other.
+  /// (kernels/core/tet_nodes.h), the eight of each tet one after the other.
   bool in_parts = false;
   /// Set by runs of volumes that tell more than labels; may be called until finish() returns.
   InterfacePlace interface_place{};
@@ -75,5 +76,49 @@ inline void check_sink_counts(std::string_view file, const MeshHeader& header, s
   throw Error(ErrorKind::kInternal,
               text(file, ": ", tets, " tets were written, ", header.tets, " were announced"));
 }
+
+/// Takes a mesh and writes nothing; what derives from it looks at a part of the mesh.
+class NoSink : public MeshSink {
+ public:
+  void begin(const MeshHeader& /*header*/) override {}
+  void write_vertices(std::span<const Position> /*positions*/) override {}
+  void write_tets(std::span<const TetRows> /*tets*/,
+                  std::span<const RawLabel> /*labels*/) override {}
+  void finish() override {}
+};
+
+/// Passes everything on to both sinks.  REQUIRES: they outlive it.
+class TeeSink : public MeshSink {
+ public:
+  TeeSink(MeshSink& first, MeshSink& second) : first_(first), second_(second) {}
+
+  void begin(const MeshHeader& header) override {
+    first_.begin(header);
+    second_.begin(header);
+  }
+  void write_vertices(std::span<const Position> positions) override {
+    first_.write_vertices(positions);
+    second_.write_vertices(positions);
+  }
+  void write_tets(std::span<const TetRows> tets, std::span<const RawLabel> labels) override {
+    first_.write_tets(tets, labels);
+    second_.write_tets(tets, labels);
+  }
+  void write_values(std::span<const double> rows) override {
+    first_.write_values(rows);
+    second_.write_values(rows);
+  }
+  void finish() override {
+    first_.finish();
+    second_.finish();
+  }
+  [[nodiscard]] std::uint64_t buffer_bytes() const override {
+    return first_.buffer_bytes() + second_.buffer_bytes();
+  }
+
+ private:
+  MeshSink& first_;
+  MeshSink& second_;
+};
 
 }  // namespace mw::io

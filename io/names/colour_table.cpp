@@ -8,7 +8,6 @@
 #include <map>
 
 #include "io/file/errors.h"
-#include "io/file/lower_case.h"
 #include "io/file/text_numbers.h"
 
 namespace mw::io {

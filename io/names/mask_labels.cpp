@@ -10,10 +10,6 @@
 namespace mw::io {
 namespace {
 
-bool has_label(const std::vector<RawLabel>& labels, RawLabel label) {
-  return std::binary_search(labels.begin(), labels.end(), label);
-}
-
 /// Returns the labels of the voxels, of which 0 are those without a mask.
 std::vector<RawLabel> all_labels(const std::vector<MaskLabels>& masks) {
   std::vector<RawLabel> out{0};
@@ -46,13 +42,13 @@ std::vector<MaskLabels> merged_masks(const std::vector<MaskLabels>& masks,
   std::vector<MaskLabels> out;
   const std::vector<RawLabel> all = all_labels(masks);
   for (const MaskLabels& mask : masks) {
-    std::vector<RawLabel> merged;
-    for (const RawLabel label : mask.labels) merged.push_back(merged_label(label, becomes));
-    sort_distinct(merged);
+    MaskLabels merged{mask.name, {}};
+    for (const RawLabel label : mask.labels) merged.labels.push_back(merged_label(label, becomes));
+    sort_distinct(merged.labels);
     const bool takes_others = std::ranges::any_of(all, [&](RawLabel label) {
-      return !has_label(mask.labels, label) && has_label(merged, merged_label(label, becomes));
+      return !mask.has(label) && merged.has(merged_label(label, becomes));
     });
-    if (!takes_others) out.push_back({mask.name, std::move(merged)});
+    if (!takes_others) out.push_back(std::move(merged));
   }
   return out;
 }

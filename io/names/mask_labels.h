@@ -3,6 +3,7 @@
 // The masks that a volume was made of, by the labels that their voxels have.
 #pragma once
 
+#include <algorithm>
 #include <functional>
 #include <map>
 #include <string>
@@ -17,6 +18,10 @@ namespace mw::io {
 struct MaskLabels {
   std::string name;              ///< clean_name(), not empty
   std::vector<RawLabel> labels;  ///< ascending, not empty
+
+  [[nodiscard]] bool has(RawLabel label) const {
+    return std::binary_search(labels.begin(), labels.end(), label);
+  }
 
   friend bool operator==(const MaskLabels&, const MaskLabels&) = default;
 };

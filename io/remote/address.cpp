@@ -10,7 +10,7 @@
 #include <memory>
 
 #include "io/file/errors.h"
-#include "io/file/lower_case.h"
+#include "io/file/text_numbers.h"
 
 namespace mw::io {
 namespace {

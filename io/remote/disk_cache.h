@@ -10,7 +10,7 @@
 #include <optional>
 #include <string>
 
-#include "io/codec/content_digest.h"
+#include "io/codec/hasher.h"
 #include "io/file/source/byte_source.h"
 
 namespace mw::io {

@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <charconv>
 
-#include "io/file/lower_case.h"
 #include "io/file/text_numbers.h"
 
 namespace mw::io {

@@ -3,6 +3,8 @@
 // Facets of a mesh as a surface with vertices of its own.
 #include "io/surface/surface.h"
 
+#include <algorithm>
+
 #include "io/file/scratch/external_sort.h"
 #include "io/surface/vertex_sheets.h"
 
@@ -77,6 +79,58 @@ void Surface::write(SurfaceSink& sink) {
   vertices_.each_batch<Position>([&](const auto& batch) { sink.write_vertices(batch); });
   triangles_.each_batch<Triangle>([&](const auto& batch) { sink.write_triangles(batch); });
   sink.finish();
+}
+
+namespace {
+
+bool is_on_box(Side side) {
+  return side != Side::kInterface && side != Side::kOuter;
+}
+
+}  // namespace
+
+ShellPlans::ShellPlans(const GroupedMesh& mesh, bool closed)
+    : mesh_(mesh), by_label_(mesh.table().size()) {
+  const FacetGroups& groups = mesh.facet_groups();
+  for (std::size_t g = 0; g < groups.size(); ++g) {
+    if (is_on_box(groups[g].side) && !closed) continue;
+    by_label_[groups[g].first].push_back({.group = g});
+    if (groups[g].side == Side::kInterface) {
+      by_label_[groups[g].second].push_back({.group = g, .turned = true});
+    }
+  }
+}
+
+ShellPlan ShellPlans::of_label(Label rank) const {
+  return {.label = rank, .parts = by_label_[rank]};
+}
+
+ShellPlan ShellPlans::of_pair(Label one, Label other) const {
+  const auto [low, high] = std::minmax(one, other);
+  ShellPlan plan;
+  for (const ShellPart& part : by_label_[low]) {
+    const FacetGroup& group = mesh_.facet_groups()[part.group];
+    if (!part.turned && group.side == Side::kInterface && group.second == high) {
+      plan.parts.push_back(part);
+    }
+  }
+  return plan;
+}
+
+ShellPlan ShellPlans::of_interfaces() const {
+  ShellPlan plan;
+  for (std::size_t g = 0; g < mesh_.facet_groups().size(); ++g) {
+    if (!is_on_box(mesh_.facet_groups()[g].side)) plan.parts.push_back({.group = g});
+  }
+  return plan;
+}
+
+std::vector<ShellPlan> ShellPlans::of_each_interface() const {
+  std::vector<ShellPlan> plans;
+  for (const ShellPart& part : of_interfaces().parts) {
+    plans.push_back({.label = {}, .parts = {part}});
+  }
+  return plans;
 }
 
 }  // namespace mw::io

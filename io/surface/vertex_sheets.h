@@ -6,7 +6,7 @@
 #include <functional>
 #include <map>
 
-#include "io/surface/shell_plan.h"
+#include "io/surface/surface.h"
 
 namespace mw::io {
 

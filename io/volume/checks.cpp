@@ -1,11 +1,13 @@
 // SPDX-FileCopyrightText: The mwmesh authors
 // SPDX-License-Identifier: Apache-2.0
-// What every format demands of its numbers.
+// What every format demands of its numbers and its place.
 #include "io/volume/checks.h"
 
+#include <algorithm>
+#include <charconv>
 #include <cmath>
 
-#include "io/file/errors.h"
+#include "kernels/core/vector3.h"
 
 namespace mw::io {
 
@@ -75,6 +77,135 @@ void check_payload(const ByteSource& source, const VolumeInfo& info, std::uint64
   fail_input(source.name(), "voxel data", reason,
              held < wanted ? "the file is truncated or the shape or type is wrong"
                            : "the shape or type is wrong");
+}
+
+namespace {
+
+/// Largest cosine between two axes.  Headers in float are off by 1e-7, the sums of some tools by
+/// 1e-5; over a thousand voxels 1e-4 is a tenth of one.
+constexpr double kMaxShear = 1e-4;
+
+bool is_direction(const Vector3& step) {
+  const double length = std::hypot(step[0], step[1], step[2]);
+  return std::isfinite(length) && length > 0;
+}
+
+/// Rounds to 14 digits, which is all that lengths of turned steps are good for: a turned spacing of
+/// 1.25 is 1.25 again, so that a volume is meshed the same in all its directions.
+double tidied(double length) {
+  std::array<char, 32> text{};
+  const char* end = std::to_chars(text.data(), text.data() + text.size(), length,
+                                  std::chars_format::scientific, 13)
+                        .ptr;
+  double out = length;
+  std::from_chars(text.data(), end, out);
+  return out;
+}
+
+double length_of(const FileSpace& space, std::size_t axis) {
+  constexpr double kAgree = 1e-5;  // error of floats, or of six digits
+  const Vector3& step = space.steps[axis];
+  const double length = std::hypot(step[0], step[1], step[2]);
+  if (std::count(step.begin(), step.end(), 0.0) == 2) return length;
+  const double stated = space.lengths ? (*space.lengths)[axis] : length;
+  return tidied(std::abs(stated - length) <= kAgree * length ? stated : length);
+}
+
+void check_steps(std::string_view file, const FileSpace& space) {
+  for (std::size_t i = 0; i < 3; ++i) {
+    const Vector3& step = space.steps[i];
+    const std::string field =
+        text(space.steps_field, " (", std::string_view("xyz").substr(i, 1), ")");
+    check_spacing(file, field, std::hypot(step[0], step[1], step[2]));
+  }
+}
+
+/// Returns the nearest axes at right angles by Higham (SIAM J. Sci. Stat. Comput. 7, 1986): steps
+/// go half-way to the inverse of the transpose.  Signed permutations stay as they are to the bit.
+std::array<Vector3, 3> straightened(std::array<Vector3, 3> axes) {
+  constexpr int kSteps = 6;  // each squares the error
+  for (int step = 0; step < kSteps; ++step) {
+    const std::array<Vector3, 3> old = axes;
+    const double determinant = dot(old[0], cross(old[1], old[2]));
+    for (std::size_t i = 0; i < 3; ++i) {
+      const Vector3 inverse = cross(old[(i + 1) % 3], old[(i + 2) % 3]);
+      for (std::size_t k = 0; k < 3; ++k) {
+        axes[i][k] = (old[i][k] + inverse[k] / determinant) / 2;
+      }
+    }
+  }
+  return axes;
+}
+
+std::array<Vector3, 3> axes_of(std::string_view file, const FileSpace& space) {
+  std::array<Vector3, 3> axes = space.steps;
+  for (Vector3& axis : axes) {
+    const double length = std::hypot(axis[0], axis[1], axis[2]);
+    for (double& x : axis) x /= length;
+  }
+  for (std::size_t i = 0; i < 3; ++i) {
+    const double cosine = dot(axes[i], axes[(i + 1) % 3]);
+    if (std::abs(cosine) <= kMaxShear) continue;
+    fail_input(
+        file, space.steps_field,
+        text("the axes ", std::string_view("xyz").substr(i, 1), " and ",
+             std::string_view("xyz").substr((i + 1) % 3, 1),
+             " of the array are not at right angles in the world (cosine ", cosine,
+             "): a sheared volume has no quality or distance that could be promised"),
+        "resample it onto a grid with right angles, or, where it is the volume to mesh, give "
+        "--frame voxel");
+  }
+  return straightened(axes);
+}
+
+void choose_frame(std::string_view file, VolumeSpace& space, FrameChoice choice) {
+  if (choice == FrameChoice::kFile) return;
+  const WorldFrame wanted = choice == FrameChoice::kRas ? WorldFrame::kRas : WorldFrame::kLps;
+  if (space.frame == WorldFrame::kOwn) {
+    fail_usage("--frame ", name(wanted), ": ", file,
+               " does not say how its axes lie in a patient; take its own with --frame file");
+  }
+  space = in_frame(space, wanted);
+}
+
+}  // namespace
+
+std::array<Vector3, 3> steps_of(const Vector3& spacing) {
+  return {{{spacing[0], 0, 0}, {0, spacing[1], 0}, {0, 0, spacing[2]}}};
+}
+
+std::optional<FrameChoice> parse_frame_choice(std::string_view text) {
+  if (text == "file") return FrameChoice::kFile;
+  if (text == "ras") return FrameChoice::kRas;
+  if (text == "lps") return FrameChoice::kLps;
+  if (text == "voxel") return FrameChoice::kVoxel;
+  return std::nullopt;
+}
+
+VolumeSpace placed(std::string_view file, const FileSpace& space, const OpenOptions& options) {
+  VolumeSpace out{.unit = space.unit, .frame = space.frame};
+  const bool has_directions = std::all_of(space.steps.begin(), space.steps.end(), is_direction);
+  if (!options.spacing) check_steps(file, space);
+  if (has_directions && options.frame != FrameChoice::kVoxel) {
+    out.axes = axes_of(file, space);
+  }
+  for (std::size_t i = 0; i < 3; ++i) {
+    out.spacing[i] = options.spacing ? (*options.spacing)[i] : length_of(space, i);
+  }
+  if (options.spacing) out.unit.clear();
+  if (options.frame == FrameChoice::kVoxel) {
+    out.frame = WorldFrame::kOwn;
+  } else {
+    if (space.first && !options.origin) {
+      for (const double x : *space.first) check_origin(file, space.first_field, x);
+      out.origin = *space.first;
+      if (space.first_is_centre) out.origin = to_world(out, {-0.5, -0.5, -0.5});
+    }
+    if (!has_directions) out.frame = WorldFrame::kOwn;
+    choose_frame(file, out, options.frame);
+  }
+  if (options.origin) out.origin = *options.origin;
+  return out;
 }
 
 }  // namespace mw::io

@@ -7,7 +7,7 @@
 #include <optional>
 #include <string_view>
 
-#include "io/volume/label_scores.h"
+#include "io/volume/number_volume.h"
 #include "io/volume/open_options.h"
 
 namespace mw::io {

@@ -72,7 +72,7 @@ class LabelVolume {
   [[nodiscard]] virtual std::uint64_t buffer_bytes(int /*threads*/) const { return 0; }
   /// Frees what it holds between reads.
   virtual void drop_buffers() const {}
-  /// The scores that the labels come from (io/volume/label_scores.h), which live as long as the
+  /// The scores that the labels come from (io/volume/number_volume.h), which live as long as the
   /// volume; null where labels are all that there is.
   [[nodiscard]] virtual const LabelScores* scores() const { return nullptr; }
 };

@@ -12,8 +12,8 @@
 
 #include "io/file/byte_order.h"
 #include "io/remote/disk_cache.h"
-#include "io/volume/at_once.h"
 #include "io/volume/label_volume.h"
+#include "io/volume/volume_readers.h"
 
 namespace mw::io {
 
@@ -51,7 +51,7 @@ enum class Overlap {
 /// What the numbers in a file are.
 enum class VoxelValues {
   kLabels,
-  kProbabilities,  ///< one number a voxel for each class; see io/volume/scores/scored_labels.h
+  kProbabilities,  ///< one number a voxel for each class; see io/volume/scores/open_scores.h
   kDistances,      ///< one signed distance a voxel for each label, negative inside
 };
 

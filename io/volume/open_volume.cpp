@@ -10,9 +10,9 @@
 #include <string_view>
 
 #include "io/file/errors.h"
-#include "io/file/lower_case.h"
 #include "io/file/source/file_source.h"
 #include "io/file/source/inflated_source.h"
+#include "io/file/text_numbers.h"
 #include "io/remote/address.h"
 #include "io/remote/remote_store.h"
 #include "io/store/place.h"

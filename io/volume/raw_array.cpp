@@ -10,7 +10,6 @@
 #include "io/file/source/inflated_source.h"
 #include "io/volume/checks.h"
 #include "io/volume/decode.h"
-#include "io/volume/file_space.h"
 #include "kernels/core/assert.h"
 
 namespace mw::io {

@@ -1,10 +1,12 @@
 // SPDX-FileCopyrightText: The mwmesh authors
 // SPDX-License-Identifier: Apache-2.0
-// Integer positions and boxes in voxels, and walks over them.
+// Integer positions and boxes in voxels, walks over them, and voxels of boxes from one array to
+// another.
 #pragma once
 
 #include <algorithm>
 #include <cstdint>
+#include <span>
 
 namespace mw {
 
@@ -99,5 +101,17 @@ void for_each_index(Index3 shape, Visit visit) {
 /// may take a part of the file (--crop), and says so before any work when its part is too long.
 /// Within it coordinates fit int32 in units of 1/1024 voxel, and no product of extents overflows.
 inline constexpr std::int64_t kMaxAxisVoxels = std::int64_t{1} << 20;
+
+/// Copies the voxels of `part` from the array of one box to that of another, both x fastest.
+/// REQUIRES: both boxes contain part, and the arrays have all voxels of their boxes.
+template <typename Voxel>
+void copy_box(const Box3& part, const Box3& from_box, std::span<const Voxel> from,
+              const Box3& to_box, std::span<Voxel> to) {
+  for (Index3 v = part.lo; v.z < part.hi.z; ++v.z) {
+    for (v.y = part.lo.y; v.y < part.hi.y; ++v.y) {
+      std::copy_n(from.data() + from_box.offset(v), part.shape().x, to.data() + to_box.offset(v));
+    }
+  }
+}
 
 }  // namespace mw

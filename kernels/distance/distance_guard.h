@@ -9,7 +9,6 @@
 #include "kernels/distance/face_lanes.h"
 #include "kernels/distance/interface_fan.h"
 #include "kernels/distance/label_reach.h"
-#include "kernels/distance/near_triangle.h"
 #include "kernels/distance/point_triangle.h"
 #include "kernels/source/source_surface.h"
 

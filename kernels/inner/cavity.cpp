@@ -7,7 +7,7 @@
 #include <array>
 
 #include "kernels/distance/carried_samples.h"
-#include "kernels/quality/mesh_quality.h"
+#include "kernels/quality/quality.h"
 
 namespace mw {
 namespace {

@@ -1,9 +1,11 @@
 // SPDX-FileCopyrightText: The mwmesh authors
 // SPDX-License-Identifier: Apache-2.0
-// Constrained optimal Delaunay triangulation of a window (Sec 5.5).
+// Constrained optimal Delaunay triangulation of a window (Sec 5.5), and the vertex moves of its
+// sweeps.
 #pragma once
 
 #include "kernels/distance/carried_samples.h"
+#include "kernels/mesh/tet_mesh.h"
 #include "kernels/odt/replacement.h"
 #include "kernels/odt/triangulation.h"
 
@@ -41,7 +43,7 @@ struct CodtStats {
 /// (The mean radius ratio is no guide, because after local optimisation it falls at first.)
 [[nodiscard]] double odt_energy(const TetMesh& mesh, const Metric& metric);
 
-/// Iterates vertex moves (odt_sweep.h) and constrained Delaunay reconnection (replacement.h).
+/// Iterates vertex moves (sweep_odt()) and constrained Delaunay reconnection (replacement.h).
 /// Steiner points become vertices inside their label.  They get the point quadric that such
 /// vertices have from the start (Eq (2)), and ids of the window in the triangulation's order.
 /// REQUIRES: `samples` are carried by the mesh; box as the mesh was made with; no vertex of the
@@ -49,5 +51,13 @@ struct CodtStats {
 /// ENSURES: as optimise(), but rows may change: vertices that no tet uses are gone, samples follow.
 CodtStats codt(TetMesh& mesh, CarriedSamples& samples, Point box, const Metric& metric,
                const CodtOptions& options, const Triangulate& triangulate);
+
+/// Moves each free vertex inside a label, in ascending order, to the mean of the circumcentres of
+/// its tets, weighted by volume (Chen and Holst, Efficient mesh optimization schemes based on
+/// optimal Delaunay triangulations, 2011).  All other vertices stay, which makes it "constrained".
+/// A step that would make a tet non-positive, or the worst tet of the star worse and worse than the
+/// floor, is halved up to three times, then left out.
+/// ENSURES: as optimise(); returns how many vertices moved.
+std::uint64_t odt_sweep(TetMesh& mesh, const Metric& metric, double quality_floor);
 
 }  // namespace mw

@@ -6,7 +6,7 @@
 #include "kernels/core/disjoint_sets.h"
 #include "kernels/core/sort_distinct.h"
 #include "kernels/odt/tet_faces.h"
-#include "kernels/quality/mesh_quality.h"
+#include "kernels/quality/quality.h"
 
 namespace mw {
 namespace {

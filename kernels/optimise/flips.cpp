@@ -7,8 +7,8 @@
 #include <limits>
 #include <utility>
 
-#include "kernels/quality/mesh_quality.h"
-#include "kernels/quality/ratio_lanes.h"
+#include "kernels/quality/quality.h"
+#include "kernels/quality/star_batch.h"
 
 namespace mw {
 

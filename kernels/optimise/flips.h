@@ -14,7 +14,7 @@
 
 namespace mw {
 
-/// Flips that lower the shape energy of the tets they replace (kernels/quality/mesh_quality.h).
+/// Flips that lower the shape energy of the tets they replace (kernels/quality/quality.h).
 ///
 /// Inside a label all tets involved bear one label and the new ones fill exactly the same region
 /// (each is exactly positive), so every label stays the same point set.

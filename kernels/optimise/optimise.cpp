@@ -11,7 +11,7 @@
 #include "kernels/optimise/flips.h"
 #include "kernels/optimise/smooth.h"
 #include "kernels/optimise/unfold.h"
-#include "kernels/quality/ratio_lanes.h"
+#include "kernels/quality/star_batch.h"
 
 namespace mw {
 namespace {

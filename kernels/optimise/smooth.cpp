@@ -10,8 +10,8 @@
 #include <optional>
 
 #include "kernels/core/index.h"
-#include "kernels/quality/mesh_quality.h"
-#include "kernels/surface/bend.h"
+#include "kernels/quality/quality.h"
+#include "kernels/surface/surface_star.h"
 
 namespace mw {
 namespace {

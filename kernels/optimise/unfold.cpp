@@ -7,7 +7,7 @@
 #include <optional>
 
 #include "kernels/distance/point_triangle.h"
-#include "kernels/surface/bend.h"
+#include "kernels/surface/surface_star.h"
 
 namespace mw {
 namespace {

@@ -1,9 +1,11 @@
 // SPDX-FileCopyrightText: The mwmesh authors
 // SPDX-License-Identifier: Apache-2.0
-// From where a picture is taken, where points come to lie in it, and how light falls on labels.
+// From where a picture is taken, where points come to lie in it, how light falls on labels, and
+// triangles and tets cut by a plane.
 #pragma once
 
 #include <limits>
+#include <span>
 
 #include "kernels/core/label.h"
 #include "kernels/core/metric.h"
@@ -64,5 +66,28 @@ class Camera {
 
 /// Mixes two colours: share 0 gives `one`, share 1 gives `other`.
 [[nodiscard]] Colour mixed(const Colour& one, const Colour& other, double share);
+
+/// Points with normal . p <= offset stay.
+struct CutPlane {
+  Vec3 normal;
+  double offset = 0;
+
+  [[nodiscard]] double height(const Vec3& p) const { return normal.dot(p) - offset; }
+};
+
+/// A convex polygon of three or four corners, or nothing.
+struct Piece {
+  std::array<Vec3, 4> corners;
+  std::size_t count = 0;
+
+  void add(const Vec3& corner) { corners[count++] = corner; }
+};
+
+/// The part of a triangle that stays, in its orientation.
+[[nodiscard]] Piece clipped(const std::array<Vec3, 3>& triangle, const CutPlane& plane);
+
+/// The part of the plane that is in the tet.  Where faces of tets lie in the plane, only the tets
+/// beyond it have them, so that the pieces of a mesh cover its cut once.
+[[nodiscard]] Piece cross_section(const std::array<Vec3, 4>& tet, const CutPlane& plane);
 
 }  // namespace mw::picture

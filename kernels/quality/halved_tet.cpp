@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "kernels/core/ten_nodes.h"
+#include "kernels/core/tet_nodes.h"
 #include "kernels/quality/quality.h"
 
 namespace mw {

@@ -10,7 +10,7 @@
 
 namespace mw {
 
-/// Returns the eight parts of a positive tet by its ten nodes (kernels/core/ten_nodes.h): one at
+/// Returns the eight parts of a positive tet by its ten nodes (kernels/core/tet_nodes.h): one at
 /// each corner, and four around one of three diagonals between the nodes of opposite edges.  The
 /// diagonal is the one whose worst part has the largest radius ratio, of equal ones the first.
 /// ENSURES: a triangle is cut alike from both of its sides; where nodes are the exact middles of

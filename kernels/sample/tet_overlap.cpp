@@ -7,7 +7,7 @@
 #include <cmath>
 #include <vector>
 
-#include "kernels/core/tet_facets.h"
+#include "kernels/core/tet_nodes.h"
 #include "kernels/core/vector3.h"
 
 namespace mw {

@@ -7,9 +7,8 @@
 
 #include "kernels/mesh/failed_pairs.h"
 #include "kernels/mesh/tet_mesh.h"
-#include "kernels/simplify/bend_filter.h"
 #include "kernels/simplify/contraction.h"
-#include "kernels/simplify/shape_filter.h"
+#include "kernels/simplify/contraction_filters.h"
 #include "kernels/simplify/vertex_queue.h"
 #include "kernels/size/edge_limits.h"
 #include "kernels/topology/link_condition.h"

@@ -5,7 +5,7 @@
 
 #include <algorithm>
 
-#include "kernels/source/face_filter.h"
+#include "kernels/source/face_graph.h"
 
 namespace mw {
 namespace {

@@ -25,7 +25,7 @@ using UpperFaces = std::uint8_t;
 ///
 /// Faces of one pair of labels that share an edge are neighbours, unless all four faces at the edge
 /// are of that pair.  On this graph the places of faces (their centres, to begin with) and their
-/// normals are filtered (kernels/source/face_filter.h), where an edge without a neighbour counts as
+/// normals are filtered (kernels/source/face_graph.h), where an edge without a neighbour counts as
 /// the face itself.  On voxels of a half-space both average to its plane, as faces of each
 /// direction lie around it evenly, in numbers that are proportional to the normal.  Nothing crosses
 /// from one side of a thin sheet or of a sharp edge to the other, or from one pair of labels to the

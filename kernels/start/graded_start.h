@@ -7,7 +7,7 @@
 
 #include "kernels/core/label.h"
 #include "kernels/mesh/block_mesh.h"
-#include "kernels/start/cells/level_map.h"
+#include "kernels/start/cells/cell_levels.h"
 
 namespace mw {
 

@@ -9,7 +9,7 @@
 #include <span>
 
 #include "kernels/distance/point_triangle.h"
-#include "kernels/surface/bend.h"
+#include "kernels/surface/surface_star.h"
 
 namespace mw {
 namespace {

@@ -3,15 +3,52 @@
 // What a good interface costs: distance to the input's faces, area at constant volume, bends.
 #pragma once
 
+#include <cstdint>
+#include <span>
 #include <vector>
 
+#include "kernels/core/label.h"
 #include "kernels/distance/distance_guard.h"
 #include "kernels/distance/point_triangle.h"
+#include "kernels/mesh/tet_mesh.h"
 #include "kernels/quality/star_batch.h"
 #include "kernels/surface/surface_star.h"
-#include "kernels/surface/volume_debts.h"
 
 namespace mw {
+
+/// Volume that a vertex leaves between the input's faces and the interface of labels low < high.
+struct VolumeDebt {
+  Label low = 0;
+  Label high = 0;
+  double volume = 0.0;  ///< what low lacks and high has too much of, for each triangle there
+};
+
+/// The debts that vertices had after their last visit.
+class VolumeDebts {
+ public:
+  void set(LocalVertex v, std::span<const VolumeDebt> debts) {
+    if (v >= rows_.size()) rows_.resize(std::size_t{v} + 1, kNone);
+    if (rows_[v] == kNone) {
+      rows_[v] = static_cast<std::uint32_t>(lists_.size());
+      lists_.emplace_back();
+    }
+    lists_[rows_[v]].assign(debts.begin(), debts.end());
+  }
+  /// Returns a debt per triangle; 0 at vertices that were not visited.
+  [[nodiscard]] double of(LocalVertex v, Label low, Label high) const {
+    if (v >= rows_.size() || rows_[v] == kNone) return 0.0;
+    for (const VolumeDebt& d : lists_[rows_[v]]) {
+      if (d.low == low && d.high == high) return d.volume;
+    }
+    return 0.0;
+  }
+
+ private:
+  static constexpr std::uint32_t kNone = ~std::uint32_t{0};
+
+  std::vector<std::uint32_t> rows_;  ///< row in lists_ of each vertex
+  std::vector<std::vector<VolumeDebt>> lists_;
+};
 
 /// Weights of the parts of SurfaceEnergy.  Where they come from is in bench/parameters.md,
 /// "Constants".
@@ -48,7 +85,7 @@ struct SurfaceWeights {
 /// of them owe in the same direction no neighbour can help.  So between two labels bends count
 /// 1 / (1 + (8 d)^8) times as much, where d is the mean distance that is owed, in voxels.
 ///
-/// Bends.  The sum of the bend energies (bend.h) of spokes and rims.
+/// Bends.  The sum of the bend energies (surface_star.h) of spokes and rims.
 ///
 /// The whole energy, with E the present shape energy of v's tets and M the sum of w f^2 (or, where
 /// few faces are carried, a sixth of the triangles' area), is

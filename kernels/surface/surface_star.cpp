@@ -9,8 +9,6 @@
 #include <limits>
 #include <utility>
 
-#include "kernels/surface/bend.h"
-
 namespace mw {
 namespace {
 

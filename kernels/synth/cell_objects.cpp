@@ -6,8 +6,6 @@
 #include <algorithm>
 #include <array>
 
-#include "kernels/synth/counter_hash.h"
-
 namespace mw {
 namespace {
 

@@ -9,7 +9,6 @@
 #include "kernels/core/error.h"
 #include "kernels/core/index.h"
 #include "kernels/synth/cell_objects.h"
-#include "kernels/synth/counter_hash.h"
 
 namespace mw {
 namespace {

@@ -4,7 +4,7 @@
 #include "engine/labels/voxel_lattice.h"
 #include "engine/store/journal/workdir.h"
 #include "kernels/core/index.h"
-#include "kernels/core/layers.h"
+#include "kernels/core/lattice.h"
 #include "tests/engine/memory_run.h"
 #include "tests/expect_error.h"
 #include "tests/promises/whole_runs.h"

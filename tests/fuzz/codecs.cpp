@@ -5,7 +5,7 @@
 #include <array>
 
 #include "io/codec/codec.h"
-#include "io/volume/precomputed/compressed_segmentation.h"
+#include "io/volume/precomputed/open_precomputed.h"
 #include "tests/fuzz/all_targets.h"
 #include "tests/fuzz/choices.h"
 #include "tests/io/codec/packers.h"

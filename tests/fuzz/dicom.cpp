@@ -7,9 +7,8 @@
 #include <cstring>
 
 #include "io/file/byte_order.h"
+#include "io/volume/dicom/frame_unpacker.h"
 #include "io/volume/dicom/open_dicom.h"
-#include "io/volume/dicom/packed_frame.h"
-#include "io/volume/dicom/slice_grid.h"
 #include "tests/fuzz/all_targets.h"
 #include "tests/fuzz/byte_file.h"
 #include "tests/fuzz/choices.h"

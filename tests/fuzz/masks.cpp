@@ -4,10 +4,10 @@
 #include <algorithm>
 #include <map>
 
-#include "io/volume/label_scores.h"
 #include "io/volume/masks/open_masks.h"
 #include "io/volume/nifti/open_nifti.h"
 #include "io/volume/nrrd/open_nrrd.h"
+#include "io/volume/number_volume.h"
 #include "io/volume/open_volume.h"
 #include "tests/fuzz/all_targets.h"
 #include "tests/fuzz/byte_file.h"

@@ -6,7 +6,7 @@
 #include <optional>
 
 #include "kernels/optimise/optimise.h"
-#include "kernels/quality/mesh_quality.h"
+#include "kernels/quality/quality.h"
 #include "kernels/simplify/simplify.h"
 #include "kernels/topology/link_condition.h"
 #include "tests/fuzz/all_targets.h"

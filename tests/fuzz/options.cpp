@@ -3,7 +3,6 @@
 // Values of options, and config files.
 #include "engine/cli/mesh/mesh_request.h"
 #include "engine/cli/options/option_set.h"
-#include "engine/cli/options/option_text.h"
 #include "engine/cli/options/values.h"
 #include "engine/settings/size_text.h"
 #include "tests/fuzz/all_targets.h"

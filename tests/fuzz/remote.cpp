@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <array>
 
-#include "io/codec/content_digest.h"
+#include "io/codec/hasher.h"
 #include "io/file/byte_order.h"
 #include "io/remote/address.h"
 #include "io/remote/disk_cache.h"

@@ -3,7 +3,7 @@
 // Promise 2: the mesh is a partition of the box into positive tets.
 #include "kernels/audit/distance/distance.h"
 #include "kernels/audit/shape/volumes.h"
-#include "kernels/core/layers.h"
+#include "kernels/core/lattice.h"
 #include "tests/engine/memory_run.h"
 #include "tests/promises/whole_runs.h"
 

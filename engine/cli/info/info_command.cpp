@@ -5,8 +5,7 @@
 
 #include "engine/cli/command.h"
 #include "engine/cli/exit_code.h"
-#include "engine/cli/info/fact_text.h"
-#include "engine/cli/info/mesh_tables.h"
+#include "engine/cli/info/info_text.h"
 #include "engine/cli/info/shape_sink.h"
 #include "engine/cli/info/volume_facts.h"
 #include "engine/cli/options/shared_options.h"
@@ -16,9 +15,8 @@
 #include "io/mesh/digest.h"
 #include "io/mesh/grouped/grouped_sink.h"
 #include "io/mesh/merged_vertices.h"
-#include "io/mesh/no_sink.h"
+#include "io/mesh/mesh_sink.h"
 #include "io/mesh/open_mesh.h"
-#include "io/mesh/tee_sink.h"
 #include "io/names/read_names.h"
 
 namespace mw::cli {

@@ -5,8 +5,8 @@
 
 #include <algorithm>
 
-#include "engine/cli/report_names.h"
 #include "engine/report/connect_report.h"
+#include "engine/report/mesh_facts.h"
 
 namespace mw::cli {
 namespace {
@@ -15,18 +15,18 @@ using io::Json;
 
 void add_betti(Json& row, const audit::RegionBetti& betti) {
   row["components"] = betti.open.b0;
-  row["betti_closed"] = betti_json(betti.closed);
-  row["betti_open"] = betti_json(betti.open);
+  row["betti_closed"] = report::betti_json(betti.closed);
+  row["betti_open"] = report::betti_json(betti.open);
 }
 
 Json label_row(const MeshInfo& facts, Label rank, double total) {
   const LabelStats& label = facts.mesh.labels[rank];
   const RawLabel raw = facts.table.raw(rank);
-  Json row = named_row_json(raw, facts.table.is_signed(), facts.names);
+  Json row = report::named_row_json(raw, facts.table.is_signed(), facts.names);
   row["volume"] = label.volume;
   row["share"] = label.volume / total;
   if (const auto voxels = voxels_of(facts, rank)) {
-    row.update(volume_row_json(*voxels, facts.table, facts.names));
+    row.update(report::volume_row_json(*voxels, facts.table, facts.names));
   } else if (facts.volume) {
     row["voxels"] = 0;
   }
@@ -39,14 +39,14 @@ Json label_row(const MeshInfo& facts, Label rank, double total) {
   row["lo"] = label.lo;
   row["hi"] = label.hi;
   row["centroid"] = label.centroid;
-  add_colour(row, raw, facts.names);
+  report::add_colour(row, raw, facts.names);
   return row;
 }
 
 Json mask_row(const MeshInfo& facts, const MaskStats& mask) {
   Json labels = Json::array();
   for (const Label rank : mask.mask.ranks) {
-    labels.push_back(label_json(facts.table.raw(rank), facts.table.is_signed()));
+    labels.push_back(report::label_json(facts.table.raw(rank), facts.table.is_signed()));
   }
   Json row{{"name", mask.mask.name},
            {"labels", std::move(labels)},
@@ -58,10 +58,11 @@ Json mask_row(const MeshInfo& facts, const MaskStats& mask) {
 
 Json contact_json(const MeshInfo& facts, const Contact& contact) {
   const bool is_signed = facts.table.is_signed();
-  Json row{
-      {"labels", {label_json(contact.first, is_signed), label_json(contact.second, is_signed)}},
-      {"triangles", contact.triangles},
-      {"area", contact.area}};
+  Json row{{"labels",
+            {report::label_json(contact.first, is_signed),
+             report::label_json(contact.second, is_signed)}},
+           {"triangles", contact.triangles},
+           {"area", contact.area}};
   if (contact.voxel_area) row["voxel_area"] = *contact.voxel_area;
   return row;
 }
@@ -70,8 +71,8 @@ Json labels_json(const io::LabelTable& table) {
   if (table.size() == 0) return {{"count", 0}, {"min", nullptr}, {"max", nullptr}};
   const auto last = static_cast<Label>(table.size() - 1);
   return {{"count", table.size()},
-          {"min", label_json(table.raw(0), table.is_signed())},
-          {"max", label_json(table.raw(last), table.is_signed())}};
+          {"min", report::label_json(table.raw(0), table.is_signed())},
+          {"max", report::label_json(table.raw(last), table.is_signed())}};
 }
 
 Json box_json(const MeshStats& mesh) {
@@ -95,7 +96,7 @@ Json volumes_json(const MeshInfo& facts) {
     if (const auto voxels = voxels_of(facts, rank)) errors.add(*voxels);
   }
   Json out{{"total", total.value()}};
-  if (facts.volume) out.update(volume_summary_json(errors.summary(), facts.table));
+  if (facts.volume) out.update(report::volume_summary_json(errors.summary(), facts.table));
   Json rows = Json::array();
   for (Label rank = 0; rank < facts.table.size(); ++rank) {
     rows.push_back(label_row(facts, rank, total.value()));
@@ -133,7 +134,7 @@ Json mesh_json(const MeshInfo& facts, bool contacts) {
            {"labels", labels_json(facts.table)},
            {"box", box_json(facts.mesh)},
            {"parts", parts_json(facts)},
-           {"shape", interfaces_json(facts.shape)},
+           {"shape", report::interfaces_json(facts.shape)},
            {"volume", volumes_json(facts)}};
   if (facts.curved > 0) out["curved_tets"] = facts.curved;
   if (facts.cohesive.any()) out["cohesive"] = cohesive_json(facts);

@@ -5,7 +5,7 @@
 
 #include "io/file/scratch/external_sort.h"
 #include "io/file/scratch/scratch_file.h"
-#include "io/mesh/no_sink.h"
+#include "io/mesh/mesh_sink.h"
 #include "kernels/audit/shape/shape.h"
 
 namespace mw::cli {

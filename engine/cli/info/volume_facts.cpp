@@ -3,13 +3,13 @@
 // What `mwmesh info` says of a volume.
 #include "engine/cli/info/volume_facts.h"
 
-#include "engine/cli/report_names.h"
+#include "engine/report/mesh_facts.h"
 
 #include <algorithm>
 #include <iostream>
 
-#include "engine/cli/info/fact_text.h"
-#include "engine/labels/shared_reads.h"
+#include "engine/cli/info/info_text.h"
+#include "engine/labels/reading_tiles.h"
 #include "engine/report/figures.h"
 #include "io/remote/address.h"
 #include "io/volume/open_volume.h"
@@ -34,9 +34,9 @@ Json affine_json(const io::VolumeSpace& space) {
 
 Json labels_json(const std::vector<engine::LabelRegion>& regions, bool is_signed) {
   return {{"count", regions.size()},
-          {"min", label_json(regions.front().label, is_signed)},
-          {"max", label_json(regions.back().label, is_signed)},
-          {"per_label", kRows}};
+          {"min", report::label_json(regions.front().label, is_signed)},
+          {"max", report::label_json(regions.back().label, is_signed)},
+          {"per_label", report::kRows}};
 }
 
 Json facts_of(const VolumeRequest& request, const io::VolumeInfo& info,
@@ -63,7 +63,7 @@ Json masks_json(const io::VolumeInfo& info, const std::vector<engine::LabelRegio
   for (const io::MaskLabels& mask : info.masks) {
     std::uint64_t voxels = 0;
     for (const engine::LabelRegion& region : regions) {
-      if (std::ranges::binary_search(mask.labels, region.label)) voxels += region.voxels;
+      if (mask.has(region.label)) voxels += region.voxels;
     }
     Json row{{"name", mask.name}, {"labels", mask.labels}};
     if (!regions.empty()) row["voxels"] = voxels;
@@ -100,8 +100,8 @@ VolumeFacts::VolumeFacts(const VolumeRequest& request) {
   if (reads_labels(request)) regions_ = engine::label_regions(input.volume());
   facts_ = facts_of(request, info_, regions_);
   if (!info_.masks.empty()) facts_["masks"] = masks_json(info_, regions_);
-  if (input.specks()) facts_["specks"] = specks_json(input.specks());
-  if (input.welds()) facts_["welds"] = welds_json(input.welds());
+  if (input.specks()) facts_["specks"] = report::specks_json(input.specks());
+  if (input.welds()) facts_["welds"] = report::welds_json(input.welds());
   if (request.open.scale) return;
   const auto scales = io::scales_of(request.path, open_options(request));
   if (scales.size() > 1) facts_["scales"] = scales_json(scales);
@@ -110,12 +110,12 @@ VolumeFacts::VolumeFacts(const VolumeRequest& request) {
 Json VolumeFacts::label_row(std::size_t i) const {
   const engine::LabelRegion& region = regions_[i];
   const Index3 lo = region.box.lo, hi = region.box.hi;
-  Json row = named_row_json(region.label, has_signed_labels(info_), info_.names);
+  Json row = report::named_row_json(region.label, has_signed_labels(info_), info_.names);
   row["voxels"] = region.voxels;
   row["lo"] = {lo.x, lo.y, lo.z};
   row["hi"] = {hi.x, hi.y, hi.z};
   row["volume"] = volume_of(i);
-  add_colour(row, region.label, info_.names);
+  report::add_colour(row, region.label, info_.names);
   return row;
 }
 
@@ -148,10 +148,11 @@ void print_volume_json(const VolumeFacts& volume) {
     std::cout << volume.json().dump_indented() << "\n";
     return;
   }
-  const auto for_each_row = [&](const TakeRow& take) {
+  const auto for_each_row = [&](const report::TakeRow& take) {
     for (std::size_t i = 0; i < volume.labels(); ++i) take(volume.label_row(i));
   };
-  append_with_rows(volume.json(), for_each_row, [](std::string_view text) { std::cout << text; });
+  report::append_with_rows(volume.json(), for_each_row,
+                           [](std::string_view text) { std::cout << text; });
 }
 
 }  // namespace mw::cli

@@ -5,7 +5,6 @@
 
 #include "engine/cli/command.h"
 #include "engine/cli/exit_code.h"
-#include "engine/cli/interrupt.h"
 #include "engine/cli/log.h"
 #include "engine/cli/mesh/mesh_request.h"
 #include "engine/cli/mesh/mesh_summary.h"
@@ -23,9 +22,8 @@
 #include "io/file/errors.h"
 #include "io/mesh/digest.h"
 #include "io/mesh/grouped/grouped_sink.h"
-#include "io/mesh/no_sink.h"
+#include "io/mesh/mesh_sink.h"
 #include "io/mesh/open_mesh.h"
-#include "io/mesh/tee_sink.h"
 #include "io/volume/open_volume.h"
 
 namespace mw::cli {
@@ -237,7 +235,7 @@ void write_side_files(const MeshRequest& request, report::FinishedRun& run, Mesh
   }
   if (files.digest) {
     engine::return_free_memory_above(0);  // the blocks are gone; the digest sorts in their place
-    const report::ResourceMeter meter;
+    const engine::ResourceMeter meter;
     run.digest = files.digest->digest();
     run.resources.peak_rss_bytes = meter.read().peak_rss_bytes;
   }
@@ -285,7 +283,7 @@ int mesh(const MeshRequest& request, const OptionSet& options) {
   const bool is_certified = engine::plan_certificate(request.job).why_not.empty();
   const std::string why = engine::why_no_volumes(engine::promises_of(request.job.settings));
   if (!why.empty()) log_warning(why + ": the volumes of labels are not promised (P8)");
-  const report::ResourceMeter meter;
+  const engine::ResourceMeter meter;
   MeshFiles files(request, open_shared_output(request, is_certified));
   log_info("reading " + request.volume.path.string());
   const std::unique_ptr<io::LabelVolume> volume = open(request.volume);

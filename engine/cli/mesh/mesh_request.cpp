@@ -9,12 +9,11 @@
 #include "engine/cli/options/values.h"
 #include "engine/codt/worker_pool.h"
 #include "engine/sample/sample_text.h"
-#include "engine/settings/material_text.h"
 #include "engine/settings/size_text.h"
 #include "engine/system/memory.h"
 #include "io/file/errors.h"
 #include "io/file/text_numbers.h"
-#include "io/labels/merged_labels.h"
+#include "io/labels/merged_volume.h"
 #include "io/mesh/open_mesh.h"
 
 namespace mw::cli {

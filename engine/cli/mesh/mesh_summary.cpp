@@ -8,8 +8,8 @@
 
 #include "engine/cli/log.h"
 #include "engine/cli/options/values.h"
-#include "engine/cli/report_names.h"
 #include "engine/report/connect_report.h"
+#include "engine/report/mesh_facts.h"
 #include "io/file/errors.h"
 
 namespace mw::cli {
@@ -215,7 +215,7 @@ void print_certificate(const report::FinishedRun& run) {
 }
 
 std::string name_of(RawLabel label, const report::FinishedRun& run) {
-  return label_text(label, run.labels.is_signed(), run.volume.names);
+  return report::label_text(label, run.labels.is_signed(), run.volume.names);
 }
 
 /// Prints how many labels there are, and what the first few are called.

@@ -7,7 +7,7 @@
 
 #include "engine/cli/mesh/mesh_request.h"
 #include "engine/report/run_report.h"
-#include "io/mesh/no_sink.h"
+#include "io/mesh/mesh_sink.h"
 
 namespace mw::cli {
 

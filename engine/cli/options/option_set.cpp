@@ -12,7 +12,7 @@
 #include <optional>
 #include <set>
 
-#include "engine/cli/options/option_text.h"
+#include "engine/cli/options/values.h"
 #include "engine/codt/worker_pool.h"
 #include "engine/settings/named_labels.h"
 #include "io/file/errors.h"

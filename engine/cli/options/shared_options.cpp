@@ -6,7 +6,7 @@
 #include "engine/cli/options/values.h"
 #include "engine/settings/named_labels.h"
 #include "engine/settings/setting_table.h"
-#include "io/mesh/no_sink.h"
+#include "io/mesh/mesh_sink.h"
 #include "io/mesh/open_mesh.h"
 #include "kernels/core/error.h"
 

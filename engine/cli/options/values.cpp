@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The mwmesh authors
 // SPDX-License-Identifier: Apache-2.0
-// Values of options from text and back.
+// Values of options from text and back, and their forms in TOML and JSON.
 #include "engine/cli/options/values.h"
 
 #include <algorithm>
@@ -59,6 +59,189 @@ std::vector<RawLabel> parse_labels(std::string_view text) {
   std::vector<RawLabel> labels;
   for (const std::string_view part : split(text)) labels.push_back(parse_label(part));
   return labels;
+}
+
+namespace {
+
+constexpr const char* kNone = "none";
+
+/// Returns the word that an option takes beside numbers.
+const char* word_of(ValueKind kind) {
+  return kind == ValueKind::kNumberOrAuto ? "auto" : kNone;
+}
+
+std::string joined(const std::array<std::string, 3>& parts) {
+  return parts[0] + "," + parts[1] + "," + parts[2];
+}
+
+std::string canonical_numbers(const std::string& text) {
+  const std::array<double, 3> v = parse_numbers(text);
+  return joined({format_number(v[0]), format_number(v[1]), format_number(v[2])});
+}
+
+std::string canonical_shape(const std::string& text) {
+  const Index3 v = parse_shape(text);
+  return joined({std::to_string(v.x), std::to_string(v.y), std::to_string(v.z)});
+}
+
+std::string canonical_box(const std::string& text) {
+  const Box3 box = parse_box(text);
+  std::string out;
+  for (const std::int64_t v : {box.lo.x, box.lo.y, box.lo.z, box.hi.x, box.hi.y, box.hi.z}) {
+    out += (out.empty() ? "" : ",") + std::to_string(v);
+  }
+  return out;
+}
+
+std::optional<std::string> number_of_toml(const toml::node& node) {
+  if (const auto* integer = node.as_integer()) return std::to_string(integer->get());
+  if (const auto* number = node.as_floating_point()) return format_number(number->get());
+  return std::nullopt;
+}
+
+/// Returns the elements of an array of numbers, joined by commas.
+std::optional<std::string> list_of_toml(const toml::node& node) {
+  const toml::array* array = node.as_array();
+  if (array == nullptr) return std::nullopt;
+  std::string out;
+  for (const toml::node& element : *array) {
+    const std::optional<std::string> number = number_of_toml(element);
+    if (!number) return std::nullopt;
+    out += (out.empty() ? "" : ",") + *number;
+  }
+  return out;
+}
+
+std::optional<std::string> string_of_toml(const toml::node& node) {
+  const auto* text = node.as_string();
+  return text == nullptr ? std::nullopt : std::optional(text->get());
+}
+
+}  // namespace
+
+std::string canonical_text(ValueKind kind, const std::string& text) {
+  switch (kind) {
+    case ValueKind::kText:
+    case ValueKind::kNumberOrText:
+      return text;
+    case ValueKind::kInteger:
+      return std::to_string(parse_integer(text));
+    case ValueKind::kNumber:
+      return format_number(parse_number(text));
+    case ValueKind::kNumberOrNone:
+    case ValueKind::kNumberOrAuto:
+      return text == word_of(kind) ? text : format_number(parse_number(text));
+    case ValueKind::kNumbers:
+      return canonical_numbers(text);
+    case ValueKind::kShape:
+      return canonical_shape(text);
+    case ValueKind::kBox:
+      return canonical_box(text);
+    case ValueKind::kLabels:
+      (void)parse_labels(text);
+      return text;
+    case ValueKind::kSize:
+      (void)parse_bytes(text);
+      return text;
+    case ValueKind::kSwitch:
+      return parse_switch(text) ? "true" : "false";
+  }
+  return text;
+}
+
+std::optional<std::string> text_of_toml(ValueKind kind, const toml::node& node) {
+  switch (kind) {
+    case ValueKind::kText:
+    case ValueKind::kSize:
+      return string_of_toml(node);
+    case ValueKind::kNumberOrText:
+      return node.is_number() ? number_of_toml(node) : string_of_toml(node);
+    case ValueKind::kInteger:
+      return node.is_integer() ? number_of_toml(node) : std::nullopt;
+    case ValueKind::kNumber:
+      return number_of_toml(node);
+    case ValueKind::kNumberOrNone:
+    case ValueKind::kNumberOrAuto:
+      return string_of_toml(node) == word_of(kind) ? word_of(kind) : number_of_toml(node);
+    case ValueKind::kNumbers:
+      if (const auto one = number_of_toml(node)) return one;
+      return list_of_toml(node);
+    case ValueKind::kShape:
+    case ValueKind::kBox:
+      return list_of_toml(node);
+    case ValueKind::kLabels:
+      if (node.is_integer()) return number_of_toml(node);
+      return node.is_string() ? string_of_toml(node) : list_of_toml(node);
+    case ValueKind::kSwitch:
+      if (!node.is_boolean()) return std::nullopt;
+      return node.as_boolean()->get() ? "true" : "false";
+  }
+  return std::nullopt;
+}
+
+const char* toml_type(ValueKind kind) {
+  switch (kind) {
+    case ValueKind::kText:
+      return "a string";
+    case ValueKind::kInteger:
+      return "an integer";
+    case ValueKind::kNumber:
+      return "a number";
+    case ValueKind::kNumberOrNone:
+      return "a number or \"none\"";
+    case ValueKind::kNumberOrAuto:
+      return "a number or \"auto\"";
+    case ValueKind::kNumbers:
+      return "three numbers [X, Y, Z], or one";
+    case ValueKind::kShape:
+      return "three integers [X, Y, Z]";
+    case ValueKind::kBox:
+      return "six integers [X0, Y0, Z0, X1, Y1, Z1]";
+    case ValueKind::kLabels:
+      return "integers [1, 2] or a string \"1,2\"";
+    case ValueKind::kSize:
+      return "a string such as \"4G\"";
+    case ValueKind::kSwitch:
+      return "true or false";
+    case ValueKind::kNumberOrText:
+      return "a number or a string";
+  }
+  return "";
+}
+
+bool fits_in_toml(const std::string& text) {
+  // JSON replaces bytes that are no UTF-8.
+  return io::parse_json(io::Json(text).dump_ascii(), "settings").text() == text;
+}
+
+std::string toml_of_text(ValueKind kind, const std::string& text) {
+  switch (kind) {
+    case ValueKind::kInteger:
+    case ValueKind::kNumber:
+    case ValueKind::kSwitch:
+      return text;
+    case ValueKind::kNumberOrNone:
+    case ValueKind::kNumberOrAuto:
+      return text == word_of(kind) ? "\"" + text + "\"" : text;
+    case ValueKind::kNumbers:
+    case ValueKind::kShape:
+    case ValueKind::kBox:
+      return "[" + text + "]";
+    default:
+      break;
+  }
+  // A JSON string is a TOML string.
+  return io::Json(text).dump_ascii();
+}
+
+io::Json json_of_text(ValueKind kind, const std::string& text) {
+  if (text.empty()) return nullptr;
+  if (kind == ValueKind::kText || kind == ValueKind::kLabels || kind == ValueKind::kSize ||
+      kind == ValueKind::kNumberOrText) {
+    return text;
+  }
+  if (text == kNone) return text;
+  return io::parse_json(toml_of_text(kind, text), "settings");
 }
 
 }  // namespace mw::cli

@@ -1,17 +1,22 @@
 // SPDX-FileCopyrightText: The mwmesh authors
 // SPDX-License-Identifier: Apache-2.0
-// Converts values of options from text and back.
+// Converts values of options from text and back, and between their forms: text, TOML, JSON.
 #pragma once
+
+#include <toml++/toml.h>
 
 #include <array>
 #include <cstdint>
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
 
+#include "engine/cli/options/option_set.h"
 #include "engine/report/figures.h"
 #include "engine/settings/number_text.h"
+#include "io/json/json.h"
 #include "io/mesh/element.h"
 #include "io/mesh/mesh_extras.h"
 #include "kernels/core/index.h"
@@ -62,5 +67,23 @@ template <class T, class Parse>
 [[nodiscard]] inline auto into(bool& target) {
   return into(target, parse_switch);
 }
+
+/// Returns a text that is the same for equal values; labels and sizes stay as they are written.
+/// ERRORS: mw::Error(kUsage) when the text is not of the kind.
+[[nodiscard]] std::string canonical_text(ValueKind kind, const std::string& text);
+
+/// Returns a config file's value as text, or nothing when its type is not that of the kind.
+[[nodiscard]] std::optional<std::string> text_of_toml(ValueKind kind, const toml::node& node);
+
+/// Returns what a config file holds for the kind, in words for messages: "an integer".
+[[nodiscard]] const char* toml_type(ValueKind kind);
+
+/// Returns whether a config file can hold the text: its strings are UTF-8.
+[[nodiscard]] bool fits_in_toml(const std::string& text);
+
+/// REQUIRES: canonical text that fits_in_toml().
+[[nodiscard]] std::string toml_of_text(ValueKind kind, const std::string& text);
+/// Returns the value as JSON, in which bytes that are no UTF-8 become U+FFFD.
+[[nodiscard]] io::Json json_of_text(ValueKind kind, const std::string& text);
 
 }  // namespace mw::cli

@@ -8,13 +8,13 @@
 #include "engine/cli/log.h"
 #include "engine/cli/options/shared_options.h"
 #include "engine/cli/options/values.h"
-#include "engine/system/tbb_for.h"
+#include "engine/system/crew.h"
 #include "io/file/errors.h"
 #include "io/file/text_numbers.h"
 #include "io/names/read_names.h"
 #include "io/remote/address.h"
+#include "io/volume/checks.h"
 #include "io/volume/decode.h"
-#include "io/volume/file_space.h"
 #include "io/volume/open_volume.h"
 
 namespace mw::cli {

@@ -1,14 +1,13 @@
 // SPDX-FileCopyrightText: The mwmesh authors
 // SPDX-License-Identifier: Apache-2.0
 // The parts of a run's page that come from its report.
-#include "engine/cli/page/page_sections.h"
+#include "engine/cli/page/run_page.h"
 
 #include <algorithm>
 #include <array>
 #include <filesystem>
 
 #include "engine/cli/options/values.h"
-#include "engine/cli/page/charts.h"
 #include "engine/cli/page/html_text.h"
 #include "io/mesh/open_mesh.h"
 

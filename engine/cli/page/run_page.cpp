@@ -7,9 +7,7 @@
 #include <cmath>
 
 #include "engine/cli/options/values.h"
-#include "engine/cli/page/assets.h"
-#include "engine/cli/page/charts.h"
-#include "engine/cli/page/page_sections.h"
+#include "engine/cli/page/html_text.h"
 #include "engine/cli/page/view_data.h"
 #include "engine/picture/draw.h"
 

@@ -10,7 +10,7 @@
 #include <cstring>
 #include <system_error>
 
-#include "engine/cli/serve/byte_range.h"
+#include "engine/cli/serve/served_folder.h"
 #include "io/file/errors.h"
 
 namespace mw::cli {

@@ -5,7 +5,7 @@
 #include <iostream>
 
 #include "engine/cli/command.h"
-#include "engine/cli/interrupt.h"
+#include "engine/cli/exit_code.h"
 #include "engine/cli/options/shared_options.h"
 #include "engine/cli/options/values.h"
 #include "engine/cli/serve/folder_server.h"

@@ -11,22 +11,15 @@
 #include "io/file/source/file_source.h"
 #include "io/json/json.h"
 #include "io/json/json_fields.h"
+#include "io/store/place.h"
 
 namespace mw::cli {
 namespace {
 
 constexpr const char* kBox = "mwmesh_box";
 constexpr std::size_t kMostShown = 100;
-/// The properties of some million segments.
+/// Room for the properties of some million segments.
 constexpr std::uint64_t kMostInfoBytes = 256ULL << 20U;
-
-/// Reads larger files than io::read_json(), which is for descriptions without a row for each label.
-io::Json read_large_json(const std::filesystem::path& path) {
-  const io::FileSource file(path);
-  const std::optional<std::string> content = io::read_whole(file, kMostInfoBytes);
-  if (!content) io::fail_input(file.name(), "JSON", "the file is too large");
-  return io::parse_json(*content, file.name());
-}
 
 /// Returns the numbers by which segments are large: volumes, or areas where surfaces are open.
 std::vector<double> read_sizes(const io::JsonFields& inlined) {
@@ -85,14 +78,14 @@ std::string percent_encoded(std::string_view text) {
 
 FolderView read_meshes(const std::filesystem::path& folder) {
   const std::filesystem::path path = folder / "info";
-  const io::Json info = read_large_json(path);
+  const io::Json info = io::read_json(path, kMostInfoBytes);
   const io::JsonFields fields(info, path.string());
   FolderView view{.name = name_of(folder)};
   read_box(info, fields, view);
   constexpr const char* kProperties = "segment_properties";
   const std::filesystem::path below =
       io::named_path(path, kProperties, fields.text(kProperties), false) / "info";
-  const io::Json properties = read_large_json(below);
+  const io::Json properties = io::read_json(below, kMostInfoBytes);
   view.segments = largest_segments(io::JsonFields(properties, below.string()).object("inline"));
   return view;
 }

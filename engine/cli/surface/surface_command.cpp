@@ -8,8 +8,8 @@
 #include "engine/cli/options/file_names.h"
 #include "engine/cli/options/shared_options.h"
 #include "engine/cli/options/values.h"
-#include "engine/cli/report_names.h"
-#include "engine/cli/surface/surface_output.h"
+#include "engine/cli/surface/surface_request.h"
+#include "engine/report/mesh_facts.h"
 #include "io/file/errors.h"
 #include "io/mesh/grouped/grouped_sink.h"
 #include "io/mesh/open_mesh.h"
@@ -43,7 +43,7 @@ class SurfaceJob {
 
  private:
   [[nodiscard]] std::string text_of(RawLabel label) const {
-    return label_text(label, labels_->table.is_signed(), labels_->names);
+    return report::label_text(label, labels_->table.is_signed(), labels_->names);
   }
 
   [[nodiscard]] Label rank_of(RawLabel label) const {

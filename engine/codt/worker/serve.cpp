@@ -12,7 +12,6 @@
 #include <system_error>
 #include <thread>
 
-#include "engine/codt/shared_memory.h"
 #include "engine/codt/wire.h"
 
 namespace mw::engine::codt {

@@ -5,20 +5,52 @@
 
 #include <atomic>
 #include <condition_variable>
+#include <map>
+#include <memory>
+#include <mutex>
 
-#include "engine/march/arrivals.h"
-#include "engine/store/block_route.h"
+#include "engine/march/arrival_front.h"
+#include "engine/store/run_layout.h"
 #include "engine/store/run_store.h"
-#include "engine/team/blocks/incoming_rooms.h"
 #include "engine/team/blocks/partition.h"
 #include "engine/team/team.h"
 
 namespace mw::engine {
 
+/// Each message on its way has a ticket, which may outlive the run, since MPI ends what it began.
+/// Thread safety: all members may be called from many threads.
+class IncomingRooms : public std::enable_shared_from_this<IncomingRooms> {
+ public:
+  [[nodiscard]] static std::shared_ptr<IncomingRooms> of(RunStore& store) {
+    return std::shared_ptr<IncomingRooms>(new IncomingRooms(store));
+  }
+
+  /// Returns a ticket for a block of this size, or null if there is no room, or after close().
+  [[nodiscard]] std::shared_ptr<void> take(std::uint64_t encoded_bytes);
+  /// Returns the reservation that the ticket stands for, or an empty one if the ticket is null, or
+  /// after close().  The ticket counts for is_empty() until it is destroyed.
+  [[nodiscard]] MemoryBudget::Reservation claim(const std::shared_ptr<void>& ticket);
+  /// True if there are tickets.
+  [[nodiscard]] bool is_empty() const;
+  /// Gives back all reservations, and takes no more.
+  void close();
+
+ private:
+  struct Ticket;
+
+  explicit IncomingRooms(RunStore& store) : store_(&store) {}
+  void forget(std::uint64_t number);
+
+  mutable std::mutex mutex_;  ///< guards the next lines
+  RunStore* store_;           ///< null after close()
+  std::uint64_t next_ = 0;
+  std::map<std::uint64_t, MemoryBudget::Reservation> rooms_;  ///< by ticket
+};
+
 /// Where the blocks of the last march go.
 enum class FinalBlocksGo : std::uint8_t {
   kToFirst,   ///< rank 0 writes the mesh
-  kToOwners,  ///< the owners of lines (line_share.h) write it together
+  kToOwners,  ///< the owners of lines (partition.h) write it together
 };
 
 /// Which rank gets each block of the last march.

@@ -4,7 +4,6 @@
 
 #include <functional>
 
-#include "engine/output/block_figures.h"
 #include "engine/output/remembered.h"
 #include "engine/output/written_block.h"
 #include "engine/team/output/part_rows.h"

@@ -4,7 +4,7 @@
 #pragma once
 
 #include "engine/output/finish.h"
-#include "engine/team/output/line_share.h"
+#include "engine/team/blocks/partition.h"
 #include "engine/team/team.h"
 #include "io/mesh/shared_mesh.h"
 

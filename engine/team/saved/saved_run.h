@@ -8,8 +8,8 @@
 #include <map>
 #include <vector>
 
-#include "engine/store/block_route.h"
 #include "engine/store/journal/journal.h"
+#include "engine/store/run_layout.h"
 
 namespace mw::engine {
 

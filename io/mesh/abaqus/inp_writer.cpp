@@ -5,11 +5,10 @@
 
 #include "io/file/errors.h"
 #include "io/mesh/grouped/curved_nodes.h"
-#include "io/mesh/grouped/deck_ends.h"
 #include "io/mesh/grouped/facet_nodes.h"
 #include "io/mesh/grouped/fixed_fields.h"
+#include "io/mesh/grouped/group_names.h"
 #include "io/mesh/grouped/label_numbers.h"
-#include "io/mesh/grouped/mask_groups.h"
 #include "io/mesh/medit/medit.h"
 
 namespace mw::io {

@@ -8,7 +8,7 @@
 #include <numeric>
 
 #include "io/file/errors.h"
-#include "io/mesh/grouped/mask_groups.h"
+#include "io/mesh/grouped/group_names.h"
 
 namespace mw::io {
 namespace {

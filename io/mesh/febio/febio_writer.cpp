@@ -7,11 +7,9 @@
 
 #include "io/file/errors.h"
 #include "io/file/sink/atomic_file.h"
+#include "io/file/text_numbers.h"
 #include "io/mesh/grouped/group_names.h"
 #include "io/mesh/grouped/grouped_mesh.h"
-#include "io/mesh/grouped/mask_groups.h"
-#include "io/mesh/number_line.h"
-#include "io/mesh/xml_text.h"
 
 namespace mw::io {
 namespace {

@@ -3,7 +3,7 @@
 // Writes the geometry of an FEBio model.
 #pragma once
 
-#include "io/mesh/grouped/deck_ends.h"
+#include "io/mesh/grouped/facet_nodes.h"
 #include "io/mesh/grouped/grouped_mesh.h"
 #include "io/mesh/grouped/label_numbers.h"
 #include "io/mesh/mesh_extras.h"

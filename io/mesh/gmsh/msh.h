@@ -6,8 +6,7 @@
 #include <filesystem>
 
 #include "io/file/sink/partial_file.h"
-#include "io/mesh/gmsh/msh_encoder.h"
-#include "io/mesh/gmsh/msh_groups.h"
+#include "io/mesh/gmsh/msh_common.h"
 #include "io/mesh/gmsh/node_classes.h"
 #include "io/mesh/grouped/group_names.h"
 #include "io/mesh/grouped/label_numbers.h"

@@ -5,7 +5,7 @@
 
 #include "io/file/errors.h"
 #include "io/file/text_numbers.h"
-#include "io/mesh/gmsh/msh_elements.h"
+#include "io/mesh/gmsh/msh_common.h"
 
 namespace mw::io {
 namespace {

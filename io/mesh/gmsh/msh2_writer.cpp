@@ -4,8 +4,7 @@
 #include "io/file/errors.h"
 #include "io/file/sink/atomic_file.h"
 #include "io/mesh/gmsh/msh.h"
-#include "io/mesh/gmsh/msh_elements.h"
-#include "io/mesh/gmsh/msh_groups.h"
+#include "io/mesh/gmsh/msh_common.h"
 
 namespace mw::io {
 

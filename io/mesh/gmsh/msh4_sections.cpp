@@ -4,7 +4,7 @@
 #include "io/mesh/gmsh/msh_sections.h"
 
 #include "io/file/errors.h"
-#include "io/mesh/gmsh/msh_elements.h"
+#include "io/mesh/gmsh/msh_common.h"
 
 namespace mw::io {
 namespace {

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: The mwmesh authors
 // SPDX-License-Identifier: Apache-2.0
 // Reads the sections and numbers of a .msh file, from text or from bytes.
-#include "io/mesh/gmsh/msh_input.h"
+#include "io/mesh/gmsh/msh_sections.h"
 
 #include <array>
 #include <cmath>

@@ -7,8 +7,7 @@
 
 #include "io/file/scratch/external_sort.h"
 #include "io/file/sink/atomic_file.h"
-#include "io/mesh/gmsh/msh_elements.h"
-#include "io/mesh/gmsh/msh_groups.h"
+#include "io/mesh/gmsh/msh_common.h"
 
 namespace mw::io {
 namespace {

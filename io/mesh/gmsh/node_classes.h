@@ -4,7 +4,7 @@
 #pragma once
 
 #include "io/file/scratch/external_sort.h"
-#include "io/file/scratch/paged_array.h"
+#include "io/file/scratch/scratch_file.h"
 #include "io/mesh/grouped/grouped_mesh.h"
 
 namespace mw::io {

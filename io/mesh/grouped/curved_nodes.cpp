@@ -7,8 +7,7 @@
 #include <bit>
 #include <cmath>
 
-#include "io/mesh/grouped/straightened_tets.h"
-#include "kernels/curve/quadratic_triangle.h"
+#include "kernels/curve/quadratic.h"
 
 namespace mw::io {
 namespace {

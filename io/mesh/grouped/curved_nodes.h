@@ -1,11 +1,12 @@
 // SPDX-FileCopyrightText: The mwmesh authors
 // SPDX-License-Identifier: Apache-2.0
-// Curved interfaces: where the ten nodes of each tet lie.
+// Curved interfaces: where the ten nodes of each tet lie, and how far the tets at a node allow it
+// to move.
 #pragma once
 
 #include <limits>
 
-#include "io/file/scratch/paged_array.h"
+#include "io/file/scratch/scratch_file.h"
 #include "io/mesh/grouped/grouped_mesh.h"
 
 namespace mw::io {
@@ -52,5 +53,20 @@ struct CurveRule {
 inline constexpr double kLeastJacobian = 0.1;
 /// The share of the quality floor that the straight tets between the corners keep.
 inline constexpr double kCurvedFloor = 0.5;
+
+/// Where a node is to go from its place in the straight mesh.
+struct NodeMove {
+  Position move{};
+  bool has_own = false;       ///< the node is a middle that does not follow from its corners
+  std::uint8_t shorter = 0;   ///< how far it goes: 0 all the way, 1 half, 2 a quarter, 3 nowhere
+  bool is_held_back = false;  ///< it goes less far from the next round on
+  bool was_changed = false;   ///< `shorter` was changed in the last round
+};
+
+/// Returns the places of all nodes.  While the moves would spoil tets, which then break what
+/// curve_nodes() ensures, the node that goes farthest in each of these goes less far.
+[[nodiscard]] PagedArray<Position> straightened(GroupedMesh& mesh, PagedArray<NodeMove> moves,
+                                                const std::filesystem::path& folder,
+                                                bool has_straight_parts);
 
 }  // namespace mw::io

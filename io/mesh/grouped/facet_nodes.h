@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: The mwmesh authors
 // SPDX-License-Identifier: Apache-2.0
-// The nodes of facets, for formats that have sets of nodes.
+// Sets of nodes, for formats that have them: the nodes of facets, and the two ends at which the job
+// of a deck holds a mesh and pulls it.
 #pragma once
 
 #include "io/file/scratch/external_sort.h"
@@ -46,5 +47,30 @@ void for_each_named(const GroupedMesh& mesh, const PlainNames& names, Visit visi
                       is_interface && mesh.header().record.has_doubles});
   });
 }
+
+/// The sides z_min and z_max of the box, where the mesh reaches both; else what lies in the lowest
+/// and in the highest twentieth of the mesh along the box's z.
+class DeckEnds {
+ public:
+  /// Cost: a pass over the nodes.
+  explicit DeckEnds(GroupedMesh& mesh);
+
+  [[nodiscard]] bool are_sides() const { return are_sides_; }
+  /// REQUIRES (both): !are_sides().
+  [[nodiscard]] bool is_low(const Position& node) const { return along(node) <= low_; }
+  [[nodiscard]] bool is_high(const Position& node) const { return along(node) >= high_; }
+  /// How far the upper end is pulled: 1 % of the mesh's height along the box's z, in that
+  /// direction.
+  [[nodiscard]] const Position& shift() const { return shift_; }
+
+ private:
+  [[nodiscard]] double along(const Position& node) const;
+
+  Position direction_{};  ///< a unit vector
+  bool are_sides_ = false;
+  double low_ = 0;
+  double high_ = 0;
+  Position shift_{};
+};
 
 }  // namespace mw::io

@@ -1,15 +1,14 @@
 // SPDX-FileCopyrightText: The mwmesh authors
 // SPDX-License-Identifier: Apache-2.0
-// What groups of tets and facets are called in files that know names, and their numbers in other
-// files.
+// Names and numbers of groups, and the labels of masks.
 #include "io/mesh/grouped/group_names.h"
 
+#include <algorithm>
 #include <optional>
 #include <unordered_map>
 #include <unordered_set>
 
 #include "io/file/errors.h"
-#include "io/mesh/grouped/mask_groups.h"
 #include "io/mesh/grouped/plain_names.h"
 #include "io/names/csv_names.h"
 
@@ -106,6 +105,31 @@ void append_facet_table(AtomicFile& file, const GroupedMesh& mesh, const GroupNa
     file.append(text(run.number, ",", csv_quoted(run.name), ",", side_name(run.side), ",",
                      label(run.first), ",", label(run.second), "\n"));
   });
+}
+
+std::vector<MaskGroup> mask_groups(const GroupedMesh& mesh) {
+  std::vector<MaskGroup> out;
+  for (const MaskLabels& mask : mesh.header().record.masks) {
+    MaskGroup group{.name = mask.name, .ranks = {}};
+    for (const RawLabel label : mask.labels) {
+      if (mesh.table().contains(label)) group.ranks.push_back(mesh.table().dense(label));
+    }
+    std::sort(group.ranks.begin(), group.ranks.end());
+    if (!group.ranks.empty()) out.push_back(std::move(group));
+  }
+  return out;
+}
+
+std::vector<std::string> mask_arrays(const MeshHeader& header) {
+  std::set<std::string> taken(header.values.begin(), header.values.end());
+  std::vector<std::string> out;
+  for (const MaskLabels& mask : header.record.masks) {
+    std::string name = std::string(kMaskNames) + mask.name;
+    std::replace(name.begin(), name.end(), '/', '_');
+    while (!taken.insert(name).second) name += '_';
+    out.push_back(std::move(name));
+  }
+  return out;
 }
 
 }  // namespace mw::io

@@ -1,13 +1,14 @@
 // SPDX-FileCopyrightText: The mwmesh authors
 // SPDX-License-Identifier: Apache-2.0
-// What groups of tets and facets are called in files that know names, and their numbers in other
-// files.
+// Groups of tets and facets: what they are called in files that know names, their numbers in other
+// files, and those of the masks of a volume, of which a tet can be in several.
 #pragma once
 
 #include <functional>
 #include <limits>
 #include <set>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "io/file/sink/atomic_file.h"
@@ -90,5 +91,22 @@ void for_each_numbered(const GroupedMesh& mesh, const GroupNames& names, Visit v
 /// two are the labels of an interface and else empty.  The file is to be committed with the mesh
 /// (commit_together()).  ERRORS: see AtomicFile.
 void append_facet_table(AtomicFile& file, const GroupedMesh& mesh, const GroupNames& names);
+
+/// The beginning of what masks are called in files, since a label can have the name of a mask.
+inline constexpr std::string_view kMaskNames = "mask_";
+
+/// All tets of a mask.
+struct MaskGroup {
+  std::string name;
+  std::vector<Label> ranks;  ///< of its labels in the mesh's table, ascending; at least one
+};
+
+/// Returns the masks of header().record that have tets.
+[[nodiscard]] std::vector<MaskGroup> mask_groups(const GroupedMesh& mesh);
+
+/// Returns the names of arrays that tell which cells are in each of the header's masks.
+/// ENSURES: they are no paths ("mask_a/b" is "mask_a_b"), differ, and none is one of the header's
+/// values.
+[[nodiscard]] std::vector<std::string> mask_arrays(const MeshHeader& header);
 
 }  // namespace mw::io

@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "kernels/core/tet_facets.h"
+#include "kernels/core/tet_nodes.h"
 
 namespace mw::io {
 

@@ -14,14 +14,13 @@
 #include <span>
 #include <vector>
 
-#include "io/file/scratch/paged_array.h"
 #include "io/file/scratch/scratch_file.h"
 #include "io/labels/label_table.h"
 #include "io/mesh/element.h"
 #include "io/mesh/grouped/box_sides.h"
 #include "io/mesh/mesh_record.h"
 #include "io/mesh/mesh_sink.h"
-#include "kernels/core/ten_nodes.h"
+#include "kernels/core/tet_nodes.h"
 
 namespace mw::io {
 

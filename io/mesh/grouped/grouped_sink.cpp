@@ -8,7 +8,7 @@
 #include "io/file/errors.h"
 #include "io/mesh/tet_record.h"
 #include "kernels/core/assert.h"
-#include "kernels/core/tet_facets.h"
+#include "kernels/core/tet_nodes.h"
 #include "kernels/core/vector3.h"
 
 namespace mw::io {

@@ -4,7 +4,7 @@
 #pragma once
 
 #include "io/file/scratch/external_sort.h"
-#include "io/labels/label_set.h"
+#include "io/labels/label_table.h"
 #include "io/mesh/grouped/curved_nodes.h"
 #include "io/mesh/grouped/grouped_mesh.h"
 #include "io/mesh/merged_vertices.h"

@@ -11,7 +11,6 @@
 #include "io/file/source/inflated_source.h"
 #include "io/mesh/grouped/group_names.h"
 #include "io/mesh/grouped/grouped_mesh.h"
-#include "io/mesh/grouped/mask_groups.h"
 #include "io/names/colour_table.h"
 #include "io/names/csv_names.h"
 
@@ -114,7 +113,7 @@ void append_label_table(AtomicFile& file, const LabelTable& table, const MeshHea
     file.append(text(label_digits(table, rank), ",", numbers[rank], ",",
                      csv_quoted(header.names.name(label)), colour_text(header.names.find(label))));
     for (const MaskLabels& mask : masks) {
-      file.append(std::ranges::binary_search(mask.labels, label) ? ",1" : ",0");
+      file.append(mask.has(label) ? ",1" : ",0");
     }
     file.append(std::string_view("\n"));
   }

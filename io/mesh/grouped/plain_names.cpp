@@ -8,7 +8,6 @@
 #include "io/file/errors.h"
 #include "io/file/scratch/external_sort.h"
 #include "io/mesh/grouped/group_names.h"
-#include "io/mesh/grouped/mask_groups.h"
 #include "kernels/core/mix_bits.h"
 
 namespace mw::io {

@@ -1,12 +1,11 @@
 // SPDX-FileCopyrightText: The mwmesh authors
 // SPDX-License-Identifier: Apache-2.0
 // Shortens moves in rounds over all tets, until none is spoilt.
-#include "io/mesh/grouped/straightened_tets.h"
+#include "io/mesh/grouped/curved_nodes.h"
 
 #include <algorithm>
 
-#include "io/mesh/grouped/curved_nodes.h"
-#include "kernels/curve/quadratic_tet.h"
+#include "kernels/curve/quadratic.h"
 #include "kernels/quality/halved_tet.h"
 #include "kernels/quality/quality.h"
 

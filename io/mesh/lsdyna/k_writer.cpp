@@ -6,7 +6,6 @@
 #include "io/file/errors.h"
 #include "io/mesh/grouped/fixed_fields.h"
 #include "io/mesh/grouped/group_names.h"
-#include "io/mesh/grouped/mask_groups.h"
 
 namespace mw::io {
 namespace {

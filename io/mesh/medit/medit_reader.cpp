@@ -1,7 +1,6 @@
 // SPDX-FileCopyrightText: The mwmesh authors
 // SPDX-License-Identifier: Apache-2.0
 // Reads an ASCII MEDIT .mesh file.
-
 #include <algorithm>
 #include <cmath>
 #include <functional>
@@ -10,7 +9,7 @@
 #include <vector>
 
 #include "io/file/errors.h"
-#include "io/file/source/byte_cursor.h"
+#include "io/file/source/byte_source.h"
 #include "io/file/text_numbers.h"
 #include "io/mesh/medit/medit.h"
 #include "io/mesh/mesh_record.h"

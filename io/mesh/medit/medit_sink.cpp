@@ -7,7 +7,6 @@
 #include "io/file/text_numbers.h"
 #include "io/labels/label_table.h"
 #include "io/mesh/mesh_sink.h"
-#include "io/mesh/number_line.h"
 #include "io/names/colour_table.h"
 #include "kernels/core/assert.h"
 

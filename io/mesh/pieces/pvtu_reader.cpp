@@ -11,7 +11,6 @@
 #include "io/file/source/inflated_source.h"
 #include "io/mesh/field_names.h"
 #include "io/mesh/vtu/vtu.h"
-#include "io/mesh/vtu/vtu_layout.h"
 #include "io/vtk_xml/vtk_document.h"
 
 namespace mw::io {

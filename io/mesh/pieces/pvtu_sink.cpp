@@ -1,16 +1,15 @@
 // SPDX-FileCopyrightText: The mwmesh authors
 // SPDX-License-Identifier: Apache-2.0
-
 #include <algorithm>
 #include <cstdio>
 
 #include "io/file/byte_order.h"
 #include "io/file/errors.h"
-#include "io/mesh/grouped/mask_groups.h"
+#include "io/file/text_numbers.h"
+#include "io/mesh/grouped/group_names.h"
 #include "io/mesh/mesh_sink.h"
 #include "io/mesh/pieces/pvtu.h"
-#include "io/mesh/vtu/vtu_layout.h"
-#include "io/mesh/xml_text.h"
+#include "io/mesh/vtu/vtu.h"
 #include "kernels/core/sort_distinct.h"
 
 namespace mw::io {
@@ -96,7 +95,7 @@ void PvtuSink::write_piece(std::uint64_t number, std::span<const std::uint64_t> 
   for (const MaskLabels& mask : header.record.masks) {
     append_little(file, layout.mask_length);
     for (const std::uint64_t t : tets) {
-      const bool is_in = std::ranges::binary_search(mask.labels, whole.labels[t]);
+      const bool is_in = mask.has(whole.labels[t]);
       append_little(file, static_cast<std::uint8_t>(is_in ? 1 : 0));
     }
   }

@@ -12,7 +12,7 @@
 #include "io/mesh/apart_mesh.h"
 #include "io/mesh/element.h"
 #include "io/mesh/field_names.h"
-#include "io/mesh/tet_parts.h"
+#include "io/mesh/kept_rows.h"
 #include "io/mesh/vtkhdf/hdf5_array.h"
 
 namespace mw::io {

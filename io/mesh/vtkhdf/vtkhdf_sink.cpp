@@ -1,9 +1,8 @@
 // SPDX-FileCopyrightText: The mwmesh authors
 // SPDX-License-Identifier: Apache-2.0
 // Streams a mesh into a .vtkhdf file, from one process or from several that write it together.
-
 #include "io/file/errors.h"
-#include "io/mesh/grouped/mask_groups.h"
+#include "io/mesh/grouped/group_names.h"
 #include "io/mesh/mesh_sink.h"
 #include "io/mesh/vtkhdf/vtkhdf.h"
 

@@ -10,8 +10,6 @@
 #include "io/mesh/element.h"
 #include "io/mesh/field_names.h"
 #include "io/mesh/kept_rows.h"
-#include "io/mesh/tet_parts.h"
-#include "io/mesh/vtu/vtu_layout.h"
 #include "io/vtk_xml/vtk_document.h"
 
 namespace mw::io {

@@ -3,14 +3,12 @@
 // Writes a mesh as XDMF over HDF5, with tags as dolfinx reads them.
 #include "io/mesh/xdmf/xdmf_writer.h"
 
-#include <algorithm>
-
 #include "io/file/errors.h"
 #include "io/file/sink/atomic_file.h"
+#include "io/file/text_numbers.h"
+#include "io/mesh/grouped/group_names.h"
 #include "io/mesh/grouped/grouped_mesh.h"
-#include "io/mesh/grouped/mask_groups.h"
 #include "io/mesh/vtkhdf/hdf5_output.h"
-#include "io/mesh/xml_text.h"
 
 namespace mw::io {
 namespace {
@@ -258,7 +256,7 @@ Hdf5DataSet XdmfWriter::mask_cells(const GroupedMesh& mesh, const MaskLabels& ma
                                    const std::string& name) {
   auto column = column_of<std::uint8_t>(numbers_, mesh.tet_count());
   for (Label rank = 0; rank < mesh.table().size(); ++rank) {
-    const bool is_in = std::ranges::binary_search(mask.labels, mesh.table().raw(rank));
+    const bool is_in = mask.has(mesh.table().raw(rank));
     for (std::uint64_t i = 0; i < mesh.label_tets()[rank].size(); ++i) column.add(is_in ? 1 : 0);
   }
   return finish_column(column, name, Hdf5Kind::kUint8, {mesh.tet_count()});

@@ -5,12 +5,24 @@
 
 #include <cstdint>
 #include <string>
+#include <vector>
 
 #include "io/surface/precomputed/draco_segments.h"
-#include "io/surface/precomputed/triangle_surface.h"
 #include "io/surface/surface_sink.h"
 
 namespace mw::io {
+
+struct TriangleSurface {
+  std::vector<Position> vertices;
+  std::vector<Triangle> triangles;
+};
+
+/// Lengths of the edges of all triangles; 0 where there are none.
+struct EdgeLengths {
+  double mean = 0;
+  double longest = 0;
+};
+[[nodiscard]] EdgeLengths edge_lengths(const TriangleSurface& surface);
 
 /// Writes levels of detail on an octree.  The first is the surface itself; each later one has its
 /// topology, keeps its volume as far as SurfaceDecimator does, may be twice as far from it as the

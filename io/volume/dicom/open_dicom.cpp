@@ -13,10 +13,8 @@
 #include <vector>
 
 #include "io/file/errors.h"
-#include "io/volume/dicom/dicom_segments.h"
-#include "io/volume/dicom/slice_grid.h"
-#include "io/volume/file_space.h"
-#include "io/volume/masks/mask_merger.h"
+#include "io/volume/checks.h"
+#include "io/volume/masks/open_masks.h"
 #include "io/volume/raw_array.h"
 #include "kernels/core/assert.h"
 #include "kernels/core/vector3.h"

@@ -16,9 +16,9 @@
 #include "io/file/scratch/scratch_file.h"
 #include "io/file/source/file_source.h"
 #include "io/file/wall/apart.h"
-#include "io/names/cielab.h"
-#include "io/volume/dicom/dicom_segments.h"
+#include "io/names/label_names.h"
 #include "io/volume/dicom/frame_unpacker.h"
+#include "io/volume/dicom/open_dicom.h"
 
 namespace mw::io {
 namespace {

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: The mwmesh authors
 // SPDX-License-Identifier: Apache-2.0
 // Finds the step at which frames follow each other.
-#include "io/volume/dicom/slice_grid.h"
+#include "io/volume/dicom/open_dicom.h"
 
 #include <algorithm>
 #include <cmath>

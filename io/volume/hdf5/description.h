@@ -13,7 +13,7 @@
 
 #include "io/file/byte_order.h"
 #include "io/file/source/byte_source.h"
-#include "io/volume/file_space.h"
+#include "io/volume/checks.h"
 #include "io/volume/label_volume.h"
 
 namespace mw::io {

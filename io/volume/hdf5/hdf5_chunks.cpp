@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: The mwmesh authors
 // SPDX-License-Identifier: Apache-2.0
 // Reads chunks of an HDF5 data set, and undoes what its filters did to them.
-#include "io/volume/hdf5/hdf5_chunks.h"
+#include "io/volume/hdf5/open_hdf5.h"
 
 #include <algorithm>
 #include <array>

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: The mwmesh authors
 // SPDX-License-Identifier: Apache-2.0
 // Puts masks over each other: each voxel has the number of the set of masks that it is in.
-#include "io/volume/masks/mask_merger.h"
+#include "io/volume/masks/open_masks.h"
 
 #include <algorithm>
 #include <limits>

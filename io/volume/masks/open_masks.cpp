@@ -8,10 +8,8 @@
 #include <optional>
 
 #include "io/file/errors.h"
-#include "io/file/lower_case.h"
 #include "io/file/text_numbers.h"
 #include "io/remote/address.h"
-#include "io/volume/masks/mask_merger.h"
 #include "io/volume/open_volume.h"
 #include "io/volume/slices/slice_folder.h"
 

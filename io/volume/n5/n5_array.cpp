@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: The mwmesh authors
 // SPDX-License-Identifier: Apache-2.0
 // The array of an N5 container, and its blocks.
-#include "io/volume/n5/n5_array.h"
+#include "io/volume/n5/open_n5.h"
 
 #include <algorithm>
 

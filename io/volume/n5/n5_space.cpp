@@ -1,14 +1,13 @@
 // SPDX-FileCopyrightText: The mwmesh authors
 // SPDX-License-Identifier: Apache-2.0
 // Collects resolution, unit and offset from where programs put them.
-#include "io/volume/n5/n5_array.h"
+#include "io/volume/n5/open_n5.h"
 
 #include <algorithm>
 #include <optional>
 
 #include "io/file/errors.h"
 #include "io/volume/checks.h"
-#include "io/volume/file_space.h"
 
 namespace mw::io {
 namespace {

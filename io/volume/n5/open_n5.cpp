@@ -11,7 +11,6 @@
 #include "io/chunks/chunked_volume.h"
 #include "io/file/errors.h"
 #include "io/json/json.h"
-#include "io/volume/n5/n5_array.h"
 
 namespace mw::io {
 namespace {

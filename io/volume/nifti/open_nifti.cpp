@@ -12,9 +12,9 @@
 #include "io/file/text_numbers.h"
 #include "io/names/header_names.h"
 #include "io/volume/checks.h"
-#include "io/volume/masks/mask_merger.h"
+#include "io/volume/masks/open_masks.h"
+#include "io/volume/number_volume.h"
 #include "io/volume/raw_array.h"
-#include "io/volume/scores/number_stack.h"
 
 namespace mw::io {
 namespace {

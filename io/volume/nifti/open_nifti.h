@@ -11,8 +11,8 @@
 #include "io/file/byte_order.h"
 #include "io/file/source/byte_source.h"
 #include "io/names/label_names.h"
+#include "io/volume/checks.h"
 #include "io/volume/decode.h"
-#include "io/volume/file_space.h"
 #include "io/volume/open_options.h"
 
 namespace mw::io {
@@ -51,7 +51,7 @@ struct NiftiHeader {
 /// ERRORS: mw::Error(kInput) when the file cannot be read.
 [[nodiscard]] LabelNames read_nifti_names(const ByteSource& source, const NiftiHeader& header);
 
-/// Several volumes in a file are masks (io/volume/masks/mask_merger.h), or numbers where
+/// Several volumes in a file are masks (io/volume/masks/open_masks.h), or numbers where
 /// options.values asks for them.  Bytes behind the voxels are ignored.
 /// ERRORS: mw::Error(kInput) naming file and field.
 [[nodiscard]] std::unique_ptr<LabelVolume> open_nifti(std::unique_ptr<ByteSource> source,

@@ -11,9 +11,8 @@
 #include "io/file/errors.h"
 #include "io/volume/checks.h"
 #include "io/volume/decode.h"
-#include "io/volume/file_space.h"
+#include "io/volume/number_volume.h"
 #include "io/volume/raw_array.h"
-#include "io/volume/scores/number_stack.h"
 
 namespace mw::io {
 namespace {

@@ -12,7 +12,7 @@
 #include <vector>
 
 #include "io/file/errors.h"
-#include "io/file/lower_case.h"
+#include "io/file/text_numbers.h"
 #include "io/volume/checks.h"
 
 namespace mw::io {

@@ -10,10 +10,9 @@
 #include "io/file/source/file_source.h"
 #include "io/file/source/inflated_source.h"
 #include "io/volume/checks.h"
-#include "io/volume/file_space.h"
-#include "io/volume/masks/mask_merger.h"
+#include "io/volume/masks/open_masks.h"
+#include "io/volume/number_volume.h"
 #include "io/volume/raw_array.h"
-#include "io/volume/scores/number_stack.h"
 
 namespace mw::io {
 namespace {

@@ -12,7 +12,7 @@
 #include "io/file/byte_order.h"
 #include "io/file/source/byte_source.h"
 #include "io/names/header_names.h"
-#include "io/volume/file_space.h"
+#include "io/volume/checks.h"
 #include "io/volume/open_options.h"
 
 namespace mw::io {

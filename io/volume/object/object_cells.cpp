@@ -8,7 +8,7 @@
 #include <mutex>
 
 #include "io/file/errors.h"
-#include "io/volume/reader_room.h"
+#include "io/volume/volume_readers.h"
 #include "kernels/core/assert.h"
 
 namespace mw::io {

@@ -8,8 +8,8 @@
 #include <string>
 #include <vector>
 
-#include "io/volume/at_once.h"
 #include "io/volume/label_volume.h"
+#include "io/volume/volume_readers.h"
 
 namespace mw::io {
 

@@ -17,7 +17,6 @@
 #include "io/file/source/file_source.h"
 #include "io/file/source/inflated_source.h"
 #include "io/volume/checks.h"
-#include "io/volume/file_space.h"
 
 namespace mw::io {
 namespace {

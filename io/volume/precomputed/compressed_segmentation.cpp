@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: The mwmesh authors
 // SPDX-License-Identifier: Apache-2.0
 // Unpacks compressed_segmentation, neuroglancer's encoding of labels, block by block.
-#include "io/volume/precomputed/compressed_segmentation.h"
+#include "io/volume/precomputed/open_precomputed.h"
 
 #include <bit>
 #include <cstring>

@@ -8,10 +8,9 @@
 
 #include "io/chunks/chunk.h"
 #include "io/file/errors.h"
-#include "io/file/lower_case.h"
+#include "io/file/text_numbers.h"
 #include "io/json/json_fields.h"
 #include "io/volume/checks.h"
-#include "io/volume/file_space.h"
 
 namespace mw::io {
 namespace {

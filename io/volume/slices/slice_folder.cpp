@@ -8,7 +8,6 @@
 #include <limits>
 
 #include "io/file/errors.h"
-#include "io/file/lower_case.h"
 #include "io/file/text_numbers.h"
 #include "io/volume/checks.h"
 #include "io/volume/png/open_png.h"

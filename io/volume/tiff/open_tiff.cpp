@@ -14,7 +14,6 @@
 #include "io/file/errors.h"
 #include "io/file/text_numbers.h"
 #include "io/volume/checks.h"
-#include "io/volume/file_space.h"
 #include "io/volume/raw_array.h"
 #include "io/volume/tiff/tiff_stack.h"
 

@@ -12,7 +12,7 @@
 #include <vector>
 
 #include "io/json/json.h"
-#include "io/volume/file_space.h"
+#include "io/volume/checks.h"
 #include "kernels/core/index.h"
 
 namespace mw::io {

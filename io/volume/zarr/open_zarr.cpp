@@ -10,8 +10,6 @@
 #include "io/volume/checks.h"
 #include "io/volume/zarr/multiscale.h"
 #include "io/volume/zarr/zarr_array.h"
-#include "io/volume/zarr/zarr_metadata.h"
-#include "io/volume/zarr/zarr_node.h"
 
 namespace mw::io {
 namespace {

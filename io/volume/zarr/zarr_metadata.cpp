@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: The mwmesh authors
 // SPDX-License-Identifier: Apache-2.0
 // The metadata of a Zarr array of version 2, and the fill value of both versions.
-#include "io/volume/zarr/zarr_metadata.h"
+#include "io/volume/zarr/zarr_array.h"
 
 #include <array>
 #include <bit>

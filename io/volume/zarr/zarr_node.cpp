@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: The mwmesh authors
 // SPDX-License-Identifier: Apache-2.0
 // Groups and arrays of a Zarr store.
-#include "io/volume/zarr/zarr_node.h"
+#include "io/volume/zarr/open_zarr.h"
 
 #include <algorithm>
 

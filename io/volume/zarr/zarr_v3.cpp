@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: The mwmesh authors
 // SPDX-License-Identifier: Apache-2.0
 // The metadata of a Zarr array of version 3.
-#include "io/volume/zarr/zarr_metadata.h"
+#include "io/volume/zarr/zarr_array.h"
 
 #include <algorithm>
 #include <array>

@@ -11,7 +11,6 @@
 #include <utility>
 #include <vector>
 
-#include "kernels/audit/distance/shapes.h"
 #include "kernels/audit/distance/trees.h"
 #include "kernels/audit/subject.h"
 

@@ -8,7 +8,6 @@
 #include <span>
 #include <vector>
 
-#include "kernels/audit/distance/shapes.h"
 #include "kernels/audit/distance/trees.h"
 #include "kernels/audit/mesh_stars.h"
 #include "kernels/audit/subject.h"

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: The mwmesh authors
 // SPDX-License-Identifier: Apache-2.0
 // Turns around an edge in order of angle, and ways across the sphere of directions at a vertex.
-#include "kernels/audit/regions/outer_turn.h"
+#include "kernels/audit/regions/region_sets.h"
 
 #include <algorithm>
 #include <cmath>

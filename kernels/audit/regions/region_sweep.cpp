@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <utility>
 
-#include "kernels/audit/regions/outer_turn.h"
 #include "kernels/audit/regions/region_sets.h"
 #include "kernels/core/sort_distinct.h"
 

@@ -7,7 +7,7 @@
 #include <cmath>
 #include <limits>
 
-#include "kernels/core/ten_nodes.h"
+#include "kernels/core/tet_nodes.h"
 #include "kernels/core/vector3.h"
 
 namespace mw::audit {

@@ -8,7 +8,7 @@
 
 namespace mw::audit {
 
-/// The corners of a tet, then the middles of kTetEdges (kernels/core/ten_nodes.h).
+/// The corners of a tet, then the middles of kTetEdges (kernels/core/tet_nodes.h).
 using TenNodes = std::array<Position, 10>;
 
 /// Returns a lower bound of the least Bernstein coefficient of the Jacobian over six times the

@@ -11,7 +11,6 @@
 #include "kernels/core/error.h"
 #include "kernels/core/index.h"
 #include "kernels/core/lattice.h"
-#include "kernels/core/layers.h"
 #include "kernels/core/vector3.h"
 
 namespace mw::audit {

@@ -8,8 +8,8 @@
 #include <span>
 #include <vector>
 
-#include "kernels/audit/topology/distinct_list.h"
 #include "kernels/audit/topology/junctions.h"
+#include "kernels/audit/topology/part_graph.h"
 #include "kernels/core/disjoint_sets.h"
 
 namespace mw::audit {

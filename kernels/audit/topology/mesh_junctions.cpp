@@ -1,7 +1,6 @@
 // SPDX-FileCopyrightText: The mwmesh authors
 // SPDX-License-Identifier: Apache-2.0
 // Junctions of a mesh: every vertex, edge and triangle with all labels around it.
-
 #include "kernels/audit/topology/junction_counter.h"
 #include "kernels/audit/topology/mesh_parts.h"
 #include "kernels/core/sort_distinct.h"

@@ -4,7 +4,7 @@
 #pragma once
 
 #include "kernels/audit/mesh_stars.h"
-#include "kernels/audit/topology/parts.h"
+#include "kernels/audit/topology/part_graph.h"
 
 namespace mw::audit {
 

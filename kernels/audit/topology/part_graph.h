@@ -1,21 +1,80 @@
 // SPDX-FileCopyrightText: The mwmesh authors
 // SPDX-License-Identifier: Apache-2.0
-// The face-connected parts of all labels, which of them touch, and Betti numbers from that.
+// The face-connected parts of all labels, numbered so that those of a class follow each other,
+// which of them touch, and Betti numbers from that.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <cstdint>
 #include <map>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "kernels/audit/topology/betti.h"
-#include "kernels/audit/topology/distinct_list.h"
 #include "kernels/audit/topology/junctions.h"
+#include "kernels/core/disjoint_sets.h"
 #include "kernels/core/label.h"
+#include "kernels/core/sort_distinct.h"
 
 namespace mw::audit {
+
+/// The parts (sets) of all members, numbered by class and then by first member.
+struct Parts {
+  std::vector<std::uint32_t> of_member;
+  std::vector<Label> part_class;  ///< ascending
+};
+
+/// Numbers the sets.  class_of(root) < class_count is asked once or twice for every root.
+template <class ClassOf>
+Parts number_parts(DisjointSets&& sets, std::size_t class_count, ClassOf&& class_of) {
+  Parts parts{sets.take_parents(), {}};
+  std::vector<std::uint32_t> next(class_count + 1, 0);
+  const std::size_t count = parts.of_member.size();
+  for (std::size_t i = 0; i < count; ++i) {
+    if (parts.of_member[i] == i) ++next[class_of(i) + 1];
+  }
+  for (std::size_t c = 0; c < class_count; ++c) {
+    parts.part_class.insert(parts.part_class.end(), next[c + 1], static_cast<Label>(c));
+    next[c + 1] += next[c];
+  }
+  // Parents are smaller, hence already replaced by their number when a member is reached.
+  for (std::size_t i = 0; i < count; ++i) {
+    const std::uint32_t parent = parts.of_member[i];
+    parts.of_member[i] = parent == i ? next[class_of(i)]++ : parts.of_member[parent];
+  }
+  return parts;
+}
+
+/// A list that is given the same values again and again.  Memory: at most twice the distinct ones,
+/// or `first_limit` if that is more.
+template <class T>
+class DistinctList {
+ public:
+  explicit DistinctList(std::size_t first_limit) : first_limit_(first_limit) {}
+
+  void add(const T& value) {
+    if (values_.size() == limit_) compact();
+    values_.push_back(value);
+  }
+  /// Returns the distinct values, ascending; the list is empty afterwards.
+  [[nodiscard]] std::vector<T> take() {
+    compact();
+    return std::exchange(values_, {});
+  }
+
+ private:
+  void compact() {
+    sort_distinct(values_);
+    limit_ = std::max(first_limit_, 2 * values_.size());
+  }
+
+  std::vector<T> values_;
+  std::size_t first_limit_;
+  std::size_t limit_ = first_limit_;
+};
 
 /// Two different parts that touch, smaller first.
 struct PartPair {

@@ -6,7 +6,7 @@
 #include <limits>
 #include <utility>
 
-#include "kernels/audit/topology/parts.h"
+#include "kernels/audit/topology/part_graph.h"
 #include "kernels/core/error.h"
 
 namespace mw::audit {

@@ -7,7 +7,7 @@
 #include <limits>
 #include <string>
 
-#include "kernels/audit/topology/parts.h"
+#include "kernels/audit/topology/part_graph.h"
 #include "kernels/core/error.h"
 
 namespace mw::audit {

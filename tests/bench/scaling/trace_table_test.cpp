@@ -5,7 +5,7 @@
 #include "bench/scaling/layouts.h"
 #include "bench/scaling/run_flow.h"
 #include "bench/scaling/sleeping_run.h"
-#include "engine/store/block_route.h"
+#include "engine/store/run_layout.h"
 #include "kernels/core/error.h"
 #include "tests/testing.h"
 

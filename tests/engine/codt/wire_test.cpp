@@ -3,7 +3,6 @@
 // Bulk data there and back; counts that do not fit are seen.
 #include <unistd.h>
 
-#include "engine/codt/shared_memory.h"
 #include "engine/codt/wire.h"
 #include "kernels/core/error.h"
 #include "tests/testing.h"

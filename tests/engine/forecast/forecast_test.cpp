@@ -1,8 +1,7 @@
 // SPDX-FileCopyrightText: The mwmesh authors
 // SPDX-License-Identifier: Apache-2.0
 // What windows cost: faces against brute force, and sums over windows.
-#include "engine/forecast/run_work.h"
-#include "engine/forecast/time_left.h"
+#include "engine/forecast/run_forecast.h"
 #include "kernels/core/index.h"
 #include "tests/testing.h"
 

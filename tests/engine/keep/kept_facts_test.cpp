@@ -5,8 +5,8 @@
 
 #include <fstream>
 
-#include "engine/keep/drop_order.h"
-#include "engine/store/block_route.h"
+#include "engine/keep/window_records.h"
+#include "engine/store/run_layout.h"
 #include "tests/engine/store/layouts.h"
 #include "tests/engine/store/work_folder.h"
 #include "tests/oracle/small_volumes.h"

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: The mwmesh authors
 // SPDX-License-Identifier: Apache-2.0
 #include "engine/keep/required_visits.h"
-#include "engine/store/block_route.h"
+#include "engine/store/run_layout.h"
 #include "tests/engine/store/layouts.h"
 #include "tests/oracle/small_volumes.h"
 

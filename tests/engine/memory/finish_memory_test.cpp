@@ -4,7 +4,7 @@
 // no less than what it allocates, all figures of a report included.
 #include "engine/team/output/part_rows.h"
 #include "engine/window/window_memory.h"
-#include "io/mesh/no_sink.h"
+#include "io/mesh/mesh_sink.h"
 #include "tests/engine/memory/counted_memory.h"
 #include "tests/engine/output/marched_blocks.h"
 #include "tests/engine/output/scattered.h"

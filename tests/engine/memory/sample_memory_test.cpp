@@ -6,7 +6,7 @@
 #include <numeric>
 
 #include "engine/window/window_memory.h"
-#include "io/mesh/no_sink.h"
+#include "io/mesh/mesh_sink.h"
 #include "tests/engine/memory/counted_memory.h"
 #include "tests/engine/output/marched_blocks.h"
 

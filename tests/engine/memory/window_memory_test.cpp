@@ -7,7 +7,7 @@
 
 #include "engine/march/window_order.h"
 #include "engine/store/run_store.h"
-#include "engine/system/tbb_for.h"
+#include "engine/system/crew.h"
 #include "engine/window/window_visitor.h"
 #include "tests/engine/memory/counted_memory.h"
 #include "tests/engine/memory_run.h"

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Rows of shared vertices: right for any reach, remembered no longer than needed.
 #include "engine/output/vertex_rows.h"
-#include "engine/output/block_figures.h"
+#include "engine/output/written_block.h"
 #include "tests/engine/output/scattered.h"
 
 namespace mw::engine {

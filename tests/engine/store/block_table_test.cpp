@@ -3,7 +3,7 @@
 // What leaves memory first, and what of the file may be used again when.
 #include "engine/store/table/block_table.h"
 #include "engine/store/codec/block_codec.h"
-#include "engine/store/table/extent_allocator.h"
+#include "engine/store/table/segment_file.h"
 #include "kernels/core/error.h"
 #include "tests/engine/store/fake_run.h"
 #include "tests/engine/store/random_blocks.h"

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: The mwmesh authors
 // SPDX-License-Identifier: Apache-2.0
 // A log that is cut anywhere holds the records before the cut.
-#include "engine/store/journal/record_log.h"
+#include "engine/store/journal/journal.h"
 
 #include <gtest/gtest.h>
 

@@ -1,8 +1,7 @@
 // SPDX-FileCopyrightText: The mwmesh authors
 // SPDX-License-Identifier: Apache-2.0
 #include "engine/team/blocks/partition.h"
-#include "engine/team/blocks/incoming_rooms.h"
-#include "engine/team/output/line_share.h"
+#include "engine/team/blocks/block_traffic.h"
 #include "tests/engine/march/grids.h"
 #include "tests/engine/store/fake_run.h"
 #include "tests/oracle/small_volumes.h"

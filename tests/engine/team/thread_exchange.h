@@ -7,7 +7,7 @@
 #include <memory>
 #include <vector>
 
-#include "engine/team/exchange.h"
+#include "engine/team/team.h"
 
 namespace mw::engine {
 

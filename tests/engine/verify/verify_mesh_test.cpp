@@ -5,7 +5,7 @@
 
 #include <regex>
 
-#include "kernels/core/layers.h"
+#include "kernels/core/lattice.h"
 #include "tests/engine/memory_run.h"
 #include "tests/oracle/whole_audit.h"
 #include "tests/temp_folder.h"

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Sec 4.1: blocks tile the volume, windows cover them, and predecessors order all that touch.
 #include "engine/window/window_grid.h"
-#include "engine/window/inner_quality.h"
+#include "engine/window/window_visitor.h"
 #include "tests/engine/march/grids.h"
 
 namespace mw::engine {

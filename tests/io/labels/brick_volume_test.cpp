@@ -2,10 +2,10 @@
 // SPDX-License-Identifier: Apache-2.0
 // Labels in bricks against a plain array.
 #include "io/labels/brick_volume.h"
-#include "io/labels/layered_volume.h"
+#include "io/labels/repeated_volume.h"
 #include "kernels/core/index.h"
 #include "kernels/core/label.h"
-#include "kernels/core/layers.h"
+#include "kernels/core/lattice.h"
 #include "tests/io/labels/memory_volume.h"
 #include "tests/oracle/small_volumes.h"
 

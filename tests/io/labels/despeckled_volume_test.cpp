@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: The mwmesh authors
 // SPDX-License-Identifier: Apache-2.0
 // Specks against a literal reading of the rule: components by flooding, round by round.
-#include "io/labels/despeckled_volume.h"
+#include "io/labels/specks.h"
 
 #include "tests/io/labels/memory_volume.h"
 #include "tests/io/test_files.h"

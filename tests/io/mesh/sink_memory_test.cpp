@@ -2,8 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // Promise 6 for the sinks: memory does not grow with the mesh.
 #include "io/mesh/digest.h"
+#include "io/mesh/mesh_sink.h"
 #include "io/mesh/open_mesh.h"
-#include "io/mesh/tee_sink.h"
 #include "tests/io/test_files.h"
 #include "tests/peak_growth.h"
 #include "tests/sanitizers.h"

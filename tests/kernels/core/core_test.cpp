@@ -4,7 +4,6 @@
 #include "kernels/core/label.h"
 #include "kernels/core/lanes.h"
 #include "kernels/core/lattice.h"
-#include "kernels/core/layers.h"
 #include "kernels/core/metric.h"
 #include "tests/testing.h"
 

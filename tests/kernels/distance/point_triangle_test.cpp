@@ -4,7 +4,6 @@
 #include <Eigen/Geometry>
 
 #include "kernels/distance/interface_fan.h"
-#include "kernels/distance/near_triangle.h"
 #include "kernels/distance/point_triangle.h"
 #include "tests/kernels/distance/random_points.h"
 #include "tests/kernels/mesh/dense_mesh.h"

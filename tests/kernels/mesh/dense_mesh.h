@@ -4,7 +4,7 @@
 #pragma once
 
 #include "kernels/mesh/tet_mesh.h"
-#include "kernels/quality/mesh_quality.h"
+#include "kernels/quality/quality.h"
 #include "kernels/start/graded_start.h"
 #include "tests/kernels/start/cells/level_maps.h"
 #include "tests/oracle/cell_complex.h"

@@ -3,7 +3,7 @@
 // Good triangulations replace, and every kind of wrong one is refused where it is wrong.
 #include "kernels/odt/replacement.h"
 
-#include "kernels/quality/mesh_quality.h"
+#include "kernels/quality/quality.h"
 #include "tests/kernels/odt/window_meshes.h"
 
 namespace mw::test {

@@ -4,7 +4,7 @@
 #include "kernels/optimise/flips.h"
 
 #include "kernels/optimise/optimise.h"
-#include "kernels/quality/mesh_quality.h"
+#include "kernels/quality/quality.h"
 #include "kernels/simplify/simplify.h"
 #include "tests/kernels/mesh/dense_mesh.h"
 

@@ -8,7 +8,7 @@
 
 #include "kernels/optimise/smooth.h"
 #include "kernels/optimise/unfold.h"
-#include "kernels/quality/mesh_quality.h"
+#include "kernels/quality/quality.h"
 #include "kernels/simplify/simplify.h"
 #include "tests/kernels/mesh/dense_mesh.h"
 #include "tests/kernels/optimise/short_cost.h"

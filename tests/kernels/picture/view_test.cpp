@@ -4,7 +4,6 @@
 #include <Eigen/Geometry>
 #include <numbers>
 
-#include "kernels/picture/cut.h"
 #include "kernels/picture/view.h"
 #include "tests/testing.h"
 

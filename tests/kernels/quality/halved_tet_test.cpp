@@ -4,7 +4,7 @@
 #include "kernels/quality/halved_tet.h"
 
 #include "kernels/core/lattice.h"
-#include "kernels/core/ten_nodes.h"
+#include "kernels/core/tet_nodes.h"
 #include "kernels/quality/quality.h"
 #include "tests/testing.h"
 

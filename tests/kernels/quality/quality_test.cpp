@@ -2,8 +2,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Radius ratio and Eq (3) against other formulas for the same, and known tets.
 #include "kernels/quality/quality.h"
-#include "kernels/quality/mesh_quality.h"
-#include "kernels/quality/ratio_lanes.h"
 #include "kernels/quality/star_batch.h"
 #include "tests/kernels/mesh/dense_mesh.h"
 

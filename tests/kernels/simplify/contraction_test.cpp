@@ -3,8 +3,8 @@
 // Sec 5.3.3: survivor, position and cost of planned contractions, and what their shape filter says.
 #include "kernels/simplify/contraction.h"
 
-#include "kernels/quality/mesh_quality.h"
-#include "kernels/simplify/shape_filter.h"
+#include "kernels/quality/quality.h"
+#include "kernels/simplify/contraction_filters.h"
 #include "kernels/topology/link_condition.h"
 #include "tests/kernels/mesh/dense_mesh.h"
 

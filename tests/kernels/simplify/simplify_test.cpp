@@ -3,8 +3,8 @@
 // simplify() on windows cut out of larger volumes: what it must leave alone and what it must keep.
 #include <thread>
 
-#include "kernels/quality/mesh_quality.h"
-#include "kernels/simplify/bend_filter.h"
+#include "kernels/quality/quality.h"
+#include "kernels/simplify/contraction_filters.h"
 #include "kernels/simplify/simplify.h"
 #include "kernels/topology/link_condition.h"
 #include "tests/kernels/mesh/dense_mesh.h"

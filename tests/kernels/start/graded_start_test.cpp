@@ -4,7 +4,7 @@
 #include "kernels/start/graded_start.h"
 
 #include "kernels/distance/point_triangle.h"
-#include "kernels/quality/mesh_quality.h"
+#include "kernels/quality/quality.h"
 #include "kernels/start/carrier_faces.h"
 #include "tests/kernels/start/cells/large_cells.h"
 #include "tests/kernels/start/coarsen/coarse_volume.h"

@@ -5,9 +5,8 @@
 
 #include "kernels/optimise/optimise.h"
 #include "kernels/simplify/simplify.h"
-#include "kernels/surface/bend.h"
+#include "kernels/surface/surface_energy.h"
 #include "kernels/surface/surface_star.h"
-#include "kernels/surface/volume_debts.h"
 #include "tests/kernels/surface/interface_triangles.h"
 #include "tests/oracle/small_volumes.h"
 

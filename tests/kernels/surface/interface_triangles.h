@@ -6,7 +6,7 @@
 #include <Eigen/Geometry>
 
 #include "kernels/distance/distance_guard.h"
-#include "kernels/surface/bend.h"
+#include "kernels/surface/surface_star.h"
 #include "tests/kernels/mesh/dense_mesh.h"
 
 namespace mw::test {

@@ -3,7 +3,7 @@
 // Rings around edges against a search over all tets, on whole and on partly loaded meshes.
 #include "kernels/topology/edge_ring.h"
 #include "kernels/optimise/flips.h"
-#include "kernels/quality/mesh_quality.h"
+#include "kernels/quality/quality.h"
 #include "kernels/simplify/simplify.h"
 #include "kernels/topology/link_condition.h"
 #include "tests/kernels/mesh/dense_mesh.h"

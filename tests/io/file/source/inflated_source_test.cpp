@@ -3,7 +3,7 @@
 // Gzip data are unpacked as far as they are asked for, and read by region.
 #include <thread>
 
-#include "io/file/source/byte_cursor.h"
+#include "io/file/source/byte_source.h"
 #include "io/file/source/file_source.h"
 #include "io/file/source/inflated_source.h"
 #include "tests/io/test_files.h"

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: The mwmesh authors
 // SPDX-License-Identifier: Apache-2.0
 // Gmsh files: what we write comes back, what others write is read, damage is refused.
-#include "io/mesh/gmsh/msh_groups.h"
+#include "io/mesh/gmsh/msh_common.h"
 #include "io/mesh/gmsh/node_classes.h"
 #include "io/mesh/grouped/grouped_sink.h"
 #include "tests/io/mesh/grid_mesh.h"

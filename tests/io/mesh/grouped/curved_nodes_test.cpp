@@ -8,7 +8,7 @@
 
 #include "io/mesh/grouped/grouped_sink.h"
 #include "io/mesh/open_mesh.h"
-#include "kernels/curve/quadratic_tet.h"
+#include "kernels/curve/quadratic.h"
 #include "tests/expect_error.h"
 #include "tests/io/mesh/grid_mesh.h"
 #include "tests/io/test_files.h"

@@ -11,7 +11,6 @@
 #include "io/surface/precomputed/draco_sink.h"
 #include "io/surface/precomputed/mesh_folder.h"
 #include "io/surface/precomputed/octree_cells.h"
-#include "io/surface/precomputed/triangle_surface.h"
 #include "io/volume/precomputed/sharding.h"
 #include "tests/io/surface/collected_surface.h"
 #include "tests/oracle/small_volumes.h"

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: The mwmesh authors
 // SPDX-License-Identifier: Apache-2.0
 // Frames along z, some of which are a little off their slices.
-#include "io/volume/dicom/slice_grid.h"
+#include "io/volume/dicom/open_dicom.h"
 
 #include <gmock/gmock.h>
 

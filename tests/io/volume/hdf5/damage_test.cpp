@@ -3,7 +3,7 @@
 // Damaged and hostile HDF5 files: an error, never a crash, and no more memory than the data need.
 #include "io/file/source/file_source.h"
 #include "io/volume/hdf5/description.h"
-#include "io/volume/hdf5/hdf5_chunks.h"
+#include "io/volume/hdf5/open_hdf5.h"
 #include "io/volume/open_volume.h"
 #include "tests/io/volume/hdf5/hdf5_files.h"
 #include "tests/io/volume/volume_checks.h"

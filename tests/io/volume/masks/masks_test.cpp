@@ -9,7 +9,6 @@
 #include <random>
 #include <set>
 
-#include "io/volume/masks/mask_merger.h"
 #include "io/volume/open_volume.h"
 #include "tests/io/volume/sample_files.h"
 #include "tests/io/volume/volume_checks.h"

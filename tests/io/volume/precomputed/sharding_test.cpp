@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Numbers and hashes of chunks are those that others have published.
 #include "io/volume/precomputed/sharding.h"
-#include "io/volume/precomputed/compressed_segmentation.h"
+#include "io/volume/precomputed/open_precomputed.h"
 #include "tests/io/volume/precomputed/precomputed_sample.h"
 
 namespace mw::io {

@@ -10,7 +10,7 @@
 #include "kernels/audit/shape/volumes.h"
 #include "kernels/core/error.h"
 #include "kernels/core/index.h"
-#include "kernels/core/layers.h"
+#include "kernels/core/lattice.h"
 #include "tests/oracle/interface_bends.h"
 #include "tests/oracle/small_volumes.h"
 #include "tests/oracle/whole_audit.h"

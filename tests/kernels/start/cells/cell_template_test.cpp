@@ -4,8 +4,6 @@
 #include <bit>
 
 #include "kernels/core/lattice.h"
-#include "kernels/core/layers.h"
-#include "kernels/quality/mesh_quality.h"
 #include "kernels/quality/quality.h"
 #include "kernels/start/cells/cell_levels.h"
 #include "kernels/start/cells/cell_template.h"

@@ -6,7 +6,7 @@
 #include <algorithm>
 
 #include "kernels/core/index.h"
-#include "kernels/start/cells/level_map.h"
+#include "kernels/start/cells/cell_levels.h"
 
 namespace mw::test {
 

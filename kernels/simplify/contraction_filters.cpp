@@ -1,0 +1,203 @@
+// SPDX-FileCopyrightText: The mwmesh authors
+// SPDX-License-Identifier: Apache-2.0
+// Quality floor and Eq (3), then exact positivity, over the changed tets of a contraction; bend
+// energies before and after it.
+#include "kernels/simplify/contraction_filters.h"
+
+#include <algorithm>
+#include <cstdlib>
+
+#include "kernels/core/assert.h"
+#include "kernels/quality/quality.h"
+#include "kernels/surface/flat_plane.h"
+
+namespace mw {
+namespace {
+
+bool within_extent(Point a, Point b) {
+  return std::abs(std::int64_t{a.x} - b.x) < kMaxTetExtent / 2 &&
+         std::abs(std::int64_t{a.y} - b.y) < kMaxTetExtent / 2 &&
+         std::abs(std::int64_t{a.z} - b.z) < kMaxTetExtent / 2;
+}
+
+/// Judges in whole numbers, which is the verdict that counts.
+StarVerdict sign_at(const TetMesh& mesh, LocalVertex v, LocalVertex other, Point x) {
+  for (const LinkTriangle& t : mesh.star(v)) {
+    if (t.label == kExterior || t.has(other)) continue;
+    const Point a = mesh.position(t.a), b = mesh.position(t.b), c = mesh.position(t.c);
+    const bool positive = within_extent(x, a) && within_extent(x, b) && within_extent(x, c) &&
+                          volume6(x, a, b, c) > 0;
+    if (!positive) return StarVerdict::kInverted;
+  }
+  return StarVerdict::kGood;
+}
+
+/// Tests Eq (3), the paper's filter.
+StarVerdict variance_at(const TetMesh& mesh, const Metric& metric, LocalVertex v, LocalVertex other,
+                        Point x, double max) {
+  for (const LinkTriangle& t : mesh.star(v)) {
+    if (t.label == kExterior || t.has(other)) continue;
+    const TetEdges edges =
+        tet_edges(metric, x, mesh.position(t.a), mesh.position(t.b), mesh.position(t.c));
+    if (edge_length_variance(edges) >= max) return StarVerdict::kLowQuality;
+  }
+  return StarVerdict::kGood;
+}
+
+}  // namespace
+
+ShapeFilter::ShapeFilter(const TetMesh& mesh, const Metric& metric, const SimplifyOptions& options)
+    : mesh_(mesh), metric_(metric), options_(options), poor_(mesh.vertex_count(), 0) {
+  const double floor = options.quality_floor;
+  for (LocalVertex v = 0; v < mesh.vertex_count(); ++v) {
+    for (const LinkTriangle& t : mesh.star(v)) {
+      if (t.label == kExterior || v > t.a || v > t.b || v > t.c) continue;
+      const TetEdges edges = tet_edges(metric, mesh.position(v), mesh.position(t.a),
+                                       mesh.position(t.b), mesh.position(t.c));
+      if (!reaches_ratio(edges, floor)) poor_[v] = poor_[t.a] = poor_[t.b] = poor_[t.c] = 1;
+    }
+  }
+}
+
+double ShapeFilter::floor_for(const Contraction& c) const {
+  const bool moves_inner = mesh_.order(c.keep) == 1 || mesh_.order(c.drop) == 1;
+  return moves_inner ? std::max(options_.quality_floor, options_.inner_quality)
+                     : options_.quality_floor;
+}
+
+bool ShapeFilter::is_gathered(LocalVertex v) const {
+  const std::uint64_t now = mesh_.changes() + 1;
+  return std::any_of(gathered_.begin(), gathered_.end(),
+                     [&](const Gathered& g) { return g.vertex == v && g.at == now; });
+}
+
+/// Returns the star of v.  Keeps that of `other`, because candidates of a vertex share its star.
+StarBatch& ShapeFilter::star_of(LocalVertex v, LocalVertex other) {
+  const std::uint64_t now = mesh_.changes() + 1;
+  for (Gathered& g : gathered_) {
+    if (g.vertex == v && g.at == now) return g.star;
+  }
+  const bool first_is_other = gathered_[0].vertex == other && gathered_[0].at == now;
+  Gathered& g = gathered_[first_is_other ? 1 : 0];
+  g.vertex = v;
+  g.at = now;
+  g.star.collect(mesh_, metric_, v);
+  return g.star;
+}
+
+/// Judges in floating point, which rejects most inverted tets and all that are badly shaped.
+StarVerdict ShapeFilter::judge_shape(LocalVertex v, LocalVertex other, Point x, double floor) {
+  const Vec3 offset = metric_.vector(mesh_.position(v), x);
+  const StarVerdict verdict = star_of(v, other).judge_at(offset, other, floor);
+  if (verdict != StarVerdict::kGood || !options_.edge_variance) return verdict;
+  return variance_at(mesh_, metric_, v, other, x, *options_.edge_variance);
+}
+
+StarVerdict ShapeFilter::judge(const Contraction& c, double floor) {
+  const auto all = [&](auto judge_star) {
+    // A star that is gathered comes first, because a refusal there spares the other.
+    const bool keep_first = c.moves && is_gathered(c.keep);
+    const LocalVertex first = keep_first ? c.keep : c.drop, second = keep_first ? c.drop : c.keep;
+    const StarVerdict verdict = judge_star(first, second);
+    return verdict == StarVerdict::kGood && c.moves ? judge_star(second, first) : verdict;
+  };
+  const StarVerdict shape =
+      all([&](LocalVertex v, LocalVertex w) { return judge_shape(v, w, c.position, floor); });
+  if (shape != StarVerdict::kGood) return shape;
+  return all([&](LocalVertex v, LocalVertex w) { return sign_at(mesh_, v, w, c.position); });
+}
+
+StarVerdict ShapeFilter::judge(const Contraction& c) {
+  const double floor = floor_for(c);
+  const StarVerdict verdict = judge(c, floor);
+  const bool may_be_poor = poor_[c.keep] != 0 || poor_[c.drop] != 0;
+  if (verdict != StarVerdict::kLowQuality || !may_be_poor) return verdict;
+  const auto worst = [&](LocalVertex v, LocalVertex w) {
+    return star_of(v, w).shape_at(Vec3::Zero()).worst;
+  };
+  const double present = std::min(worst(c.drop, c.keep), worst(c.keep, c.drop));
+  if (present >= options_.quality_floor) return verdict;
+  const StarVerdict again = judge(c, present);
+  if (again == StarVerdict::kGood) mark_poor(c);
+  return again;
+}
+
+/// Marks all vertices of the tets that the contraction leaves, which may be below the floor.
+void ShapeFilter::mark_poor(const Contraction& c) {
+  for (LocalVertex v : {c.keep, c.drop}) {
+    for (const LinkTriangle& t : mesh_.star(v)) {
+      for (LocalVertex w : {t.a, t.b, t.c}) {
+        if (w != mesh_.infinity()) poor_[w] = 1;
+      }
+    }
+  }
+}
+
+namespace {
+
+/// A contraction must take out a fifth of the present bends, beside what is free
+/// (bench/parameters.md, "Constants").
+constexpr double kShareOfPresent = 0.8;
+/// A junction that leaves its place to absorb a vertex of lower order must take out two fifths, and
+/// nothing is free, because most junctions lie well (bench/parameters.md, "Constants").
+constexpr double kShareOfMoved = 0.6;
+/// The bend energy that other contractions may leave: between two labels, where surfaces are
+/// smooth, and where more meet (bench/parameters.md, "Constants").
+constexpr double kFreeBetweenTwo = 0.5;
+constexpr double kFreeElsewhere = 1.0;
+
+}  // namespace
+
+bool BendFilter::stays_smooth(const Contraction& c) {
+  Gathered &keep = star_of(c.keep, c.drop), &drop = star_of(c.drop, c.keep);
+  if (leaves_plane(c, keep.star.fan(), drop.star.fan())) return false;
+  merged_.merge(keep.star, metric_.vector(mesh_.position(c.keep), c.position), drop.star,
+                metric_.vector(mesh_.position(c.drop), c.position));
+  const bool two = mesh_.order(c.keep) == 2 && mesh_.order(c.drop) == 2;
+  const bool leaves = c.moves && mesh_.order(c.keep) != mesh_.order(c.drop);
+  const double free = leaves ? 0.0 : two ? kFreeBetweenTwo : kFreeElsewhere;
+  const double share = leaves ? kShareOfMoved : kShareOfPresent;
+  const double after = merged_.bends_at(Vec3::Zero());
+  if (after <= free) return true;
+  return after <= share * (present_bends(keep) + present_bends(drop)) + free;
+}
+
+/// True if the interface triangles at both ends lie in one plane across an axis and the survivor
+/// would not.  Shapes may keep it from ever coming back.
+bool BendFilter::leaves_plane(const Contraction& c, std::span<const FanTriangle> keep,
+                              std::span<const FanTriangle> drop) const {
+  if (keep.empty() || drop.empty()) return false;
+  for (unsigned axis = 0; axis < 3; ++axis) {
+    const FlatPlane plane{.axis = axis, .place = along(mesh_.position(c.keep), axis)};
+    if (along(c.position, axis) == plane.place) continue;
+    if (has_ring(plane, mesh_, keep) && has_ring(plane, mesh_, drop)) return true;
+  }
+  return false;
+}
+
+double BendFilter::present_bends(Gathered& g) {
+  if (!g.bends) g.bends = g.star.bends_at(Vec3::Zero());
+  return *g.bends;
+}
+
+std::span<const FanTriangle> BendFilter::fan(LocalVertex end) const {
+  const bool first = gathered_[0].is(end, mesh_.changes() + 1);
+  MW_ASSERT(first || gathered_[1].is(end, mesh_.changes() + 1));
+  return gathered_[first ? 0 : 1].star.fan();
+}
+
+/// Returns the star of v.  Keeps that of `other`, because candidates of a vertex share its star.
+BendFilter::Gathered& BendFilter::star_of(LocalVertex v, LocalVertex other) {
+  const std::uint64_t now = mesh_.changes() + 1;
+  for (Gathered& g : gathered_) {
+    if (g.is(v, now)) return g;
+  }
+  Gathered& g = gathered_[gathered_[0].is(other, now) ? 1 : 0];
+  g.at = now;
+  g.bends.reset();
+  g.star.collect(mesh_, metric_, v);
+  g.star.collect_rims(mesh_, metric_);
+  return g;
+}
+
+}  // namespace mw
