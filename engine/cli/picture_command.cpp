@@ -159,7 +159,7 @@ std::vector<bool> asked_labels(const io::LabelTable& table, const std::vector<Ra
   std::vector<bool> shown(table.size());
   for (const RawLabel label : labels) {
     if (!table.contains(label)) {
-      io::fail_usage("--labels: the mesh has no label " + format_label(label, table.is_signed()) +
+      io::fail_usage("--labels: the mesh has no label " + io::label_text(label, table.is_signed()) +
                      "; mwmesh info lists its labels");
     }
     shown[table.dense(label)] = true;

@@ -8,12 +8,12 @@
 #include "engine/labels/label_scan.h"
 #include "engine/labels/reading_tiles.h"
 #include "engine/march/march.h"
-#include "engine/report/figures.h"
 #include "engine/report/mesh_facts.h"
 #include "engine/settings/promises.h"
 #include "engine/verify/verify_mesh.h"
 #include "io/file/errors.h"
 #include "io/file/text_numbers.h"
+#include "io/labels/label_table.h"
 #include "io/mesh/merged_vertices.h"
 #include "io/volume/volume_readers.h"
 #include "kernels/core/lattice.h"
@@ -60,7 +60,7 @@ std::string list_of(const std::vector<RawLabel>& labels, bool is_signed) {
   constexpr std::size_t kMostNamed = 8;
   std::string out;
   for (std::size_t i = 0; i < std::min(labels.size(), kMostNamed); ++i) {
-    out += (i == 0 ? "" : ", ") + report::format_label(labels[i], is_signed);
+    out += (i == 0 ? "" : ", ") + io::label_text(labels[i], is_signed);
   }
   if (labels.size() <= kMostNamed) return out;
   return out + " and " + std::to_string(labels.size() - kMostNamed) + " more";

@@ -10,10 +10,6 @@
 
 namespace mw::report {
 
-std::string format_label(RawLabel label, bool is_signed) {
-  return is_signed ? std::to_string(static_cast<std::int64_t>(label)) : std::to_string(label);
-}
-
 std::string format_bytes(std::uint64_t bytes) {
   return format_fixed(static_cast<double>(bytes) / (1 << 20), 1) + " MiB";
 }
@@ -25,6 +21,10 @@ std::string format_fixed(double value, int digits) {
           .ptr;
   const std::string out(text.data(), end);
   return out.find_first_not_of("-0.") == out.npos && out.starts_with('-') ? out.substr(1) : out;
+}
+
+std::string format_percent(double share, int digits) {
+  return format_fixed(100 * share, digits) + " %";
 }
 
 std::string format_figure(double value) {

@@ -6,11 +6,8 @@
 #include <cstdint>
 #include <string>
 
-#include "kernels/core/label.h"
-
 namespace mw::report {
 
-[[nodiscard]] std::string format_label(RawLabel label, bool is_signed);
 /// Returns a size as "12.3 MiB".
 [[nodiscard]] std::string format_bytes(std::uint64_t bytes);
 /// Returns four significant digits, as audit::number() does.
@@ -20,5 +17,7 @@ namespace mw::report {
 [[nodiscard]] std::string format_volume(double volume, const std::string& unit);
 /// Returns the value with this many digits after the point; a result of zeros alone has no sign.
 [[nodiscard]] std::string format_fixed(double value, int digits);
+/// Returns a share as "12.3 %", with this many digits after the point.
+[[nodiscard]] std::string format_percent(double share, int digits);
 
 }  // namespace mw::report

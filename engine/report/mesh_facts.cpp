@@ -81,7 +81,7 @@ using io::Json;
 
 std::string label_text(RawLabel label, bool is_signed, const io::LabelNames& names) {
   const std::string& name = names.name(label);
-  return format_label(label, is_signed) + (name.empty() ? "" : " \"" + name + "\"");
+  return io::label_text(label, is_signed) + (name.empty() ? "" : " \"" + name + "\"");
 }
 
 audit::LabelText label_texts(const io::LabelTable& table, io::LabelNames names) {
@@ -103,14 +103,6 @@ void add_colour(Json& row, RawLabel label, const io::LabelNames& names) {
 }
 
 using io::Json;
-
-namespace {
-
-std::string percent(double share, int digits) {
-  return format_fixed(100 * share, digits) + " %";
-}
-
-}  // namespace
 
 Json volume_summary_json(const audit::VolumeSummary& volumes, const io::LabelTable& table) {
   Json out{{"volume_error_mean_abs", nullptr},
@@ -150,9 +142,9 @@ void print_volumes(const audit::VolumeReport& volumes, const io::LabelTable& tab
     std::cout << "no label of " << audit::kMinJudgedVoxels << " voxels or more\n";
     return;
   }
-  std::cout << "off by " << percent(s.error_max_abs, 2) << " at most (label "
+  std::cout << "off by " << format_percent(s.error_max_abs, 2) << " at most (label "
             << label_text(table.raw(s.worst->label), table.is_signed(), names) << "), "
-            << percent(s.error_mean_abs, 3) << " on average over " << s.labels_measured
+            << format_percent(s.error_mean_abs, 3) << " on average over " << s.labels_measured
             << " labels of " << audit::kMinJudgedVoxels << " voxels or more; "
             << (volumes.exact ? "exact" : "in floating point, vertices being off the lattice")
             << "\n";
@@ -162,9 +154,9 @@ void print_interfaces(const audit::ShapeReport& shape) {
   std::cout << "interfaces    area " << format_figure(shape.area) << "; edges bend by "
             << format_fixed(shape.bend_p50_deg, 1) << " degrees (median), "
             << format_fixed(shape.bend_p95_deg, 1) << " (95 %), "
-            << format_fixed(shape.bend_max_deg, 1) << " (most); " << percent(shape.sharp_share, 2)
-            << " of their length by more than " << engine::format_number(audit::kSharpDegrees)
-            << "\n";
+            << format_fixed(shape.bend_max_deg, 1) << " (most); "
+            << format_percent(shape.sharp_share, 2) << " of their length by more than "
+            << engine::format_number(audit::kSharpDegrees) << "\n";
 }
 
 using io::Json;

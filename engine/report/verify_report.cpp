@@ -27,7 +27,7 @@ std::vector<std::string> changed_labels(const Verdict& verdict) {
   const io::LabelTable& table = verdict.table;
   for (const Label label : verdict.audit.labels_changed) {
     out.push_back(label == kExterior ? "exterior"
-                                     : format_label(table.raw(label), table.is_signed()));
+                                     : io::label_text(table.raw(label), table.is_signed()));
   }
   return out;
 }

@@ -49,7 +49,7 @@ Fields label_titles(const MeshInfo& facts, Digits digits) {
 Fields label_fields(const MeshInfo& facts, Label rank, Digits digits) {
   const LabelStats& label = facts.mesh.labels[rank];
   const RawLabel raw = facts.table.raw(rank);
-  Fields row{format_label(raw, facts.table.is_signed()), facts.names.name(raw),
+  Fields row{io::label_text(raw, facts.table.is_signed()), facts.names.name(raw),
              number(digits, label.volume)};
   if (shows_millilitres(facts, digits)) row.push_back(number(digits, label.volume / 1000));
   if (facts.volume) {
@@ -110,7 +110,7 @@ TextTable contact_table(const MeshInfo& facts, Digits digits) {
   TextTable table{titles};
   for (const Contact& c : contacts_of(facts)) {
     const bool is_signed = facts.table.is_signed();
-    Fields row{format_label(c.first, is_signed), format_label(c.second, is_signed),
+    Fields row{io::label_text(c.first, is_signed), io::label_text(c.second, is_signed),
                std::to_string(c.triangles), number(digits, c.area)};
     if (c.voxel_area) row.push_back(number(digits, *c.voxel_area));
     table.push_back(row);

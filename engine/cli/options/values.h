@@ -34,7 +34,7 @@ using io::parse_element;
 using report::format_bytes;
 using report::format_figure;
 using report::format_fixed;
-using report::format_label;
+using report::format_percent;
 using report::format_volume;
 
 /// All of these take the whole text.  ERRORS: mw::Error(kUsage) saying what was expected.

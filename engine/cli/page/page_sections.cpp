@@ -16,10 +16,6 @@ namespace {
 
 using io::Json;
 
-std::string percent(double share, int digits) {
-  return format_fixed(100 * share, digits) + " %";
-}
-
 /// Returns a setting as its flag takes it.
 std::string flag_text(const Json& value) {
   if (value.is_string()) return value.text();
@@ -97,7 +93,7 @@ Verdict volume_verdict(const Json& report) {
     return unchecked("P8", kPromise, "no label is that large");
   }
   const double worst = shape["volume_error_max_abs"].number();
-  const std::string evidence = "off by " + percent(worst, 2) + " at most (label " +
+  const std::string evidence = "off by " + format_percent(worst, 2) + " at most (label " +
                                shape["volume_error_worst_label"].dump() + ")";
   const Json& why_not = report["certificate"]["volumes_not_promised"];
   if (!why_not.is_null()) {
@@ -175,7 +171,7 @@ std::vector<BarRow> stage_rows(const Json& stages) {
   for (const auto& [key, value] : stages.items()) {
     const double share = total > 0 ? value.number() / total : 0;
     // Keys end in "_s", which people need not read.
-    if (share > 0) out.push_back({key.substr(0, key.size() - 2), share, percent(share, 1)});
+    if (share > 0) out.push_back({key.substr(0, key.size() - 2), share, format_percent(share, 1)});
   }
   return out;
 }
@@ -239,17 +235,17 @@ std::string head_section(const Json& report) {
                     " voxels · " + with_commas(input["labels"].integer()) + " labels · mwmesh " +
                     escaped(report["version"].text()) + "</p>\n<div class=\"tiles\">\n";
   out += tile("vertices", with_commas(output["vertices"].integer()),
-              percent(output["vertex_fraction"].number(), 2) + " of the voxel corners");
+              format_percent(output["vertex_fraction"].number(), 2) + " of the voxel corners");
   const double slivers = quality["sliver_fraction"].number();
   out += tile("tets", with_commas(output["tets"].integer()),
-              slivers == 0 ? "no slivers" : percent(slivers, 3) + " slivers");
+              slivers == 0 ? "no slivers" : format_percent(slivers, 3) + " slivers");
   out += tile("radius ratio, least", format_fixed(quality["radius_ratio_min"].number(), 3),
               format_fixed(quality["radius_ratio_mean"].number(), 3) + " on average");
   const Json& error = shape["volume_error_max_abs"];
-  out +=
-      tile("volume error, at most", error.is_null() ? "–" : percent(error.number(), 2),
-           error.is_null() ? "no label of 1,000 voxels"
-                           : percent(shape["volume_error_mean_abs"].number(), 3) + " on average");
+  out += tile("volume error, at most", error.is_null() ? "–" : format_percent(error.number(), 2),
+              error.is_null()
+                  ? "no label of 1,000 voxels"
+                  : format_percent(shape["volume_error_mean_abs"].number(), 3) + " on average");
   out += tile("time on the clock", short_number(performance["wall_s"].number()) + " s",
               short_number(performance["cpu_s"].number()) + " s of CPU");
   out += tile("memory, at most", size_text(performance["peak_rss_bytes"].integer()),

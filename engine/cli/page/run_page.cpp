@@ -99,7 +99,7 @@ struct PageLabels {
 
   [[nodiscard]] RawLabel raw(Label rank) const { return mesh.table().raw(rank); }
   [[nodiscard]] std::string digits(Label rank) const {
-    return format_label(raw(rank), mesh.table().is_signed());
+    return io::label_text(raw(rank), mesh.table().is_signed());
   }
   /// Returns "17.18 mL" or "490 mm³".
   [[nodiscard]] std::string volume(double voxels) const {

@@ -49,7 +49,7 @@ class SurfaceJob {
   [[nodiscard]] Label rank_of(RawLabel label) const {
     if (labels_->table.contains(label)) return labels_->table.dense(label);
     io::fail_usage(request_.mesh + ": the mesh has no label " +
-                   format_label(label, labels_->table.is_signed()) + "; mwmesh info " +
+                   io::label_text(label, labels_->table.is_signed()) + "; mwmesh info " +
                    request_.mesh + " lists those that it has");
   }
 
@@ -126,7 +126,7 @@ class SurfaceJob {
       const RawLabel label = labels_->table.raw(rank);
       if (!request_.labels.empty()) require_facets(plan, "label " + text_of(label));
       if (plan.parts.empty()) continue;
-      write({plan}, *output_.sink(label, format_label(label, labels_->table.is_signed())));
+      write({plan}, *output_.sink(label, io::label_text(label, labels_->table.is_signed())));
       any = true;
     }
     if (!any) require_facets({}, "the mesh");
