@@ -105,9 +105,9 @@ constexpr double kFullWeight = 1 << kWeightBits;
 constexpr unsigned kWayBits = kWeightBits + 2;
 constexpr unsigned kShareBits = 16;
 
-/// Faces count less for each other where the cosine of their normals is below kFull, and not at all
-/// from kNone down.
-constexpr double kNone = 0.925, kFull = 0.975;
+/// Faces count less for each other where the cosine of their normals is below kAlike, and not at
+/// all from kUnlike down.
+constexpr double kUnlike = 0.925, kAlike = 0.975;
 
 using Value = FaceFilter::Value;
 using Sums = std::array<std::int64_t, 3>;
@@ -141,7 +141,7 @@ void FaceFilter::weigh(const std::vector<Value>& normals) {
   for (std::size_t i = 0; i < weights_.size(); ++i) {
     for (std::size_t edge = 0; edge < 4; ++edge) {
       const double cosine = unit(normals[i]).dot(unit(normals[graph_.neighbours(i)[edge]]));
-      const double share = std::clamp((cosine - kNone) / (kFull - kNone), 0.0, 1.0);
+      const double share = std::clamp((cosine - kUnlike) / (kAlike - kUnlike), 0.0, 1.0);
       weights_[i][edge] = static_cast<std::uint8_t>(std::floor(kFullWeight * share + 0.5));
     }
   }
