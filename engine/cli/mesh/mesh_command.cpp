@@ -276,13 +276,26 @@ void check_changed(const MeshRequest& request, Index3 shape) {
   }
 }
 
+/// Returns what the user gave that has the effect of a flag, such as "--preset draft" for
+/// "--surface voxel"; the flag itself where nothing implies it.
+std::string giver_of(const std::string& flag, const OptionSet& options) {
+  for (const OptionSet::Entry& entry : options.entries()) {
+    const Option& option = entry.option;
+    const bool is_implied = !entry.is_given && entry.where != option.name;
+    if (is_implied && "--" + option.name + " " + entry.text == flag) return entry.where;
+  }
+  return flag;
+}
+
 int mesh(const MeshRequest& request, const OptionSet& options) {
   watch_interrupts();
   if (runs_are_divided()) watch_save_requests();
   // A certificate that cannot be made is refused before any file is opened.
   const bool is_certified = engine::plan_certificate(request.job).why_not.empty();
   const std::string why = engine::why_no_volumes(engine::promises_of(request.job.settings));
-  if (!why.empty()) log_warning(why + ": the volumes of labels are not promised (P8)");
+  if (!why.empty()) {
+    log_warning(giver_of(why, options) + ": the volumes of labels are not promised (P8)");
+  }
   const engine::ResourceMeter meter;
   MeshFiles files(request, open_shared_output(request, is_certified));
   log_info("reading " + request.volume.path.string());

@@ -189,7 +189,9 @@ void OptionSet::read_implied() {
     if (!source.option.implied || source.text.empty()) continue;
     for (const auto& [name, text] : source.option.implied(source.text)) {
       Entry& entry = find(name);
-      if (!entry.is_given) entry.text = text;
+      if (entry.is_given) continue;
+      entry.text = text;
+      entry.where = source.where;
     }
   }
 }

@@ -92,8 +92,9 @@ class OptionSet {
 
   struct Entry {
     Option option;
-    std::string text;       ///< effective, in canonical form; empty if unset
-    std::string where;      ///< "--window 41", "MW_WINDOW=41", "run.toml:3: window = 41"
+    std::string text;  ///< effective, in canonical form; empty if unset
+    /// "--window 41", "MW_WINDOW=41", "run.toml:3: window = 41"; of the option that implies it
+    std::string where;
     bool is_given = false;  ///< by a flag, a variable or a config file
     bool is_flag = false;   ///< by a flag
   };

@@ -100,6 +100,10 @@ TEST_F(VerifyDefaultsTest, SaysFirstAndLastWhatIsPromisedLessThanByDefault) {
   EXPECT_NE(made.err.find("--max-distance none: the volumes of labels are not promised (P8)"),
             std::string::npos)
       << made.err;
+  const ProgramRun draft = run("mesh v.npy -o d.vtu --preset draft");
+  EXPECT_NE(draft.err.find("--preset draft: the volumes of labels are not promised (P8)"),
+            std::string::npos)
+      << draft.err;
   const ProgramRun result = run("verify v.npy v.vtu");
   const std::string told = "recorded promise: no distance bound, no floor, no volumes\n";
   EXPECT_EQ(result.code, 0) << result.out;
