@@ -6,6 +6,7 @@
 #include <algorithm>
 
 #include "engine/api/guarded.h"
+#include "engine/api/types.h"
 #include "engine/sample/sample_text.h"
 #include "engine/settings/number_text.h"
 #include "engine/settings/setting_table.h"

@@ -10,6 +10,7 @@
 #include "io/file/errors.h"
 #include "io/json/json.h"
 #include "io/surface/precomputed/draco_sink.h"
+#include "io/surface/precomputed/octree_cells.h"
 #include "kernels/core/vector3.h"
 
 namespace mw::io {

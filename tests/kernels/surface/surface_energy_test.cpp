@@ -181,8 +181,9 @@ Vec3 area_slope(const SurfaceStar& star) {
   return out;
 }
 
-/// The curvature of a ring between two labels: the mean of values cut at 0.5, or where all are
-/// beyond that and of one sign, the nearest to 0.
+/// The curvature of a ring between two labels: the mean of values cut at 0.5; where all are beyond
+/// that and of one sign, the nearest to 0; and where those of two vertices are, which are there
+/// twice, and none is beyond 0.3 of the other sign, the lesser of the two that are farthest from 0.
 double ring_curvature(const SurfaceStar& star, const CurvatureField& field) {
   std::vector<double> known;
   double sum = 0.0;
@@ -194,10 +195,16 @@ double ring_curvature(const SurfaceStar& star, const CurvatureField& field) {
     }
   }
   if (known.empty()) return 0.0;
-  std::sort(known.begin(), known.end());
-  if (known.front() > 0.5) return known.front();
-  if (known.back() < -0.5) return known.back();
-  return sum / static_cast<double>(known.size());
+  const auto count_beyond = [&](double sign, double limit) {
+    return std::count_if(known.begin(), known.end(), [&](double k) { return sign * k > limit; });
+  };
+  const auto all = static_cast<std::ptrdiff_t>(known.size());
+  for (const double sign : {1.0, -1.0}) {
+    std::sort(known.begin(), known.end(), [&](double k, double l) { return sign * k > sign * l; });
+    if (count_beyond(sign, 0.5) == all) return known.back();
+    if (count_beyond(sign, 0.5) > 2 && count_beyond(-sign, 0.3) == 0) return known[2];
+  }
+  return sum / static_cast<double>(all);
 }
 
 /// The curvature that presses on v: that of its ring, up to its own where that is known.
