@@ -24,7 +24,7 @@ HERE = pathlib.Path(__file__).resolve().parent
 sys.path.insert(0, str(HERE.parent))
 import convergence
 
-PLANE = convergence.CENTRE[1]  # y
+PLANE = convergence.centre()[1]  # y
 
 
 def cut_polygons(points, tets):
@@ -55,7 +55,7 @@ def draw(axes, name, mesh):
         polygons, array=flux[numbers], cmap="viridis", edgecolors=(0.1, 0.1, 0.1, 0.5), linewidths=0.3)
     drawn.set_clim(0, 3)
     axes.add_collection(drawn)
-    axes.add_patch(plt.Circle(convergence.CENTRE[[0, 2]], convergence.RADIUS, fill=False, color="white", lw=1.2))
+    axes.add_patch(plt.Circle(convergence.centre()[[0, 2]], convergence.RADIUS, fill=False, color="white", lw=1.2))
     axes.set(xlim=(0, convergence.EDGE), ylim=(0, convergence.EDGE), aspect="equal")
     axes.set_axis_off()
     axes.set_title(f"{name}: {unknowns:,} unknowns,\nerrors {h1:.3f} (H1), {l2:.4f} (L2)", fontsize=9)

@@ -124,28 +124,27 @@ bool DistanceGuard::allows_move(const TetMesh& mesh, LocalVertex v,
   return keeps_bound();
 }
 
-bool DistanceGuard::allows_flip(const TetMesh& mesh, const std::array<LocalVertex, 2>& pq,
-                                const std::array<LocalVertex, 2>& ab, Label towards, Label other) {
+bool DistanceGuard::allows_flip(const TetMesh& mesh, std::span<const TriangleKey> old,
+                                std::span<const FlippedTriangle> fresh, Label towards,
+                                Label other) {
   changed_.clear();
   mesh_ = nullptr;
   const auto [low, high] = std::minmax(towards, other);
-  for (LocalVertex a : ab) {
-    const TriangleKey old = triangle_key(pq[0], pq[1], a);
-    changed_.push_back({.before = old,
-                        .after = old,
+  for (const TriangleKey& key : old) {
+    changed_.push_back({.before = key,
+                        .after = key,
                         .shape = DistanceTriangle({Vec3::Zero(), Vec3::Zero(), Vec3::Zero()}),
                         .low = low,
                         .high = high,
                         .vanishes = true});
   }
   const auto at = [&mesh](LocalVertex v) { return in_voxels(mesh.position(v)); };
-  for (std::size_t i = 0; i < 2; ++i) {
-    const TriangleKey fresh = triangle_key(ab[0], ab[1], pq[i]);
-    const bool ascends = (i == 1) == (towards == high);
-    const Vec3 first = at(ab[ascends ? 0 : 1]), second = at(ab[ascends ? 1 : 0]);
-    changed_.push_back({.before = fresh,
-                        .after = fresh,
-                        .shape = DistanceTriangle({first, second, at(pq[i])}),
+  for (auto [first, second, third] : fresh) {
+    const TriangleKey key = triangle_key(first, second, third);
+    if (towards != high) std::swap(first, second);
+    changed_.push_back({.before = key,
+                        .after = key,
+                        .shape = DistanceTriangle({at(first), at(second), at(third)}),
                         .low = low,
                         .high = high});
   }

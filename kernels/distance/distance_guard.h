@@ -14,6 +14,9 @@
 
 namespace mw {
 
+/// Corners of a triangle that a flip makes, in the order that its normal follows from.
+using FlippedTriangle = std::array<LocalVertex, 3>;
+
 /// Refuses changes of the mesh that would let input and output interfaces drift apart by more than
 /// D voxels, for any label, in either direction.
 ///
@@ -79,11 +82,11 @@ class DistanceGuard {
   /// Judges a move of v, whose interface triangles are at hand.
   [[nodiscard]] bool allows_move(const TetMesh& mesh, LocalVertex v,
                                  std::span<const FanTriangle> fan, Point target);
-  /// Judges a flip that replaces interface triangles (p, q, a) and (p, q, b) by (a, b, p) and
-  /// (a, b, q).  The normals of (a, b, q) and (b, a, p) point to label `towards`, away from
-  /// `other`.
-  [[nodiscard]] bool allows_flip(const TetMesh& mesh, const std::array<LocalVertex, 2>& pq,
-                                 const std::array<LocalVertex, 2>& ab, Label towards, Label other);
+  /// Judges a flip that replaces interface triangles of two labels by fresh ones, whose normals
+  /// point to label `towards`, away from `other`.
+  [[nodiscard]] bool allows_flip(const TetMesh& mesh, std::span<const TriangleKey> old,
+                                 std::span<const FlippedTriangle> fresh, Label towards,
+                                 Label other);
   /// Hands the samples over, after the change that was last allowed has been made.
   void commit();
 

@@ -112,7 +112,6 @@ void TetMesh::classify_vertices() {
     const bool is_complete = 2 * link_vertices == stars_[v].size + 4;
     free_[v] = is_complete && (planes_[v] & kept_) == 0 ? 1 : 0;
     classify_labels(v);
-    if (!is_free(v)) signatures_[v] = ~std::uint64_t{0};
   }
 }
 
@@ -128,7 +127,7 @@ void TetMesh::classify_labels(LocalVertex v) {
     }
   }
   orders_[v] = static_cast<std::uint8_t>(count);
-  signatures_[v] = signature;
+  signatures_[v] = is_free(v) ? signature : ~std::uint64_t{0};
 }
 
 void TetMesh::reserve(LocalVertex v, std::uint32_t capacity) {
@@ -230,19 +229,33 @@ void TetMesh::add_tet(const LocalTet& tet) {
   }
 }
 
+std::uint32_t TetMesh::row_of(LocalVertex v, const LinkTriangle& wanted) const {
+  const auto entries = star(v);
+  const auto found = std::find_if(entries.begin(), entries.end(), [&](const LinkTriangle& t) {
+    return t.has(wanted.a) && t.has(wanted.b) && t.has(wanted.c);
+  });
+  MW_ASSERT(found != entries.end());
+  return static_cast<std::uint32_t>(found - entries.begin());
+}
+
 void TetMesh::remove_tet(const LocalTet& tet) {
   ++changes_;
   for (int i = 0; i < 4; ++i) {
     const LocalVertex v = tet.vertices[static_cast<std::size_t>(i)];
     if (v == infinity()) continue;
-    const LinkTriangle wanted = link_triangle(tet, i);
-    const auto entries = star(v);
-    const auto found = std::find_if(entries.begin(), entries.end(), [&](const LinkTriangle& t) {
-      return t.has(wanted.a) && t.has(wanted.b) && t.has(wanted.c);
-    });
-    MW_ASSERT(found != entries.end());
-    erase(v, static_cast<std::uint32_t>(found - entries.begin()));
+    erase(v, row_of(v, link_triangle(tet, i)));
     ++versions_[v];
+  }
+}
+
+void TetMesh::relabel(const LocalTet& tet, Label label) {
+  ++changes_;
+  for (int i = 0; i < 4; ++i) {
+    const LocalVertex v = tet.vertices[static_cast<std::size_t>(i)];
+    if (v == infinity()) continue;
+    pool_[stars_[v].begin + row_of(v, link_triangle(tet, i))].label = label;
+    ++versions_[v];
+    classify_labels(v);
   }
 }
 

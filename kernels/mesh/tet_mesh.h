@@ -178,6 +178,8 @@ class TetMesh {
   void add_tet(const LocalTet& tet);
   /// REQUIRES: the tet is there.
   void remove_tet(const LocalTet& tet);
+  /// Gives a tet that is there another label.
+  void relabel(const LocalTet& tet, Label label);
 
   /// Every tetrahedron once (virtual ones excluded): positive, grouped by its smallest vertex.
   [[nodiscard]] std::vector<LocalTet> tets() const;
@@ -194,6 +196,8 @@ class TetMesh {
   void count_stars(std::span<const LocalTet> tets);
   void classify_vertices();
   void classify_labels(LocalVertex v);
+  /// The row of a tet, which is there, among those of v's star.
+  [[nodiscard]] std::uint32_t row_of(LocalVertex v, const LinkTriangle& wanted) const;
   void append(LocalVertex v, LinkTriangle triangle);
   void reserve(LocalVertex v, std::uint32_t capacity);
   /// Moves stars together, where most of the pool is what they left behind, and leaves `room` free.

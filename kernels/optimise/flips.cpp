@@ -97,7 +97,7 @@ bool Flipper::collect_triangles(LocalVertex p, LocalVertex q, const Polygon& pol
 }
 
 /// Makes one polygon when all tets of the ring bear one label, and two when there are two labels,
-/// each on one stretch of at least two tets.  Turns the ring so that the first stretch starts it.
+/// each on one stretch.  Turns the ring so that the first stretch starts it.
 bool Flipper::cut_into_polygons() {
   polygons_.clear();
   const std::size_t n = ring_.size();
@@ -123,21 +123,43 @@ bool Flipper::cut_into_polygons() {
   turn(labels);
   const auto stretch = static_cast<std::size_t>(
       std::find(labels.begin(), labels.end(), labels[n - 1]) - labels.begin());
-  if (stretch < 2 || n - stretch < 2) return false;
   polygons_.push_back({0, stretch, labels[0]});
   polygons_.push_back({stretch, n, labels[n - 1]});
   return true;
 }
 
+bool Flipper::has_cap() const {
+  return std::any_of(polygons_.begin(), polygons_.end(),
+                     [](const Polygon& polygon) { return polygon.is_cap(); });
+}
+
+/// A cap may go if the edge that it has across from (p, q) is inside its label.
+bool Flipper::may_vanish(const Polygon& cap) {
+  return has_only(ring_vertex(cap.first), ring_vertex(cap.last), cap.label);
+}
+
+/// True if all tets at edge (p, q) are loaded and have this label.
+bool Flipper::has_only(LocalVertex p, LocalVertex q, Label label) {
+  return collect_ring(mesh_, p, q, other_ring_) &&
+         std::all_of(other_ring_.labels.begin(), other_ring_.labels.end(),
+                     [label](Label other) { return other == label; });
+}
+
 bool Flipper::surface_allows(LocalVertex p, LocalVertex q) {
   if (polygons_.size() == 1) return true;
+  for (const Polygon& polygon : polygons_) {
+    if (polygon.is_cap() && !may_vanish(polygon)) return false;
+  }
   const std::array<LocalVertex, 2> ab{ring_vertex(0), ring_vertex(polygons_[1].first)};
   const Label first = polygons_[0].label, second = polygons_[1].label;
   if (first == kExterior || second == kExterior) {
     return (mesh_.planes(p) & mesh_.planes(q) & mesh_.planes(ab[0]) & mesh_.planes(ab[1])) != 0;
   }
   // The new tets of the first polygon are (a, ., b, q) and (a, b, ., p).
-  return guard_ == nullptr || guard_->allows_flip(mesh_, {p, q}, ab, first, second);
+  if (guard_ == nullptr) return true;
+  const std::array<TriangleKey, 2> old{triangle_key(p, q, ab[0]), triangle_key(p, q, ab[1])};
+  const std::array<FlippedTriangle, 2> fresh{{{ab[1], ab[0], p}, {ab[0], ab[1], q}}};
+  return guard_->allows_flip(mesh_, old, fresh, first, second);
 }
 
 bool Flipper::is_between_labels() const {
@@ -172,7 +194,7 @@ bool Flipper::replace_within(LocalVertex p, LocalVertex q, double budget) {
 
 bool Flipper::remove_edge(LocalVertex p, LocalVertex q) {
   if (mesh_.star(q).size() < mesh_.star(p).size()) std::swap(p, q);
-  if (!collect_polygons(p, q, kMaxRing)) return false;
+  if (!collect_polygons(p, q, kMaxRing) || has_cap()) return false;
   const double energy = energy_of_old_tets(kDecentRatio);
   return energy - min_energy_worth_trying() > kMinGain && replace_within(p, q, energy);
 }
@@ -181,6 +203,56 @@ bool Flipper::flip_surface(LocalVertex p, LocalVertex q, double surface_gain) {
   if (mesh_.star(q).size() < mesh_.star(p).size()) std::swap(p, q);
   if (!collect_polygons(p, q, kMaxSurfaceRing) || !is_between_labels()) return false;
   return replace_within(p, q, energy_of_old_tets(kFloorOnSurface) + surface_gain);
+}
+
+std::span<const LinkTriangle> Flipper::find_dimple(LocalVertex v,
+                                                   std::span<const FanTriangle> fan) {
+  dimple_.clear();
+  if (fan.size() > kMostInDimple + 2) return {};
+  const auto star = mesh_.star(v);
+  const auto is_low = [low = fan[0].low](const LinkTriangle& t) { return t.label == low; };
+  const auto low_tets = static_cast<std::size_t>(std::count_if(star.begin(), star.end(), is_low));
+  const std::size_t few = std::min(low_tets, star.size() - low_tets);
+  if (few + 2 != fan.size()) return {};
+  for (const LinkTriangle& t : star) {
+    if (is_low(t) == (few == low_tets)) dimple_.push_back(t);
+  }
+  const auto is_in_fan = [fan](LocalVertex w) {
+    return std::any_of(fan.begin(), fan.end(),
+                       [w](const FanTriangle& t) { return t.a == w || t.b == w; });
+  };
+  // Without a vertex between them, n - 2 triangles across from n of the interface are one disc.
+  const bool may_go = std::all_of(dimple_.begin(), dimple_.end(), [&](const LinkTriangle& t) {
+    return is_in_fan(t.a) && is_in_fan(t.b) && is_in_fan(t.c) && goes_on_beyond(v, t);
+  });
+  if (!may_go) dimple_.clear();
+  return dimple_;
+}
+
+/// True if the label of a tet at v goes on across its triangle, and around each edge that the
+/// triangle shares with another one of the dimple.
+bool Flipper::goes_on_beyond(LocalVertex v, const LinkTriangle& t) {
+  const auto beyond = mesh_.star(t.a);
+  const bool is_across = std::any_of(beyond.begin(), beyond.end(), [&](const LinkTriangle& u) {
+    return u.label == t.label && u.has(t.b) && u.has(t.c) && !u.has(v);
+  });
+  const auto is_inside = [&](LocalVertex p, LocalVertex q) {
+    const auto has_edge = [&](const LinkTriangle& u) { return u.has(p) && u.has(q); };
+    return std::count_if(dimple_.begin(), dimple_.end(), has_edge) == 1 || has_only(p, q, t.label);
+  };
+  return is_across && is_inside(t.a, t.b) && is_inside(t.b, t.c) && is_inside(t.c, t.a);
+}
+
+bool Flipper::flip_dimple(LocalVertex v, std::span<const FanTriangle> fan) {
+  const Label label = dimple_[0].label, around = fan[0].low == label ? fan[0].high : fan[0].low;
+  std::vector<TriangleKey> old;
+  for (const FanTriangle& t : fan) old.push_back(triangle_key(v, t.a, t.b));
+  std::vector<FlippedTriangle> fresh;
+  for (const LinkTriangle& t : dimple_) fresh.push_back({t.a, t.b, t.c});
+  if (guard_ != nullptr && !guard_->allows_flip(mesh_, old, fresh, label, around)) return false;
+  for (const auto& [a, b, c] : fresh) mesh_.relabel({{v, a, b, c}, label}, around);
+  if (guard_ != nullptr) guard_->commit();
+  return true;
 }
 
 }  // namespace mw

@@ -4,6 +4,7 @@
 #pragma once
 
 #include <array>
+#include <span>
 #include <vector>
 
 #include "kernels/distance/distance_guard.h"
@@ -26,6 +27,15 @@ namespace mw {
 /// labels, interfaces and meetings of labels keep their topology (KeptTopology::kInterfaces needs
 /// no further test).  Triangles on the box stay in their plane, and a guard keeps the distance
 /// bound on interfaces.
+///
+/// On one side there may be a single tet, a cap (p, q, a, b).  Flattened as far as its shape may
+/// get, it holds the interface in a bend.  It goes if all tets at its edge (a, b) have its label:
+/// then the interface runs from (p, q, a) and (p, q, b) to its other two triangles.  Around (a, b)
+/// there is nothing else of the interface, so again one disc takes the place of another.
+///
+/// A dimple is all that its label has at a vertex v: up to four tets, which share no edge but those
+/// at v.  Given to the other label, they leave v inside it, and the interface runs across from v,
+/// one disc for another: there the dimple's own label goes on, also around edges between its tets.
 ///
 /// Vertices may be fixed, because a flip moves none; it only needs a closed ring of loaded tets.
 ///
@@ -59,20 +69,36 @@ class Flipper {
   /// `surface_gain` is what the surface gains, in units of the shape energy.  REQUIRES: a guard.
   bool flip_surface(LocalVertex p, LocalVertex q, double surface_gain);
 
+  /// Returns the tets of a dimple at v that may be flipped; none where there is no such dimple.
+  /// The span is valid until the next call.
+  /// REQUIRES: v free, between two labels, off the box; fan has its interface triangles, of which
+  /// each edge at v has two.
+  [[nodiscard]] std::span<const LinkTriangle> find_dimple(LocalVertex v,
+                                                          std::span<const FanTriangle> fan);
+  /// Gives the dimple that was found last to the other label.  REQUIRES: as find_dimple().
+  bool flip_dimple(LocalVertex v, std::span<const FanTriangle> fan);
+
  private:
   static constexpr std::size_t kMaxRing = 5;
   static constexpr std::size_t kMaxSurfaceRing = 8;
+  static constexpr std::size_t kMostInDimple = 4;
   static constexpr double kMinGain = 1e-2;
 
-  /// Ring vertices first .. last, a polygon of one label; last may be as for ring_vertex().
+  /// Ring vertices first .. last, a polygon of one label; last may be as for ring_vertex().  That
+  /// of a cap is an edge.
   struct Polygon {
     std::size_t first = 0;
     std::size_t last = 0;
     Label label = 0;
+    [[nodiscard]] bool is_cap() const { return last - first == 1; }
   };
 
   [[nodiscard]] bool collect_polygons(LocalVertex p, LocalVertex q, std::size_t max_ring);
   [[nodiscard]] bool cut_into_polygons();
+  [[nodiscard]] bool has_cap() const;
+  [[nodiscard]] bool may_vanish(const Polygon& cap);
+  [[nodiscard]] bool has_only(LocalVertex p, LocalVertex q, Label label);
+  [[nodiscard]] bool goes_on_beyond(LocalVertex v, const LinkTriangle& t);
   [[nodiscard]] bool surface_allows(LocalVertex p, LocalVertex q);
   /// REQUIRES: i is at most the ring's size, which stands for vertex 0.
   [[nodiscard]] LocalVertex ring_vertex(std::size_t i) const {
@@ -100,11 +126,13 @@ class Flipper {
   InnerFilter inner_;
   double min_ = 0.0;  ///< radius ratio that the new tets must reach
   EdgeRing ring_;
+  EdgeRing other_ring_;
   std::vector<Polygon> polygons_;
   std::array<std::array<double, kMaxSurfaceRing + 1>, kMaxSurfaceRing + 1> energy_{};
   std::array<std::array<std::size_t, kMaxSurfaceRing + 1>, kMaxSurfaceRing + 1> apex_{};
   std::vector<LocalTet> old_tets_;
   std::vector<LocalTet> new_tets_;
+  std::vector<LinkTriangle> dimple_;
 };
 
 }  // namespace mw

@@ -17,7 +17,8 @@ namespace mw {
 
 /// Flips the edge between two interface triangles where the five edges of the two bend less
 /// afterwards.  The tets around the edge may lose in shape, down to the floor, what bends and the
-/// distance to the carried faces gain.
+/// distance to the carried faces gain.  A cap (Flipper) of poor shape goes if they do not lose.  A
+/// dimple goes where the interface bends less without it.
 class Unfolder {
  public:
   Unfolder(TetMesh& mesh, const Metric& metric, const SurfaceWeights& weights, double quality_floor,
@@ -36,10 +37,18 @@ class Unfolder {
   /// The two triangles at an edge (v, q), and what lies across their other edges.
   struct Hinge;
 
+  /// What lies across from the vertex of a dimple.
+  struct Dimple;
+
   bool unfold_one(LocalVertex v);
+  bool unfold_dimple(LocalVertex v);
+  [[nodiscard]] Dimple dimple(LocalVertex v);
+  bool unfold_hinge(LocalVertex v, const Spoke& spoke);
+  [[nodiscard]] bool is_poor_cap(LocalVertex v, const Spoke& spoke) const;
   [[nodiscard]] bool find_open_spokes();
   [[nodiscard]] Hinge hinge(const Spoke& spoke) const;
-  [[nodiscard]] double misfit(const SurfaceTriangle& t, const Hinge& h) const;
+  template <typename Change>
+  [[nodiscard]] double misfit(const SurfaceTriangle& t, const Change& change) const;
 
   TetMesh& mesh_;
   const Metric& metric_;

@@ -249,7 +249,9 @@ TEST(DistanceGuard, HandsAFlippedFaceToTheTriangleThatLooksItsWay) {
         CarriedSamples samples;
         samples.add(triangle_key(p, q, a), 0, face_samples({1, 1, 1}, 2, kAllQuarters));
         DistanceGuard guard(labels, 3.0, samples);
-        ASSERT_TRUE(guard.allows_flip(mesh, {p, q}, {a, b}, towards, 1 - towards));
+        const std::array<TriangleKey, 2> old{triangle_key(p, q, a), triangle_key(p, q, b)};
+        const std::array<FlippedTriangle, 2> fresh{{{b, a, p}, {a, b, q}}};
+        ASSERT_TRUE(guard.allows_flip(mesh, old, fresh, towards, 1 - towards));
         guard.commit();
         EXPECT_FALSE(samples.has(triangle_key(p, q, a), 0));
         EXPECT_EQ(samples.has(triangle_key(a, b, q), 0), towards == above);

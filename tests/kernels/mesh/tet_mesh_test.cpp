@@ -202,23 +202,32 @@ TEST(TetMesh, AddingUndoesRemoving) {
   }
 }
 
+void expect_orders_of_its_tets(const TetMesh& mesh) {
+  std::vector<std::set<Label>> labels(mesh.vertex_count());
+  for (const LocalTet& t : mesh.tets()) {
+    for (LocalVertex v : t.vertices) labels[v].insert(t.label);
+  }
+  for (LocalVertex v = 0; v < mesh.vertex_count(); ++v) {
+    EXPECT_EQ(mesh.on_interface(v), labels[v].size() > 1);
+    if (mesh.planes(v) != 0) labels[v].insert(kExterior);
+    EXPECT_EQ(mesh.order(v), static_cast<int>(labels[v].size()));
+    std::uint64_t signature = 0;
+    for (Label l : labels[v]) signature |= mesh.label_bit(l);
+    EXPECT_EQ(mesh.label_signature(v), signature);
+  }
+}
+
+/// Also after tets got other labels.
 TEST(Sec531Order, CountsTheDistinctLabelsAtAVertex) {
   std::mt19937 random(405);
   for (int i = 0; i < 60 && !HasFailure(); ++i) {
-    const SmallVolume volume = random_volume_of(random, VolumeKind::kNoise, {3, 4, 3}, 7);
-    const TetMesh mesh = dense_mesh(volume);
-    std::vector<std::set<Label>> labels(mesh.vertex_count());
-    for (const LocalTet& t : mesh.tets()) {
-      for (LocalVertex v : t.vertices) labels[v].insert(t.label);
+    TetMesh mesh = dense_mesh(random_volume_of(random, VolumeKind::kNoise, {3, 4, 3}, 7));
+    expect_orders_of_its_tets(mesh);
+    const std::vector<LocalTet> tets = mesh.tets();
+    for (std::size_t k = 0; k < tets.size(); k += 7) {
+      mesh.relabel(tets[k], tets[below(random, static_cast<std::uint32_t>(tets.size()))].label);
     }
-    for (LocalVertex v = 0; v < mesh.vertex_count(); ++v) {
-      EXPECT_EQ(mesh.on_interface(v), labels[v].size() > 1);
-      if (mesh.planes(v) != 0) labels[v].insert(kExterior);
-      EXPECT_EQ(mesh.order(v), static_cast<int>(labels[v].size()));
-      std::uint64_t signature = 0;
-      for (Label l : labels[v]) signature |= mesh.label_bit(l);
-      EXPECT_EQ(mesh.label_signature(v), signature);
-    }
+    expect_orders_of_its_tets(mesh);
   }
 }
 

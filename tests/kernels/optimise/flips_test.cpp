@@ -7,6 +7,7 @@
 #include "kernels/quality/quality.h"
 #include "kernels/simplify/simplify.h"
 #include "tests/kernels/mesh/dense_mesh.h"
+#include "tests/kernels/surface/interface_triangles.h"
 
 namespace mw::test {
 namespace {
@@ -218,6 +219,183 @@ TEST(Flips, EndAfterSimplification) {
     int sweeps = 0;
     while (flip_everywhere(mesh, metric) > 0) ASSERT_LT(++sweeps, 50);
   }
+}
+
+/// A small volume of two or three labels whose mesh has bad tets.
+struct BadMesh {
+  SmallVolume volume;
+  GuardedMesh guarded;
+  std::vector<RegionBetti> expected;
+
+  explicit BadMesh(std::mt19937& random)
+      : volume(random_volume_of(random,
+                                below(random, 2) == 0 ? VolumeKind::kBlobs : VolumeKind::kSpecks,
+                                {5, 5, 5}, 2 + below(random, 2))),
+        guarded(volume, 3.0),
+        expected(betti(volume)) {
+    if (below(random, 3) != 0) simplify(guarded.mesh, {}, {.quality_floor = 0.0}, &guarded.guard);
+    disturb(guarded.mesh, random);
+  }
+
+  void expect_sound() const {
+    for (const LocalTet& t : guarded.mesh.tets()) ASSERT_GT(volume6_of(guarded.mesh, t), 0);
+    ASSERT_TRUE(betti(guarded.mesh, volume.label_count) == expected);
+  }
+};
+
+/// True if the edge lies between two labels, one of which has a single tet there.
+bool has_cap(const TetMesh& mesh, LocalVertex p, LocalVertex q) {
+  std::map<Label, int> tets;
+  for (const LinkTriangle& t : mesh.star(p)) {
+    if (t.has(q)) ++tets[t.label];
+  }
+  const auto is_one = [](const auto& count) { return count.second == 1; };
+  return tets.size() == 2 && std::any_of(tets.begin(), tets.end(), is_one);
+}
+
+/// However much the surface gains, a flip of an interface edge keeps the topology of all labels,
+/// also where it takes the only tet that a label has there.
+TEST(Flips, OfInterfaceEdgesKeepTopology) {
+  std::mt19937 random(804);
+  constexpr double kAlways = 1e6;
+  const Metric metric;
+  int flips = 0, caps = 0, refused_caps = 0;
+  InterfaceFan fans;
+  std::vector<FanTriangle> fan;
+  for (int i = 0; i < 40 && !HasFailure(); ++i) {
+    BadMesh bad(random);
+    TetMesh& mesh = bad.guarded.mesh;
+    Flipper flipper(mesh, metric, 0.0, &bad.guarded.guard);
+    for (LocalVertex v = 0; v < mesh.vertex_count() && !HasFailure(); ++v) {
+      if (!mesh.is_alive(v)) continue;
+      fans.collect(mesh, v, fan);
+      for (const FanTriangle& t : fan) {
+        const bool cap = has_cap(mesh, v, t.a), flipped = flipper.flip_surface(v, t.a, kAlways);
+        flips += flipped ? 1 : 0;
+        (flipped ? caps : refused_caps) += cap ? 1 : 0;
+        if (!flipped) continue;
+        bad.expect_sound();
+        break;
+      }
+    }
+  }
+  EXPECT_GT(flips, 200);
+  EXPECT_GT(caps, 20);
+  EXPECT_GT(refused_caps, 20);
+}
+
+/// Gives up to six tets of a vertex's star label 1, most of them beside each other, the others
+/// label 0, and some tets of the mesh either one.  Returns the vertex, which is off the box.
+LocalVertex draw_labels(TetMesh& mesh, std::mt19937& random) {
+  LocalVertex v = 0;
+  do {
+    v = below(random, mesh.vertex_count());
+  } while (!mesh.is_alive(v) || mesh.planes(v) != 0);
+  const std::vector<LinkTriangle> star(mesh.star(v).begin(), mesh.star(v).end());
+  for (const LinkTriangle& t : star) {
+    const LinkTriangle u = mesh.star(t.a)[below(random, 3)];
+    if (u.label != kExterior)
+      mesh.relabel({{t.a, u.a, u.b, u.c}, 0}, below(random, 4) == 0 ? 0 : 1);
+  }
+  for (const LinkTriangle& t : star) mesh.relabel({{v, t.a, t.b, t.c}, 0}, 0);
+  std::vector<LinkTriangle> drawn;
+  for (std::uint32_t tries = 1 + below(random, 12); tries != 0 && drawn.size() < 6; --tries) {
+    const LinkTriangle t = star[below(random, static_cast<std::uint32_t>(star.size()))];
+    const bool beside = std::any_of(drawn.begin(), drawn.end(), [&](const LinkTriangle& u) {
+      return int{u.has(t.a)} + int{u.has(t.b)} + int{u.has(t.c)} == 2;
+    });
+    if (drawn.empty() || beside || below(random, 4) == 0) drawn.push_back(t);
+  }
+  for (const LinkTriangle& t : drawn) mesh.relabel({{v, t.a, t.b, t.c}, 0}, 1);
+  return v;
+}
+
+/// Whether each edge at the star's vertex that has interface triangles has two of them.
+bool has_two_at_each_edge(const SurfaceStar& star) {
+  return !star.triangles().empty() && star.spokes().size() == star.triangles().size();
+}
+
+/// A dimple that goes leaves its vertex inside the other label, and the topology as it is.
+TEST(Flips, OfDimplesKeepTopology) {
+  std::mt19937 random(805);
+  const Metric metric;
+  std::array<int, 5> flips{};
+  SurfaceStar star;
+  const BadMesh bad(random);
+  TetMesh mesh = bad.guarded.mesh;
+  for (const LocalTet& t : mesh.tets()) mesh.relabel(t, below(random, 4) == 0 ? 0 : 1);
+  Flipper flipper(mesh, metric, 0.0);
+  for (int i = 0; i < 5000 && !HasFailure(); ++i) {
+    const LocalVertex v = draw_labels(mesh, random);
+    if (mesh.order(v) != 2) continue;
+    star.collect(mesh, metric, v);
+    if (!has_two_at_each_edge(star)) continue;
+    const std::size_t tets = flipper.find_dimple(v, star.fan()).size();
+    if (tets == 0) continue;
+    const std::vector<RegionBetti> before = betti(mesh, 2);
+    ASSERT_TRUE(flipper.flip_dimple(v, star.fan()));
+    ++flips.at(tets);
+    EXPECT_EQ(mesh.order(v), 1);
+    ASSERT_TRUE(betti(mesh, 2) == before) << tets << " tets";
+    for (const auto& [key, stars] : tets_by_stars(mesh)) {
+      ASSERT_EQ(stars, key.label == kExterior ? 3 : 4);
+    }
+  }
+  for (std::size_t tets = 1; tets < flips.size(); ++tets) EXPECT_GT(flips[tets], 10) << tets;
+}
+
+/// The mesh of 2^3 voxels with a vertex more in the middle of one tet; it is the last one.
+BlockMesh block_with_split_tet(std::size_t row) {
+  BlockMesh block = dense_block(volume_from({2, 2, 2}, 1, [](auto, auto, auto) { return 0; }),
+                                {{0, 0, 0}, {2, 2, 2}});
+  const auto corners = block.tets[row].vertices;
+  Point middle;
+  for (const auto v : corners) {
+    middle.x += block.vertices[v].position.x / 4;
+    middle.y += block.vertices[v].position.y / 4;
+    middle.z += block.vertices[v].position.z / 4;
+  }
+  const auto w = static_cast<LocalVertex>(block.vertices.size());
+  block.vertices.push_back({block.vertices.back().id + 1, middle, {}});
+  block.tets.erase(block.tets.begin() + static_cast<std::ptrdiff_t>(row));
+  for (std::size_t i = 0; i < 4; ++i) {
+    BlockTet part{corners, 0};
+    part.vertices[i] = w;
+    std::sort(part.vertices.begin(), part.vertices.end());
+    block.tets.push_back(part);
+  }
+  return block;
+}
+
+/// Three tets around an edge and a fourth one elsewhere at the same vertex have six interface
+/// triangles, as many as four tets in a row, but they are two parts: a handle would vanish.
+TEST(Flips, LeaveADimpleOfTwoParts) {
+  const Metric metric;
+  SurfaceStar star;
+  constexpr std::size_t kRows = 40;
+  int pairs = 0;
+  for (std::size_t row = 0; row < kRows; ++row) {
+    const BlockMesh block = block_with_split_tet(row);
+    TetMesh mesh(block.vertices, block.tets, far_corner({2, 2, 2}));
+    const LocalVertex w = mesh.vertex_count() - 1;
+    for (const LinkTriangle& corner : std::vector(mesh.star(w).begin(), mesh.star(w).end())) {
+      const LocalVertex v = corner.a;
+      if (mesh.planes(v) != 0) continue;
+      for (const LocalTet& t : mesh.tets()) mesh.relabel(t, has(t, v) && !has(t, w) ? 0 : 1);
+      const std::vector<LinkTriangle> others(mesh.star(v).begin(), mesh.star(v).end());
+      for (const LinkTriangle& t : others) {
+        if (t.has(w)) continue;
+        mesh.relabel({{v, t.a, t.b, t.c}, 0}, 1);
+        star.collect(mesh, metric, v);
+        if (has_two_at_each_edge(star) && star.triangles().size() == 6) {
+          EXPECT_TRUE(Flipper(mesh, metric, 0.0).find_dimple(v, star.fan()).empty());
+          ++pairs;
+        }
+        mesh.relabel({{v, t.a, t.b, t.c}, 1}, 0);
+      }
+    }
+  }
+  EXPECT_GT(pairs, 5);
 }
 
 }  // namespace
