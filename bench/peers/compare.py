@@ -59,7 +59,7 @@ def main():
         for volume in volumes:
             for name, command in PROGRAMS.items():
                 row(volume, name, command)
-        print("\n| conducting ball | unknowns | H1 | L2 |\n|---|---|---|---|")
+        print("\n| conducting ball | unknowns | H1 | H1 by place | L2 |\n|---|---|---|---|---|")
         np.save("volume.npy", convergence.ball(convergence.EDGE))
         for name, command in PROGRAMS.items():
             convergence.row(name, convergence.meshed(*command, "volume.npy"))

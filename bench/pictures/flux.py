@@ -46,7 +46,7 @@ def cut_polygons(points, tets):
 
 def draw(axes, name, mesh):
     points, tets, labels = mesh
-    unknowns, h1, l2, u = convergence.solved(*mesh)
+    unknowns, h1, _, l2, u = convergence.solved(*mesh)
     _, _, gradients = next(convergence.at_points(points, tets))
     flux = np.linalg.norm(np.einsum("tnk,tn->tk", gradients, u[tets]), axis=1)
     flux *= np.where(labels == 1, convergence.INSIDE, 1.0)

@@ -81,7 +81,7 @@ class Flipper {
  private:
   static constexpr std::size_t kMaxRing = 5;
   static constexpr std::size_t kMaxSurfaceRing = 8;
-  static constexpr std::size_t kMostInDimple = 4;
+  static constexpr std::size_t kMostInDimple = 4;  ///< see bench/parameters.md, "Constants"
   static constexpr double kMinGain = 1e-2;
 
   /// Ring vertices first .. last, a polygon of one label; last may be as for ring_vertex().  That

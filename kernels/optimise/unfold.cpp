@@ -16,7 +16,8 @@
 namespace mw {
 namespace {
 
-/// A smaller gain in bend energy is not worth a try.
+/// A smaller gain in bend energy is not worth a try, and a poor cap may cost as much
+/// (bench/parameters.md, "Constants").
 constexpr double kMinBendGain = 0.02;
 /// Energy of a bend, in shape energies of a tet, for each unit of SurfaceWeights::bend.
 constexpr double kBendFactor = 5.0;
@@ -175,7 +176,7 @@ bool Unfolder::is_poor_cap(LocalVertex v, const Spoke& spoke) const {
   return cap != star.end() && radius_ratio(mesh_, metric_, mesh_.position(v), *cap) < kDecentRatio;
 }
 
-/// A smaller gain in bends is not worth a try, except for a poor cap, whose shape is a gain.
+/// Flips the edge of a spoke where that gains; of a poor cap the shape is a gain, too.
 bool Unfolder::unfold_hinge(LocalVertex v, const Spoke& spoke) {
   const Hinge h = hinge(spoke);
   const double gain = h.gain();
