@@ -133,11 +133,6 @@ bool Flipper::has_cap() const {
                      [](const Polygon& polygon) { return polygon.is_cap(); });
 }
 
-/// A cap may go if the edge that it has across from (p, q) is inside its label.
-bool Flipper::may_vanish(const Polygon& cap) {
-  return has_only(ring_vertex(cap.first), ring_vertex(cap.last), cap.label);
-}
-
 /// True if all tets at edge (p, q) are loaded and have this label.
 bool Flipper::has_only(LocalVertex p, LocalVertex q, Label label) {
   return collect_ring(mesh_, p, q, other_ring_) &&
@@ -147,8 +142,9 @@ bool Flipper::has_only(LocalVertex p, LocalVertex q, Label label) {
 
 bool Flipper::surface_allows(LocalVertex p, LocalVertex q) {
   if (polygons_.size() == 1) return true;
-  for (const Polygon& polygon : polygons_) {
-    if (polygon.is_cap() && !may_vanish(polygon)) return false;
+  for (const Polygon& cap : polygons_) {
+    if (!cap.is_cap()) continue;
+    if (!has_only(ring_vertex(cap.first), ring_vertex(cap.last), cap.label)) return false;
   }
   const std::array<LocalVertex, 2> ab{ring_vertex(0), ring_vertex(polygons_[1].first)};
   const Label first = polygons_[0].label, second = polygons_[1].label;

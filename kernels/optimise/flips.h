@@ -62,7 +62,8 @@ class Flipper {
 
   /// Replaces the ring of edge (p, q) by the best triangulation of the ring's polygon, joined to
   /// both ends (dynamic programming over at most kMaxRing vertices), if that gains.  On a surface
-  /// the polygon is cut in two by the new edge (a, b).
+  /// the polygon is cut in two by the new edge (a, b); a cap is left to flip_surface(), which
+  /// is told what the surface loses.
   bool remove_edge(LocalVertex p, LocalVertex q);
 
   /// Flips an edge between two labels of the volume when shapes and surface together gain.
@@ -96,7 +97,6 @@ class Flipper {
   [[nodiscard]] bool collect_polygons(LocalVertex p, LocalVertex q, std::size_t max_ring);
   [[nodiscard]] bool cut_into_polygons();
   [[nodiscard]] bool has_cap() const;
-  [[nodiscard]] bool may_vanish(const Polygon& cap);
   [[nodiscard]] bool has_only(LocalVertex p, LocalVertex q, Label label);
   [[nodiscard]] bool goes_on_beyond(LocalVertex v, const LinkTriangle& t);
   [[nodiscard]] bool surface_allows(LocalVertex p, LocalVertex q);

@@ -93,11 +93,13 @@ double mean_tilt(const SmallMesh& mesh, double edge, const Vec3& normal) {
   return sum / total;
 }
 
+double draw_between(std::mt19937& random, double a, double b) {
+  return a + (b - a) * audit::test::below(random, 10000) / 10000.0;
+}
+
 TEST(SmoothSurface, BallsKeepTheirVolumeAndHaveNoDents) {
   std::mt19937 random(121);
-  const auto between = [&](double a, double b) {
-    return a + (b - a) * audit::test::below(random, 10000) / 10000.0;
-  };
+  const auto between = [&](double a, double b) { return draw_between(random, a, b); };
   double bends = 0.0, balls = 0.0;
   for (const double radius : {9.0, 10.4, 12.0, 13.7, 15.2, 18.9, 24.0}) {
     const auto edge = static_cast<std::int64_t>(2 * radius + 12);
@@ -120,9 +122,7 @@ TEST(SmoothSurface, BallsKeepTheirVolumeAndHaveNoDents) {
 /// sharpest edges of these would bend by 37 degrees in the mean at size 6, and by 26 at size 3.
 TEST(SmoothSurface, BallsHaveNoKnots) {
   std::mt19937 random(123);
-  const auto between = [&](double a, double b) {
-    return a + (b - a) * audit::test::below(random, 10000) / 10000.0;
-  };
+  const auto between = [&](double a, double b) { return draw_between(random, a, b); };
   for (const auto& [size, most] : {std::pair{6.0, 32.0}, {3.0, 21.5}}) {
     constexpr int kBalls = 12;
     MeshSettings settings;

@@ -221,13 +221,13 @@ TEST(Flips, EndAfterSimplification) {
   }
 }
 
-/// A small volume of two or three labels whose mesh has bad tets.
-struct BadMesh {
+/// A mesh with bad tets of a small volume with two or three labels, whose topology is known.
+struct KnownMesh {
   SmallVolume volume;
   GuardedMesh guarded;
   std::vector<RegionBetti> expected;
 
-  explicit BadMesh(std::mt19937& random)
+  explicit KnownMesh(std::mt19937& random)
       : volume(random_volume_of(random,
                                 below(random, 2) == 0 ? VolumeKind::kBlobs : VolumeKind::kSpecks,
                                 {5, 5, 5}, 2 + below(random, 2))),
@@ -237,7 +237,7 @@ struct BadMesh {
     disturb(guarded.mesh, random);
   }
 
-  void expect_sound() const {
+  void expect_kept() const {
     for (const LocalTet& t : guarded.mesh.tets()) ASSERT_GT(volume6_of(guarded.mesh, t), 0);
     ASSERT_TRUE(betti(guarded.mesh, volume.label_count) == expected);
   }
@@ -263,9 +263,9 @@ TEST(Flips, OfInterfaceEdgesKeepTopology) {
   InterfaceFan fans;
   std::vector<FanTriangle> fan;
   for (int i = 0; i < 40 && !HasFailure(); ++i) {
-    BadMesh bad(random);
-    TetMesh& mesh = bad.guarded.mesh;
-    Flipper flipper(mesh, metric, 0.0, &bad.guarded.guard);
+    KnownMesh known(random);
+    TetMesh& mesh = known.guarded.mesh;
+    Flipper flipper(mesh, metric, 0.0, &known.guarded.guard);
     for (LocalVertex v = 0; v < mesh.vertex_count() && !HasFailure(); ++v) {
       if (!mesh.is_alive(v)) continue;
       fans.collect(mesh, v, fan);
@@ -274,7 +274,7 @@ TEST(Flips, OfInterfaceEdgesKeepTopology) {
         flips += flipped ? 1 : 0;
         (flipped ? caps : refused_caps) += cap ? 1 : 0;
         if (!flipped) continue;
-        bad.expect_sound();
+        known.expect_kept();
         break;
       }
     }
@@ -294,8 +294,8 @@ LocalVertex draw_labels(TetMesh& mesh, std::mt19937& random) {
   const std::vector<LinkTriangle> star(mesh.star(v).begin(), mesh.star(v).end());
   for (const LinkTriangle& t : star) {
     const LinkTriangle u = mesh.star(t.a)[below(random, 3)];
-    if (u.label != kExterior)
-      mesh.relabel({{t.a, u.a, u.b, u.c}, 0}, below(random, 4) == 0 ? 0 : 1);
+    if (u.label == kExterior) continue;
+    mesh.relabel({{t.a, u.a, u.b, u.c}, 0}, below(random, 4) == 0 ? 0 : 1);
   }
   for (const LinkTriangle& t : star) mesh.relabel({{v, t.a, t.b, t.c}, 0}, 0);
   std::vector<LinkTriangle> drawn;
@@ -321,8 +321,7 @@ TEST(Flips, OfDimplesKeepTopology) {
   const Metric metric;
   std::array<int, 5> flips{};
   SurfaceStar star;
-  const BadMesh bad(random);
-  TetMesh mesh = bad.guarded.mesh;
+  TetMesh mesh = KnownMesh(random).guarded.mesh;
   for (const LocalTet& t : mesh.tets()) mesh.relabel(t, below(random, 4) == 0 ? 0 : 1);
   Flipper flipper(mesh, metric, 0.0);
   for (int i = 0; i < 5000 && !HasFailure(); ++i) {
