@@ -148,6 +148,7 @@ struct VolumeFile {
 };
 
 class VolumeAccess;
+struct Hooks;
 
 /// A labelled volume, which is cheap to copy.  One that was moved from has nothing in it, and all
 /// that is asked of it is kUsage.
@@ -158,6 +159,8 @@ class Volume {
   [[nodiscard]] static Volume of(const RegionVolume& region);
   /// ERRORS: kInput naming file, field, reason and way out; kUsage for options that do not fit it.
   [[nodiscard]] static Volume open(const VolumeFile& file);
+  /// Does the same; hooks.cancel ends waits for a server.
+  [[nodiscard]] static Volume open(const VolumeFile& file, const Hooks& hooks);
   /// Returns this volume with these names added; where both name a label, these win.
   [[nodiscard]] Volume with_names(const std::vector<LabelName>& names) const;
 
@@ -294,10 +297,10 @@ struct Progress {
 struct Hooks {
   /// After each window; then, while the mesh is written, some more times with all windows done.
   std::function<void(const Progress& progress)> progress{};
-  /// Is asked before each read of voxels, and after each window; when it returns true, the run ends
-  /// with kCancelled.  A window takes below a second as a rule, but can take half a minute where
-  /// nearly all of its voxels differ from their neighbours (noise); smaller windows (Settings) take
-  /// less.
+  /// Is asked before each read of voxels, after each window, and about once a second while a server
+  /// is silent; when it returns true, the run ends with kCancelled.  A window takes below a second
+  /// as a rule, but can take half a minute where nearly all of its voxels differ from their
+  /// neighbours (noise); smaller windows (Settings) take less.
   std::function<bool()> cancel{};
 };
 

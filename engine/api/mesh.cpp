@@ -10,6 +10,7 @@
 #include "io/mesh/digest.h"
 #include "io/mesh/mesh_sink.h"
 #include "io/mesh/open_mesh.h"
+#include "io/remote/wait_stop.h"
 #include "io/volume/open_volume.h"
 
 namespace mwmesh {
@@ -65,6 +66,8 @@ class SinkWithoutValues : public io::MeshSink {
 /// Returns a job with its images opened.
 engine::MeshJob job_of(const Volume& volume, const Settings& settings, const Options& options,
                        const Hooks& hooks) {
+  const std::function<void()> stop = mw::api::stop_function(hooks);
+  const io::WaitStop waits(&stop);
   engine::MeshJob job =
       mw::api::mesh_job(VolumeAccess::labels(volume).info(), settings, options, hooks);
   for (engine::SampleImage& sample : job.samples) {

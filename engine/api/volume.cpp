@@ -3,11 +3,13 @@
 // Volumes of the library.
 #include "engine/api/array_volume.h"
 #include "engine/api/guarded.h"
+#include "engine/api/jobs.h"
 #include "engine/api/types.h"
 #include "engine/settings/named_labels.h"
 #include "engine/settings/number_text.h"
 #include "engine/system/crew.h"
 #include "io/names/read_names.h"
+#include "io/remote/wait_stop.h"
 #include "io/volume/checks.h"
 #include "io/volume/open_volume.h"
 #include "kernels/synth/synth.h"
@@ -47,7 +49,13 @@ Volume Volume::of(const RegionVolume& region) {
 }
 
 Volume Volume::open(const VolumeFile& file) {
+  return open(file, {});
+}
+
+Volume Volume::open(const VolumeFile& file, const Hooks& hooks) {
   return mw::api::guarded([&] {
+    const std::function<void()> stop = mw::api::stop_function(hooks);
+    const io::WaitStop waits(&stop);
     io::OpenOptions options{.spacing = file.spacing,
                             .origin = file.origin,
                             .frame = frame_choice(file.frame),

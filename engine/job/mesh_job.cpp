@@ -32,6 +32,7 @@
 #include "engine/version.h"
 #include "engine/window/window_memory.h"
 #include "io/file/errors.h"
+#include "io/remote/wait_stop.h"
 #include "io/volume/label_volume.h"
 #include "io/volume/volume_readers.h"
 #include "kernels/core/error.h"
@@ -533,6 +534,7 @@ report::FinishedRun mesh_and_keep(const io::LabelVolume& opened, const MeshJob& 
 }  // namespace
 
 report::FinishedRun mesh(const io::LabelVolume& opened, const MeshJob& job, io::MeshSink& sink) {
+  const io::WaitStop waits(&job.stop);
   try {
     return mesh_and_keep(opened, job, sink);
   } catch (const DamagedWork& damage) {

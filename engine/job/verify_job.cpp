@@ -15,6 +15,7 @@
 #include "io/file/text_numbers.h"
 #include "io/labels/label_table.h"
 #include "io/mesh/merged_vertices.h"
+#include "io/remote/wait_stop.h"
 #include "io/volume/volume_readers.h"
 #include "kernels/core/lattice.h"
 
@@ -160,6 +161,7 @@ report::Bounds bounds_of(const AskedBounds& asked, const io::MeshRecord& record,
 }  // namespace
 
 report::Verdict verify(const VerifyJob& job, const std::function<void(io::MeshSink&)>& deliver) {
+  const io::WaitStop waits(&job.between);
   io::check_unpacking(job.volume, {.memory = job.memory, .shares = 2});
   const io::SpeckLimits limits = io::SpeckLimits::of_budget(job.memory);
   SharedReads shared(job.volume, job.memory - limits.memory);

@@ -198,8 +198,9 @@ void add_volume(py::module_& module) {
                         .object = object,
                         .cache = cache};
         if (crop) file.crop = Box{crop->first, crop->second};
-        const WithoutLock no_gil;
-        return HeldVolume{Volume::open(file), nullptr};
+        return watched_run(py::none(), [&](const Hooks& hooks) {
+          return HeldVolume{Volume::open(file, hooks), nullptr};
+        });
       });
 }
 

@@ -14,6 +14,8 @@
 
 #include <algorithm>
 
+#include "io/remote/wait_stop.h"
+
 namespace mw::engine {
 namespace {
 
@@ -22,7 +24,8 @@ constexpr std::size_t kStackBytes = std::size_t{4} << 20U;
 
 }  // namespace
 
-/// A thread that takes part in the arena's work until this is destroyed.
+/// A thread that takes part in the arena's work until this is destroyed.  Its waits for servers end
+/// as those of the thread that made it, which outlives it.
 class Crew::Helper {
  public:
   explicit Helper(oneapi::tbb::task_arena& arena) : arena_(arena), leave_(group_.defer([] {})) {}
@@ -46,6 +49,7 @@ class Crew::Helper {
  private:
   static void* help(void* self) {
     auto& helper = *static_cast<Helper*>(self);
+    const io::WaitStop alike(helper.stop_);
     try {
       helper.arena_.execute([&] { helper.group_.wait(); });
     } catch (...) {
@@ -55,6 +59,7 @@ class Crew::Helper {
   }
 
   oneapi::tbb::task_arena& arena_;
+  const io::WaitStop::Stop* stop_ = io::WaitStop::current();
   oneapi::tbb::task_group group_;
   oneapi::tbb::task_handle leave_;  ///< while it is there, the group has a task to wait for
   pthread_t thread_{};

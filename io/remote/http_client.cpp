@@ -21,6 +21,7 @@
 #include "io/file/text_numbers.h"
 #include "io/remote/address.h"
 #include "io/remote/http_headers.h"
+#include "io/remote/wait_stop.h"
 
 namespace mw::io {
 /// The result of an attempt.
@@ -48,6 +49,9 @@ constexpr long kNotFound = 404;
 constexpr long kRangeBeyondEnd = 416;
 /// The most bytes that are read of an error's body before the connection is closed.
 constexpr std::uint64_t kMaxErrorBody = 64U << 10U;
+/// The most bytes of an attempt's headers and trailers.  The library keeps them all, and has a
+/// bound of its own for headers alone.
+constexpr std::uint64_t kMaxHeaders = 256U << 10U;
 /// The most bytes that are read up to the end of a part where the server sends whole files only.
 constexpr std::uint64_t kMaxUnasked = 64ULL << 20U;
 constexpr const char* kTryLater = "try again later; a run that was saved goes on with --resume";
@@ -162,14 +166,15 @@ struct HttpClient::Exchange {
   std::span<std::byte> out{};
 
   HttpHeaders headers{};
-  std::uint64_t received = 0;  ///< of the body
-  std::uint64_t taken = 0;     ///< of a part
+  std::uint64_t header_bytes = 0;  ///< trailers count, too
+  std::uint64_t received = 0;      ///< of the body
+  std::uint64_t taken = 0;         ///< of a part
   bool is_too_large = false;
   bool is_enough = false;                     ///< the rest of the body is not wanted
   bool is_ended = false;                      ///< the body came to its end
   const char* lie = nullptr;                  ///< what is wrong with the answer
   bool is_lie_of_all = false;                 ///< all answers of this server are like that
-  std::exception_ptr thrown{};                ///< what the sink threw
+  std::exception_ptr thrown{};                ///< what the sink or WaitStop threw
   std::array<char, CURL_ERROR_SIZE> words{};  ///< what the library says about an error
   std::chrono::seconds wanted_wait{0};        ///< what the server asks for
 
@@ -186,6 +191,9 @@ struct HttpClient::Exchange {
  private:
   static std::size_t on_body(char* bytes, std::size_t one, std::size_t count,
                              void* target) noexcept;
+  static std::size_t on_header(char* bytes, std::size_t one, std::size_t count,
+                               void* target) noexcept;
+  static int on_progress(void* target, curl_off_t, curl_off_t, curl_off_t, curl_off_t) noexcept;
   [[nodiscard]] CURLcode transfer(CURL* curl, const std::string& authorization);
   void begin();
   [[nodiscard]] bool take(std::span<const std::byte> bytes);
@@ -200,7 +208,7 @@ struct HttpClient::Exchange {
 
 void HttpClient::Exchange::begin() {
   headers = {};
-  received = taken = 0;
+  header_bytes = received = taken = 0;
   is_too_large = is_enough = is_ended = is_lie_of_all = false;
   lie = nullptr;
   words[0] = '\0';
@@ -376,19 +384,35 @@ HttpClient::Verdict HttpClient::Exchange::judge_part() const {
                         kBrokenServer);
 }
 
-namespace {
-
 /// libcurl calls this for each header; nothing that C++ throws may pass through it.
-std::size_t on_header(char* bytes, std::size_t /*one*/, std::size_t count, void* target) noexcept {
+std::size_t HttpClient::Exchange::on_header(char* bytes, std::size_t /*one*/, std::size_t count,
+                                            void* target) noexcept {
+  auto& exchange = *static_cast<Exchange*>(target);
+  exchange.header_bytes += count;
+  if (exchange.header_bytes > kMaxHeaders) {
+    exchange.lie = "the answer has more than 256 KiB of headers and trailers";
+    exchange.is_lie_of_all = true;
+    return 0;
+  }
   try {
-    static_cast<HttpHeaders*>(target)->add({bytes, count});
+    exchange.headers.add({bytes, count});
     return count;
   } catch (...) {
     return 0;
   }
 }
 
-}  // namespace
+/// libcurl calls this about once a second, also while the server is silent.
+int HttpClient::Exchange::on_progress(void* target, curl_off_t /*to_come*/, curl_off_t /*came*/,
+                                      curl_off_t /*to_send*/, curl_off_t /*sent*/) noexcept {
+  try {
+    WaitStop::ask();
+    return 0;
+  } catch (...) {
+    static_cast<Exchange*>(target)->thrown = std::current_exception();
+    return 1;
+  }
+}
 
 HttpClient::HttpClient(const HttpLimits& limits)
     : limits_(limits), authorization_(authorization_header()) {
@@ -442,7 +466,7 @@ std::size_t HttpClient::Exchange::on_body(char* bytes, std::size_t /*one*/, std:
   return static_cast<Exchange*>(target)->take(arrived) ? count : 0;
 }
 
-/// Makes one attempt, through all redirects.  ERRORS: what the sink throws.
+/// Makes one attempt, through all redirects.  ERRORS: what the sink throws, and WaitStop.
 HttpClient::Verdict HttpClient::Exchange::perform(CURL* curl, const HttpLimits& limits,
                                                   const std::string& authorization) {
   std::string at = address;
@@ -471,7 +495,10 @@ CURLcode HttpClient::Exchange::transfer(CURL* curl, const std::string& authoriza
   if (is_part()) curl_easy_setopt(curl, CURLOPT_RANGE, range.c_str());
   curl_easy_setopt(curl, CURLOPT_ERRORBUFFER, words.data());
   curl_easy_setopt(curl, CURLOPT_HEADERFUNCTION, &on_header);
-  curl_easy_setopt(curl, CURLOPT_HEADERDATA, &headers);
+  curl_easy_setopt(curl, CURLOPT_HEADERDATA, this);
+  curl_easy_setopt(curl, CURLOPT_NOPROGRESS, 0L);
+  curl_easy_setopt(curl, CURLOPT_XFERINFOFUNCTION, &on_progress);
+  curl_easy_setopt(curl, CURLOPT_XFERINFODATA, this);
   curl_easy_setopt(curl, CURLOPT_WRITEFUNCTION, &on_body);
   curl_easy_setopt(curl, CURLOPT_WRITEDATA, this);
   const CURLcode code = curl_easy_perform(curl);
@@ -490,6 +517,19 @@ HttpClient::Verdict HttpClient::attempt(Exchange& exchange) const {
   return exchange.perform(loan.handle(), limits_, authorization_);
 }
 
+namespace {
+
+/// ERRORS: what WaitStop throws meanwhile.
+void wait_for(std::chrono::milliseconds left) {
+  constexpr std::chrono::milliseconds kSlice{100};
+  for (; left.count() > 0; left -= kSlice) {
+    WaitStop::ask();
+    std::this_thread::sleep_for(std::min(left, kSlice));
+  }
+}
+
+}  // namespace
+
 void HttpClient::run(Exchange& exchange) const {
   if (!authorization_.empty() && is_open_to_all(exchange.address)) {
     fail_usage(exchange.address, ": ", kAuthorizationVariable,
@@ -506,7 +546,7 @@ void HttpClient::run(Exchange& exchange) const {
                   text(exchange.address, ": ", verdict.reason, tried, "; ", verdict.way_out));
     }
     const std::chrono::milliseconds asked = std::min(exchange.wanted_wait, limits_.max_wait);
-    std::this_thread::sleep_for(std::max(wait, asked));
+    wait_for(std::max(wait, asked));
     wait = std::min<std::chrono::milliseconds>(2 * wait, limits_.max_wait);
   }
 }

@@ -57,8 +57,8 @@ struct RemotePart {
 /// authorization is that of kAuthorizationVariable, else of .netrc; it goes to the host of the
 /// address only, not to where that redirects, and is in no message. ERRORS (all members):
 /// mw::Error(kInput), naming the address, when the server refuses, redirects without end, or sends
-/// what was not asked for; kResource when it does not answer. Thread safety: any; more threads than
-/// connections wait for each other.
+/// what was not asked for; kResource when it does not answer; what the thread's WaitStop throws
+/// (io/remote/wait_stop.h). Thread safety: any; more threads than connections wait for each other.
 class HttpClient {
  public:
   /// ERRORS: mw::Error(kUsage) when kAuthorizationVariable has more than one line.

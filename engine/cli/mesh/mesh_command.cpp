@@ -24,6 +24,7 @@
 #include "io/mesh/grouped/grouped_sink.h"
 #include "io/mesh/mesh_sink.h"
 #include "io/mesh/open_mesh.h"
+#include "io/remote/wait_stop.h"
 #include "io/volume/open_volume.h"
 
 namespace mw::cli {
@@ -289,6 +290,8 @@ std::string giver_of(const std::string& flag, const OptionSet& options) {
 
 int mesh(const MeshRequest& request, const OptionSet& options) {
   watch_interrupts();
+  const io::WaitStop::Stop stop = stop_if_interrupted;
+  const io::WaitStop waits(&stop);
   if (runs_are_divided()) watch_save_requests();
   // A certificate that cannot be made is refused before any file is opened.
   const bool is_certified = engine::plan_certificate(request.job).why_not.empty();

@@ -7,6 +7,7 @@ import os
 import shutil
 import signal
 import subprocess
+import threading
 import time
 import unittest
 
@@ -256,6 +257,40 @@ class Remote(unittest.TestCase):
         local = json.loads(run("info", "stores/precomputed", "--json"))
         self.assertEqual(local["scales"], facts["scales"])
         self.assertEqual(local["labels"]["count"], len(np.unique(self.labels)))
+
+    def test_a_signal_ends_a_wait_for_a_silent_server(self):
+        """For metadata, for labels in the middle of a run, and between two attempts."""
+        asked = threading.Event()
+
+        def silent(_):
+            asked.set()
+            time.sleep(60)
+
+        def busy(handler):
+            asked.set()
+            handler.answer(503, Retry_After="60")
+
+        chunk = next(f"{path.removeprefix('stores')}/{name}"
+                     for path, _, names in os.walk("stores/precomputed") for name in sorted(names)
+                     if name != "info")
+        with Server("stores") as server:
+            for number, path, handler in ((signal.SIGINT, "/precomputed/info", silent),
+                                          (signal.SIGTERM, chunk, silent),
+                                          (signal.SIGINT, "/precomputed/info", busy)):
+                with self.subTest(path, handler=handler.__name__):
+                    server.handlers = {path: handler}
+                    asked.clear()
+                    command = [PROGRAM, "mesh", f"{server.address}/precomputed", "-o", "stopped.vtu"]
+                    process = subprocess.Popen(command, stdout=subprocess.DEVNULL,
+                                               stderr=subprocess.PIPE, text=True)
+                    self.addCleanup(process.kill)
+                    self.assertTrue(asked.wait(20))
+                    process.send_signal(number)
+                    begin = time.monotonic()
+                    _, said = process.communicate(timeout=100)
+                    self.assertLess(time.monotonic() - begin, 20)
+                    self.assertEqual(process.returncode, 130, said)
+                    self.assertIn("interrupted; nothing was written", said)
 
     def test_no_server(self):
         with Server("stores") as server:

@@ -15,6 +15,7 @@ import pathlib
 import pickle
 import shutil
 import signal
+import socket
 import subprocess
 import sys
 import tempfile
@@ -913,6 +914,26 @@ class Runs(InFolder):
         self.assertEqual(child.wait(), 0)
         self.assertIn("stopped", rest)
         self.assertLess(time.monotonic() - start, 60)
+
+    def test_ctrl_c_while_a_server_is_silent(self):
+        with socket.create_server(("127.0.0.1", 0)) as server:
+            server.settimeout(60)
+            address = f"http://127.0.0.1:{server.getsockname()[1]}/p"
+            for call in (f"mwmesh.mesh('{address}')", f"mwmesh.mesh(v, sample='hu={address}')"):
+                with self.subTest(call):
+                    script = ("import mwmesh\n"
+                              "v = mwmesh.synth('voronoi', (9, 9, 9), 3, 1)\n"
+                              "try:\n"
+                              f"  {call}\n"
+                              "except KeyboardInterrupt:\n"
+                              "  print('stopped')\n")
+                    child = subprocess.Popen([sys.executable, "-c", script], cwd=self.folder,
+                                             stdout=subprocess.PIPE, text=True)
+                    with server.accept()[0]:
+                        child.send_signal(signal.SIGINT)
+                        start = time.monotonic()
+                        self.assertEqual(child.communicate(timeout=100)[0], "stopped\n")
+                        self.assertLess(time.monotonic() - start, 20)
 
     def test_daemon_threads_end_with_the_interpreter(self):
         # A thread that asks for the lock too late is ended by force, which aborts the program.

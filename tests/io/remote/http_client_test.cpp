@@ -6,8 +6,10 @@
 #include <gtest/gtest.h>
 
 #include <array>
+#include <chrono>
 
 #include "io/file/errors.h"
+#include "io/remote/wait_stop.h"
 #include "tests/expect_error.h"
 #include "tests/io/remote/one_answer.h"
 
@@ -90,6 +92,41 @@ TEST(HttpClientTest, OtherStatusesWithLongBodiesAreNamed) {
     expect_error(ErrorKind::kInput, {text("status ", status)},
                  [&] { (void)client.get(server.address(), kMax, body); });
   }
+}
+
+TEST(HttpClientTest, TrailersWithoutEndAreGivenUp) {
+  std::string trailers;
+  while (trailers.size() < 300'000) trailers += "X: y\r\n";
+  const HttpClient client(quick());
+  for (const std::string& more : {std::string("X: y\r\n"), trailers}) {
+    const OneAnswer server(
+        "HTTP/1.1 200 OK\r\nTransfer-Encoding: chunked\r\n\r\n4\r\nbody\r\n0\r\n" + more + "\r\n");
+    TextSink body;
+    std::array<std::byte, 4> out{};
+    const auto get = [&] { return client.get(server.address(), kMax, body); };
+    if (more != trailers) {
+      EXPECT_EQ(get(), Presence::kThere);
+      EXPECT_TRUE(client.get_part(server.address(), 0, out));
+      continue;
+    }
+    const std::vector<std::string> pieces{server.address(), "256 KiB of headers", "3 attempts"};
+    expect_error(ErrorKind::kInput, pieces, [&] { (void)get(); });
+    expect_error(ErrorKind::kInput, pieces,
+                 [&] { (void)client.get_part(server.address(), 0, out); });
+  }
+}
+
+TEST(HttpClientTest, AWaitForTheNextAttemptEndsWhenItIsAskedTo) {
+  const HttpClient client(HttpLimits{.attempts = 2});
+  const OneAnswer server(answer_of(503, "", "Retry-After: 60\r\n"));
+  const WaitStop::Stop stop = [&] {
+    if (server.requests() > 0) throw std::string("stopped");
+  };
+  const WaitStop waits(&stop);
+  TextSink body;
+  const auto begin = std::chrono::steady_clock::now();
+  EXPECT_THROW((void)client.get(server.address(), kMax, body), std::string);
+  EXPECT_LT(std::chrono::steady_clock::now() - begin, std::chrono::seconds(30));
 }
 
 }  // namespace
