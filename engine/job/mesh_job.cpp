@@ -145,8 +145,9 @@ class KeptInput {
   void finish(const io::InputSteps& steps, const MeshSize& size) {
     if (folder_ == nullptr) return;
     const std::uint64_t numbering = counted_.info().numbering;
-    append_note(*after_,
-                io::text(size.vertices, " ", size.tets, " ", numbering, "\n") + text_of(steps));
+    append_note(*after_, io::text(size.vertices, " ", size.tets, " ", numbering, " ",
+                                  folder_->number(), "\n") +
+                             text_of(steps));
     after_->commit();
     folder_->end_change();
   }
@@ -156,6 +157,7 @@ class KeptInput {
   struct Note {
     std::optional<MeshSize> size;
     std::uint64_t numbering = 0;
+    std::uint64_t folder = 0;  ///< KeepFolder::number()
     io::InputSteps steps;
   };
 
@@ -163,7 +165,7 @@ class KeptInput {
     Note out;
     MeshSize size;
     std::istringstream text(note);
-    if (!(text >> size.vertices >> size.tets >> out.numbering).fail()) out.size = size;
+    if (text >> size.vertices >> size.tets >> out.numbering >> out.folder) out.size = size;
     std::string rest;
     std::getline(text, rest);  // the end of the first line
     std::getline(text, rest, '\0');
@@ -179,6 +181,9 @@ class KeptInput {
     before_ = KeptLabels::open(file, counted_.info().shape);
     if (before_) {
       note_ = parse_note(before_->note());
+      if (note_.folder != folder_->number()) {
+        throw DamagedWork(kLabelsFile, "it is of another folder");
+      }
       is_renumbered_ = note_.numbering != counted_.info().numbering;
       if (options.say && is_renumbered_ && !options.changed.empty()) {
         options.say(folder +

@@ -10,6 +10,7 @@
 #include <array>
 #include <cerrno>
 #include <numeric>
+#include <random>
 #include <sstream>
 
 #include "engine/store/journal/folder_lock.h"
@@ -24,27 +25,43 @@ namespace {
 
 namespace fs = std::filesystem;
 
+constexpr const char* kNumberFile = "number.txt";
 constexpr const char* kSettingsFile = "settings.txt";
 constexpr const char* kChangingFile = "changing";
 constexpr const char* kPartPrefix = "part-";
-constexpr std::array<const char*, 8> kFiles{kLockFile,    kSettingsFile, kVersionsFile,
-                                            kWindowsFile, kLabelsFile,   kChosenFile,
-                                            kLimitFile,   kChangingFile};
+constexpr std::array<const char*, 9> kFiles{kLockFile,     kNumberFile,  kSettingsFile,
+                                            kVersionsFile, kWindowsFile, kLabelsFile,
+                                            kChosenFile,   kLimitFile,   kChangingFile};
 
 constexpr const char* kSpilled = ".blocks.partial-spilled";
 
 /// Beyond this number of boxes the one around them takes their place, so that the file stays small.
 constexpr std::size_t kMostBoxes = 1 << 14;
 
-/// Returns the boxes of a file, none if it does not exist.  ERRORS: DamagedWork.
-std::vector<Box3> boxes_in(const fs::path& path) {
+}  // namespace
+
+/// Returns the boxes of the file, none if it does not exist.  ERRORS: DamagedWork.
+std::vector<Box3> KeepFolder::incomplete() const {
+  const fs::path path = path_ / kChangingFile;
   std::vector<Box3> out;
   if (!fs::exists(path)) return out;
   std::istringstream text(settings_in(path));
+  std::uint64_t number = 0;
+  if (text >> number && number != number_) {
+    throw DamagedWork(kChangingFile, "it is of another folder");
+  }
   for (Box3 b; text >> b.lo.x >> b.lo.y >> b.lo.z >> b.hi.x >> b.hi.y >> b.hi.z;) out.push_back(b);
   if (out.empty() || !text.eof()) throw DamagedWork(kChangingFile, "it does not list boxes");
   return out;
 }
+
+std::uint64_t KeepFolder::number_of(const fs::path& folder) {
+  std::uint64_t out = 0;
+  std::istringstream(settings_in(folder / kNumberFile)) >> out;
+  return out;
+}
+
+namespace {
 
 bool is_kept_file(std::string_view name) {
   return std::find(kFiles.begin(), kFiles.end(), name) != kFiles.end();
@@ -106,6 +123,12 @@ KeepFolder::KeepFolder(const fs::path& path, KeepUse use) : path_(whole(path)) {
     refuse(path_, "holds nothing that a run has kept; begin it by --keep");
   }
   stays_ = holds_something;
+  number_ = number_of(path_);
+  if (holds_something || number_ != 0) return;
+  std::random_device system;
+  const std::uint64_t high = system();
+  number_ = high << 32U | system();
+  put_text(kNumberFile, io::text(number_, "\n"));
 }
 
 /// A run that was refused leaves nothing in the way of the next one.
@@ -200,7 +223,7 @@ void KeepFolder::put_text(const char* name, const std::string& text) const {
 
 std::vector<Box3> KeepFolder::with_incomplete(const std::vector<Box3>& boxes) const {
   std::vector<Box3> all = boxes;
-  const std::vector<Box3> before = boxes_in(path_ / kChangingFile);
+  const std::vector<Box3> before = incomplete();
   all.insert(all.end(), before.begin(), before.end());
   if (all.size() > kMostBoxes) all = {std::reduce(all.begin(), all.end(), all[0], hull)};
   return all;
@@ -208,6 +231,7 @@ std::vector<Box3> KeepFolder::with_incomplete(const std::vector<Box3>& boxes) co
 
 void KeepFolder::begin_change(const std::vector<Box3>& boxes) const {
   io::AtomicFile file(path_ / kChangingFile);
+  file.append(io::text(number_, "\n"));
   for (const Box3& b : with_incomplete(boxes)) {
     file.append(
         io::text(b.lo.x, " ", b.lo.y, " ", b.lo.z, " ", b.hi.x, " ", b.hi.y, " ", b.hi.z, "\n"));

@@ -3,6 +3,7 @@
 // The folder in which a run leaves what later runs may use: who works in it, for which settings.
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
 #include <optional>
 #include <string>
@@ -16,6 +17,7 @@ namespace mw::engine {
 
 /// A folder with
 ///     lock          held by the process that works here (folder_lock.h)
+///     number.txt    number(), which `windows`, `labels` and `changing` hold, too
 ///     settings.txt  what the facts here depend on beside the labels: lines "name = value"
 ///     versions      bytes of blocks (window_pack.h), where the records say
 ///     windows       what went into windows and came out (RecordLog, window_records.h)
@@ -41,6 +43,12 @@ class KeepFolder : public WorkFiles {
 
   /// Says that a later run can use what is here.
   void stay() { stays_ = true; }
+
+  /// Returns what tells this folder from others: the system drew it when a run first began here. It
+  /// decides on no result.
+  [[nodiscard]] std::uint64_t number() const { return number_; }
+  /// Returns that of a folder; 0 where there is none.
+  [[nodiscard]] static std::uint64_t number_of(const std::filesystem::path& folder);
 
   /// Saves the settings that the facts here depend on, or checks that they are the saved ones.
   /// ERRORS: mw::Error(kUsage) when they are not; each difference is named.
@@ -72,11 +80,13 @@ class KeepFolder : public WorkFiles {
   void end_change() const;
 
  private:
+  [[nodiscard]] std::vector<Box3> incomplete() const;
   void make(KeepUse use);
   void lock();
   void remove_files() const;
 
   std::filesystem::path path_;
+  std::uint64_t number_ = 0;
   std::optional<std::uint64_t> coming_labels_;
   io::FileDescriptor lock_;
   bool is_made_ = false;  ///< there was no folder before
@@ -85,7 +95,7 @@ class KeepFolder : public WorkFiles {
 
 /// The version of what is in the files.  It is one of the settings, so a folder of another version
 /// is refused.
-inline constexpr int kFolderFormat = 4;
+inline constexpr int kFolderFormat = 5;
 
 /// Returns where a process of a run keeps what it does: in `folder` itself if it is rank 0.
 [[nodiscard]] std::filesystem::path kept_part(const std::filesystem::path& folder, int rank);

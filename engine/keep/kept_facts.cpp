@@ -15,9 +15,13 @@
 namespace mw::engine {
 namespace {
 
-constexpr LogKind kWindowLog{.magic = 0x0200474F4C574D2EU,  // ".MWLOG", version 0 2
-                             .name = "records of windows",
-                             .expected = "they do not begin as a log of version 2"};
+/// The log of a folder begins with a number of its own (KeepFolder::number()).
+LogKind window_log(std::uint64_t folder) {
+  return {.magic = 0x0200474F4C574D2EU + folder,  // ".MWLOG", version 0 2
+          .name = "records of windows",
+          .expected = "they do not begin as a log of version 2 of this folder"};
+}
+
 /// Gaps of more than one part in kMostGaps of the file are filled when a run ends.
 constexpr std::uint64_t kMostGaps = 8;
 constexpr const char* kCompactedFile = ".windows.partial-compacted";
@@ -53,7 +57,7 @@ KeptFacts::KeptFacts(KeepFolder& folder, const RunLayout& layout, const GroupCom
       bytes_(folder.open(kVersionsFile)),
       record_at_(layout.windows(), 0),
       dropped_(layout.windows(), false),
-      log_(std::make_unique<RecordLog>(folder.open(kWindowsFile), kWindowLog)) {
+      log_(std::make_unique<RecordLog>(folder.open(kWindowsFile), window_log(folder.number()))) {
   replay();
 }
 
@@ -63,7 +67,7 @@ WindowRecord KeptFacts::checked(std::span<const std::byte> bytes) const {
     if (record.window >= layout_.windows()) throw BadBytes{"there is no such window"};
     return record;
   } catch (const BadBytes& bad) {
-    throw DamagedWork(kWindowLog.name, bad.reason);
+    throw DamagedWork(window_log(0).name, bad.reason);
   }
 }
 
@@ -175,7 +179,7 @@ std::vector<std::uint64_t> KeptFacts::take_over_parts() {
 void KeptFacts::take_over(const std::filesystem::path& part, std::vector<std::uint64_t>& by_march) {
   const std::filesystem::path records = part / kWindowsFile;
   if (std::filesystem::exists(records)) {
-    RecordLog log(std::make_unique<MappedFile>(records), kWindowLog);
+    RecordLog log(std::make_unique<MappedFile>(records), window_log(KeepFolder::number_of(part)));
     SegmentFile from(std::make_unique<MappedFile>(part / kVersionsFile));
     log.replay([&](std::uint64_t /*at*/, std::span<const std::byte> bytes) {
       WindowRecord record = checked(bytes);
@@ -275,7 +279,8 @@ void KeptFacts::compact_log() {
   if (records_ > live_) {
     const std::filesystem::path file = folder_.path() / kCompactedFile;
     std::filesystem::remove(file);
-    auto compacted = std::make_unique<RecordLog>(folder_.open(kCompactedFile), kWindowLog);
+    auto compacted =
+        std::make_unique<RecordLog>(folder_.open(kCompactedFile), window_log(folder_.number()));
     for (std::uint64_t& at : record_at_) {
       if (at == 0) continue;
       log_->read(at - 1,

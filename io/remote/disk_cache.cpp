@@ -26,7 +26,7 @@ namespace {
 namespace fs = std::filesystem;
 using Seconds = std::chrono::seconds;
 
-constexpr std::uint64_t kCacheMagic = 0x314548434143574DU;  // "MWCACHE1"
+constexpr std::uint64_t kCacheMagic = 0x324548434143574DU;  // "MWCACHE2"
 constexpr std::size_t kPieceBytes = 1U << 20U;
 /// A digest has 32 digits; the first ones name a folder, the others a file in it.
 constexpr std::size_t kFolderDigits = 2;
@@ -46,7 +46,7 @@ struct Tail {
   std::uint64_t bytes = 0;
   std::uint64_t version_bytes = 0;
   std::uint64_t file_bytes = 0;
-  ContentDigest digest;  ///< of all that is before the tail, and of the three counts
+  ContentDigest digest;  ///< of the key, all that is before the tail, and the three counts
 
   using Bytes = std::array<std::byte, 48>;
 
@@ -77,8 +77,9 @@ void each_piece(const ByteSource& source, std::uint64_t size, Use use) {
   }
 }
 
-ContentDigest digest_of(const ByteSource& before_tail, const Tail& tail) {
+ContentDigest digest_of(const ContentDigest& key, const ByteSource& before_tail, const Tail& tail) {
   DigestMaker maker;
+  maker.add(key);
   each_piece(before_tail, tail.bytes + tail.version_bytes,
              [&](std::uint64_t, std::span<const std::byte> piece) { maker.add(piece); });
   for (const std::uint64_t word : {tail.bytes, tail.version_bytes, tail.file_bytes}) {
@@ -87,8 +88,9 @@ ContentDigest digest_of(const ByteSource& before_tail, const Tail& tail) {
   return maker.finish();
 }
 
-/// Returns the answer in a file; nothing when the file is not whole.
-std::optional<CachedAnswer> read_answer(const fs::path& path, const std::string& name) {
+/// Returns the answer in a file; nothing when the file is not whole, or of another key.
+std::optional<CachedAnswer> read_answer(const fs::path& path, const ContentDigest& key,
+                                        const std::string& name) {
   auto file = std::make_shared<const FileSource>(path);
   Tail::Bytes stored;
   if (file->size() < stored.size()) return std::nullopt;
@@ -98,7 +100,7 @@ std::optional<CachedAnswer> read_answer(const fs::path& path, const std::string&
   if (tail.magic != kCacheMagic || saturating_sum(tail.bytes, tail.version_bytes) != before) {
     return std::nullopt;
   }
-  if (digest_of(*file, tail) != tail.digest) return std::nullopt;
+  if (digest_of(key, *file, tail) != tail.digest) return std::nullopt;
   CachedAnswer out{.file_bytes = tail.file_bytes, .version = {}};
   out.version.resize(tail.version_bytes);
   file->read_at(tail.bytes, std::as_writable_bytes(std::span(out.version)));
@@ -107,12 +109,13 @@ std::optional<CachedAnswer> read_answer(const fs::path& path, const std::string&
 }
 
 /// Writes an answer to a file; false when the disk does not take it.
-bool write_answer(int file, const CachedAnswer& answer) {
+bool write_answer(int file, const ContentDigest& key, const CachedAnswer& answer) {
   Tail tail{.bytes = answer.bytes->size(),
             .version_bytes = answer.version.size(),
             .file_bytes = answer.file_bytes,
             .digest = {}};
   DigestMaker maker;
+  maker.add(key);
   std::uint64_t end = 0;
   bool good = true;
   const auto append = [&](std::span<const std::byte> bytes) {
@@ -217,7 +220,7 @@ std::optional<CachedAnswer> DiskCache::find(const ContentDigest& key, const std:
   std::error_code error;
   if (!fs::is_regular_file(path, error)) return std::nullopt;
   try {
-    std::optional<CachedAnswer> out = read_answer(path, name);
+    std::optional<CachedAnswer> out = read_answer(path, key, name);
     if (out) {
       note_use(path);
     } else {
@@ -239,7 +242,7 @@ void DiskCache::keep(const ContentDigest& key, const CachedAnswer& answer) {
     unfinished += text(".", static_cast<std::int64_t>(::getpid()), "-", ++written_, kUnfinished);
   }
   std::error_code error;
-  bool is_kept = write(unfinished, answer);
+  bool is_kept = write(unfinished, key, answer);
   if (is_kept) fs::rename(unfinished, path_of(key), error);
   is_kept = is_kept && !error;
   if (!is_kept) fs::remove(unfinished, error);
@@ -248,12 +251,12 @@ void DiskCache::keep(const ContentDigest& key, const CachedAnswer& answer) {
   if (is_kept) count(bytes + sizeof(Tail::Bytes) + answer.version.size());
 }
 
-bool DiskCache::write(const fs::path& path, const CachedAnswer& answer) {
+bool DiskCache::write(const fs::path& path, const ContentDigest& key, const CachedAnswer& answer) {
   std::error_code error;
   fs::create_directory(path.parent_path(), error);
   const FileDescriptor file(
       ::open(path.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, S_IRUSR | S_IWUSR));
-  return file.valid() && write_answer(file.get(), answer);
+  return file.valid() && write_answer(file.get(), key, answer);
 }
 
 /// REQUIRES: the caller has the lock.

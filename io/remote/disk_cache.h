@@ -28,10 +28,10 @@ struct CachedAnswer {
 };
 
 /// Keeps each answer in a file of its own, named by the digest of its key.  A file gets its name
-/// when it is complete and has a digest of its content, so that what a kill, a full disk or a
-/// broken one leaves is removed and never taken for an answer.  When the files have more bytes than
-/// they may, those that were not used for the longest time are removed.  An answer that is large
-/// against the folder, or that cannot be written, is not kept.
+/// when it is complete and has a digest of its key and its content, so that what a kill, a full
+/// disk or a broken one leaves, and what has another's name, is removed and never taken for an
+/// answer. When the files have more bytes than they may, those that were not used for the longest time are
+/// removed.  An answer that is large against the folder, or that cannot be written, is not kept.
 /// Thread safety: any; several processes may share a folder.
 class DiskCache {
  public:
@@ -45,7 +45,8 @@ class DiskCache {
 
  private:
   [[nodiscard]] std::filesystem::path path_of(const ContentDigest& key) const;
-  [[nodiscard]] bool write(const std::filesystem::path& path, const CachedAnswer& answer);
+  [[nodiscard]] bool write(const std::filesystem::path& path, const ContentDigest& key,
+                           const CachedAnswer& answer);
   void count(std::uint64_t bytes);
   void make_room();
 

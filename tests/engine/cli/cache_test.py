@@ -2,6 +2,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """What servers sent is kept for later runs, and never taken for something else."""
 import os
+import pathlib
 import random
 import shutil
 import signal
@@ -98,6 +99,18 @@ class Cache(unittest.TestCase):
                         content += b"more"
                     with open(file, "wb") as target:
                         target.write(content)
+                self.assertGreater(len(self.check(server, name)), 0)
+                self.assertEqual(self.check(server, name), set())
+
+    def test_exchanged_files_are_fetched_again(self):
+        for name in remote_stores.KINDS:
+            with self.subTest(name), Server("stores") as server:
+                shutil.rmtree("kept", ignore_errors=True)
+                self.check(server, name)
+                files = sorted(files_of("kept"))
+                contents = [pathlib.Path(file).read_bytes() for file in files]
+                for file, content in zip(files, contents[1:] + contents[:1], strict=True):
+                    pathlib.Path(file).write_bytes(content)
                 self.assertGreater(len(self.check(server, name)), 0)
                 self.assertEqual(self.check(server, name), set())
 

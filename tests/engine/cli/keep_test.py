@@ -2,11 +2,13 @@
 # SPDX-FileCopyrightText: The mwmesh authors
 # SPDX-License-Identifier: Apache-2.0
 """Meshing again after edits: the same bytes, what is read and skipped, kills in between, refusals."""
+import itertools
 import json
 import os
 import pathlib
 import random
 import re
+import shutil
 import signal
 import subprocess
 import sys
@@ -372,6 +374,34 @@ class Keep(unittest.TestCase):
                 self.refused(3, f"or {name} is damaged: delete that folder", "mesh", "v.npy", "-o",
                              "m.vtu", *SETTINGS, "--from", name, "--changed", "0,0,0,1,1,1",
                              "--delta", "d.json")
+
+    def test_files_of_two_folders_mixed(self):
+        """What is of another volume is refused, or makes no difference."""
+        self.mesh("--keep", "a")
+        first = self.volume.copy()
+        self.volume[10:14, 10:14, 10:14] = 5
+        self.save()
+        self.mesh("--keep", "b")
+        self.volume = first
+        self.volume[3, 3, 3] = 99
+        self.save()
+        names = ("number.txt", "windows", "labels", "versions")
+        for chosen in itertools.product((False, True), repeat=len(names)):
+            mixed = list(itertools.compress(names, chosen))
+            with self.subTest(mixed):
+                shutil.rmtree("k", ignore_errors=True)
+                shutil.copytree("a", "k")
+                for name in mixed:
+                    shutil.copy(f"b/{name}", f"k/{name}")
+                done = call("mesh", "v.npy", "-o", "m.vtu", *SETTINGS, "--from", "k", "--changed",
+                            "3,3,3,4,4,4")
+                if len(set(chosen[:3])) > 1:
+                    self.assertEqual(done.returncode, 3, done.stderr)
+                if done.returncode == 0:
+                    self.expect_fresh()
+                else:
+                    self.assertEqual(done.returncode, 3, done.stderr)
+                    self.assertIn("k is damaged: delete that folder", done.stderr)
 
     def save_mask(self, name, *boxes):
         """Writes a NRRD that is 1 in boxes (x0, y0, z0, x1, y1, z1)."""

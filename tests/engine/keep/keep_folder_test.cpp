@@ -59,6 +59,30 @@ TEST(KeepFolder, RefusesBoxesThatItCannotRead) {
   }
 }
 
+TEST(KeepFolder, HasANumberThatStaysAndIsNoOthers) {
+  const TempFolder temp;
+  std::vector<std::uint64_t> numbers;
+  for (const char* name : {"a", "b"}) {
+    const std::filesystem::path path = temp.path() / name;
+    {
+      KeepFolder kept(path, KeepUse::kBegin);
+      kept.settle("window = 8\n");
+      kept.begin_change({box_at(1)});
+      kept.stay();
+      numbers.push_back(kept.number());
+    }
+    const KeepFolder again(path, KeepUse::kUpdate);
+    EXPECT_EQ(again.number(), numbers.back());
+    EXPECT_NO_THROW(again.settle("window = 8\n"));
+    EXPECT_THROW(again.settle("window = 9\n"), Error);
+  }
+  EXPECT_NE(numbers[0], numbers[1]);
+  std::filesystem::copy_file(temp.path() / "a" / "changing", temp.path() / "b" / "changing",
+                             std::filesystem::copy_options::overwrite_existing);
+  const KeepFolder mixed(temp.path() / "b", KeepUse::kUpdate);
+  EXPECT_THROW((void)mixed.with_incomplete({}), DamagedWork);
+}
+
 TEST(KeepFolder, GoesWithARunThatKeptNothing) {
   const TempFolder temp;
   const std::filesystem::path path = temp.path() / "kept", own = temp.path() / "own";

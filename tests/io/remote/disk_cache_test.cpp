@@ -5,6 +5,7 @@
 
 #include <gtest/gtest.h>
 
+#include <filesystem>
 #include <random>
 #include <thread>
 #include <vector>
@@ -69,6 +70,28 @@ TEST(DiskCache, FindsWhatItKeptAndNothingElse) {
       if (number % 3 != 0) cache.keep(key_of(number), answer_of(number));
     }
   }
+}
+
+TEST(DiskCache, ExchangedFilesAreNotFound) {
+  const TempFolder folder;
+  DiskCache cache({folder.path()});
+  std::vector<std::filesystem::path> files;
+  for (std::uint64_t number = 0; number < 3; ++number)
+    cache.keep(key_of(number), answer_of(number));
+  for (const auto& entry : std::filesystem::recursive_directory_iterator(folder.path())) {
+    if (entry.is_regular_file()) files.push_back(entry.path());
+  }
+  ASSERT_EQ(files.size(), 3U);
+  const auto aside = folder.path() / "aside";
+  std::filesystem::rename(files[0], aside);
+  std::filesystem::rename(files[1], files[0]);
+  std::filesystem::rename(aside, files[1]);
+  int found = 0;
+  for (std::uint64_t number = 0; number < 3; ++number) found += finds(cache, number) ? 1 : 0;
+  EXPECT_EQ(found, 1);
+  for (std::uint64_t number = 0; number < 3; ++number)
+    cache.keep(key_of(number), answer_of(number));
+  for (std::uint64_t number = 0; number < 3; ++number) EXPECT_TRUE(finds(cache, number));
 }
 
 TEST(DiskCache, ThreadsAndProcessesShareAFolderThatIsTooSmall) {
