@@ -103,19 +103,23 @@ struct FreeUrl {
   void operator()(CURLU* url) const { curl_url_cleanup(url); }
 };
 
-/// Returns scheme, host and port of an address; empty when it is none.  The library that sends the
-/// requests takes it apart, as another reading of a strange address could name another host.
-std::string server_of(const std::string& address) {
+/// Returns scheme, host and port of an address, in lower case; the port is empty where the flag
+/// says so.  Returns nothing when it is none.  The library that sends the requests takes it apart,
+/// as another reading of a strange address could name another host.
+std::optional<std::array<std::string, 3>> server_of(const std::string& address, unsigned flag) {
   const std::unique_ptr<CURLU, FreeUrl> url(curl_url());
   if (!url || curl_url_set(url.get(), CURLUPART_URL, address.c_str(), 0) != CURLUE_OK) return {};
-  std::string out;
+  std::array<std::string, 3> out;
+  std::size_t at = 0;
   for (const CURLUPart part : {CURLUPART_SCHEME, CURLUPART_HOST, CURLUPART_PORT}) {
     char* found = nullptr;
-    if (curl_url_get(url.get(), part, &found, CURLU_DEFAULT_PORT) != CURLUE_OK) return {};
-    out += text(found, " ");
+    const CURLUcode code = curl_url_get(url.get(), part, &found, flag);
+    if (code != CURLUE_OK && code != CURLUE_NO_PORT) return {};
+    if (found != nullptr) out[at] = lower_case(found);
+    ++at;
     curl_free(found);
   }
-  return lower_case(out);
+  return out;
 }
 
 }  // namespace
@@ -184,8 +188,16 @@ std::optional<std::pair<std::string, std::string>> split_address(const std::stri
 }
 
 bool is_same_server(const std::string& a, const std::string& b) {
-  const std::string server = server_of(a);
-  return a == b || (!server.empty() && server == server_of(b));
+  const auto server = server_of(a, CURLU_DEFAULT_PORT);
+  return a == b || (server && server == server_of(b, CURLU_DEFAULT_PORT));
+}
+
+std::string origin_of(const std::string& address) {
+  const auto server = server_of(address, CURLU_NO_DEFAULT_PORT);
+  if (!server) return {};
+  const auto& [scheme, host, port] = *server;
+  if (scheme != "https" && scheme != "http") return {};
+  return text(scheme, "://", host, port.empty() ? "" : ":", port);
 }
 
 bool is_on_this_machine(const std::string& address) {

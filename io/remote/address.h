@@ -37,6 +37,10 @@ void check_scheme(std::string_view text);
 /// Whether two web addresses have the same scheme, host and port.
 [[nodiscard]] bool is_same_server(const std::string& a, const std::string& b);
 
+/// Returns what browsers call the origin of a page (RFC 6454): scheme, host, and the port unless it
+/// is the scheme's own.  It is empty where the address is none of https:// or http://.
+[[nodiscard]] std::string origin_of(const std::string& address);
+
 /// Whether the host of an address is this machine, as 127.0.0.1, [::1] and localhost are.
 [[nodiscard]] bool is_on_this_machine(const std::string& address);
 

@@ -5,27 +5,40 @@
 
 #include <microhttpd.h>
 #include <netinet/in.h>
+#include <sys/socket.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <cstring>
+#include <list>
 #include <system_error>
+#include <utility>
 
 #include "engine/cli/serve/served_folder.h"
 #include "io/file/errors.h"
+#include "io/remote/address.h"
 
 namespace mw::cli {
+
+/// What the library's calls get.
+struct FolderService {
+  ServedFolder folder;
+  std::string origin;
+  /// Those that are open; the one whose last request began longest ago is in front.
+  std::list<MHD_Connection*> connections{};
+};
+
 namespace {
 
-/// A browser keeps six, and further ones are refused.  Each may take two descriptors, of which a
-/// process usually gets 1024.
+/// A browser keeps six.  Where a client takes the last one, an older one is closed (note()).  Each
+/// may take two descriptors, of which a process usually gets 1024.
 constexpr unsigned kMostConnections = 256;
 constexpr unsigned kPatience = 20;                ///< seconds that a connection may be idle
 constexpr std::size_t kHeaderBytes = 32U << 10U;  ///< of a request; more of them are refused
 constexpr std::size_t kPieceBytes = 64U << 10U;   ///< are read at a time
 
-/// The headers that every answer has.
+/// The headers that every answer has, beside the one that names the origin.
 constexpr std::pair<const char*, const char*> kHeaders[] = {
-    {"Access-Control-Allow-Origin", "*"},
     {"Access-Control-Allow-Headers", "Range"},
     {"Access-Control-Allow-Private-Network", "true"},
     {"Accept-Ranges", "bytes"},
@@ -48,8 +61,14 @@ ssize_t read_piece(void* part, std::uint64_t sent, char* out, std::size_t size) 
   }
 }
 
+/// Where an answer goes: pages of the origin may read it.
+struct Client {
+  MHD_Connection* connection;
+  const std::string& origin;
+};
+
 /// Returns MHD_NO, which closes the connection, when there is no memory.
-MHD_Result send(MHD_Connection* to, unsigned status, const Part& part = {},
+MHD_Result send(const Client& to, unsigned status, const Part& part = {},
                 const std::string& content_range = {}) {
   auto kept = std::make_unique<Part>(part);
   const std::unique_ptr<MHD_Response, void (*)(MHD_Response*)> response(
@@ -64,11 +83,12 @@ MHD_Result send(MHD_Connection* to, unsigned status, const Part& part = {},
   for (const auto& [name, value] : kHeaders) {
     if (!add(name, value)) return MHD_NO;
   }
+  if (!add("Access-Control-Allow-Origin", to.origin.c_str())) return MHD_NO;
   if (!content_range.empty() && !add("Content-Range", content_range.c_str())) return MHD_NO;
-  return MHD_queue_response(to, status, response.get());
+  return MHD_queue_response(to.connection, status, response.get());
 }
 
-MHD_Result send_file(MHD_Connection* to, const std::shared_ptr<const io::FileSource>& file,
+MHD_Result send_file(const Client& to, const std::shared_ptr<const io::FileSource>& file,
                      std::string_view range) {
   const std::uint64_t size = file->size();
   const std::optional<ByteRange> asked = asked_range(range, size);
@@ -80,29 +100,57 @@ MHD_Result send_file(MHD_Connection* to, const std::shared_ptr<const io::FileSou
               io::text("bytes ", asked->begin, "-", asked->end - 1, "/", size));
 }
 
-MHD_Result answer_request(MHD_Connection* to, const ServedFolder& folder, const char* path,
+const char* header_of(const Client& client, const char* name) {
+  return MHD_lookup_connection_value(client.connection, MHD_HEADER_KIND, name);
+}
+
+MHD_Result answer_request(const Client& to, const ServedFolder& folder, const char* path,
                           std::string_view method) {
+  const char* const host = header_of(to, "Host");
+  if (host == nullptr || !io::is_on_this_machine(io::text("http://", host))) {
+    return send(to, MHD_HTTP_MISDIRECTED_REQUEST);
+  }
   if (method == "OPTIONS") return send(to, MHD_HTTP_NO_CONTENT);
   const bool is_get = method == "GET";
   if (!is_get && method != "HEAD") return send(to, MHD_HTTP_METHOD_NOT_ALLOWED);
   const auto file = folder.open(path);
   if (!file) return send(to, MHD_HTTP_NOT_FOUND);
-  const char* const range = MHD_lookup_connection_value(to, MHD_HEADER_KIND, "Range");
+  const char* const range = header_of(to, "Range");
   return send_file(to, file, is_get && range != nullptr ? range : "");
+}
+
+/// The library calls this when a connection begins and ends.  If the last one is taken, that which
+/// has asked for nothing for the longest time is closed, so that there is always one for another
+/// client.
+void note(void* to, MHD_Connection* connection, void** /*unused*/,
+          MHD_ConnectionNotificationCode code) noexcept {
+  auto& open = static_cast<FolderService*>(to)->connections;
+  if (code == MHD_CONNECTION_NOTIFY_CLOSED) {
+    open.remove(connection);
+    return;
+  }
+  open.push_back(connection);
+  if (open.size() < kMostConnections) return;
+  const auto* const oldest =
+      MHD_get_connection_info(open.front(), MHD_CONNECTION_INFO_CONNECTION_FD);
+  if (oldest != nullptr) (void)::shutdown(oldest->connect_fd, SHUT_RDWR);
 }
 
 /// The library calls this once before it reads a request's body, for each piece of that, and at the
 /// end.  Only an answer at the end leaves the connection open for another request.
-MHD_Result answer(void* folder, MHD_Connection* connection, const char* path, const char* method,
+MHD_Result answer(void* to, MHD_Connection* connection, const char* path, const char* method,
                   const char* /*version*/, const char* /*body*/, std::size_t* body_bytes,
                   void** begun) noexcept {
+  auto& service = *static_cast<FolderService*>(to);
   if (*begun == nullptr || *body_bytes > 0) {
-    *begun = folder;
+    auto& open = service.connections;
+    if (*begun == nullptr) open.splice(open.end(), open, std::ranges::find(open, connection));
+    *begun = to;
     *body_bytes = 0;  // nothing here needs a body
     return MHD_YES;
   }
   try {
-    return answer_request(connection, *static_cast<const ServedFolder*>(folder), path, method);
+    return answer_request({connection, service.origin}, service.folder, path, method);
   } catch (const std::exception&) {
     return MHD_NO;  // closes the connection
   }
@@ -122,8 +170,10 @@ std::size_t unescape(void* /*unused*/, MHD_Connection* /*unused*/, char* path) n
 
 }  // namespace
 
-FolderServer::FolderServer(const std::filesystem::path& folder, std::uint16_t port)
-    : folder_(folder), daemon_(nullptr, MHD_stop_daemon) {
+FolderServer::FolderServer(const std::filesystem::path& folder, std::uint16_t port,
+                           std::string origin)
+    : service_(new FolderService{ServedFolder(folder), std::move(origin)}),
+      daemon_(nullptr, MHD_stop_daemon) {
   sockaddr_in loopback{};
   loopback.sin_family = AF_INET;
   loopback.sin_port = htons(port);
@@ -132,13 +182,15 @@ FolderServer::FolderServer(const std::filesystem::path& folder, std::uint16_t po
   // Without flags the library waits by select() in serve().  When it waits by epoll(), it may
   // overlook that a client has nothing more to send, and keep the connection until its patience
   // ends.
-  daemon_.reset(MHD_start_daemon(MHD_NO_FLAG, port, nullptr, nullptr, answer, &folder_,
-                                 MHD_OPTION_SOCK_ADDR, &loopback, MHD_OPTION_CONNECTION_LIMIT,
-                                 kMostConnections, MHD_OPTION_CONNECTION_TIMEOUT, kPatience,
-                                 MHD_OPTION_CONNECTION_MEMORY_LIMIT, kHeaderBytes,
-                                 MHD_OPTION_UNESCAPE_CALLBACK, unescape, nullptr, MHD_OPTION_END));
+  daemon_.reset(MHD_start_daemon(
+      MHD_NO_FLAG, port, nullptr, nullptr, answer, service_.get(), MHD_OPTION_SOCK_ADDR, &loopback,
+      MHD_OPTION_CONNECTION_LIMIT, kMostConnections, MHD_OPTION_CONNECTION_TIMEOUT, kPatience,
+      MHD_OPTION_CONNECTION_MEMORY_LIMIT, kHeaderBytes, MHD_OPTION_UNESCAPE_CALLBACK, unescape,
+      nullptr, MHD_OPTION_NOTIFY_CONNECTION, note, service_.get(), MHD_OPTION_END));
   if (!daemon_) fail_to_listen(port, errno);
 }
+
+FolderServer::~FolderServer() = default;
 
 std::string FolderServer::address() const {
   return io::text("http://127.0.0.1:",

@@ -8,20 +8,22 @@
 #include <memory>
 #include <string>
 
-#include "engine/cli/serve/served_folder.h"
-
 struct MHD_Daemon;
 
 namespace mw::cli {
 
-/// Gives files of a folder, and parts of them, to pages from anywhere that a browser on this
-/// machine shows: it listens on the loopback alone, and says by CORS that any page may read.
+struct FolderService;
+
+/// Gives files of a folder, and parts of them, to programs on this machine: it listens on the
+/// loopback alone.  It says by CORS that pages of one origin may read, and refuses requests for
+/// another host than this machine, as a page can give its own name this machine's address.
 class FolderServer {
  public:
-  /// Listens on the port; 0 is any that is free.
+  /// Listens on the port; 0 is any that is free.  origin is that of the pages (io::origin_of()).
   /// ERRORS: mw::Error(kUsage) when the port is in use or not allowed; kResource when the system
   /// gives no socket.
-  FolderServer(const std::filesystem::path& folder, std::uint16_t port);
+  FolderServer(const std::filesystem::path& folder, std::uint16_t port, std::string origin);
+  ~FolderServer();
   FolderServer(const FolderServer&) = delete;
   FolderServer& operator=(const FolderServer&) = delete;
 
@@ -32,7 +34,7 @@ class FolderServer {
   [[noreturn]] void serve();
 
  private:
-  ServedFolder folder_;
+  std::unique_ptr<FolderService> service_;
   std::unique_ptr<MHD_Daemon, void (*)(MHD_Daemon*)> daemon_;
 };
 

@@ -11,6 +11,7 @@
 #include "engine/cli/serve/folder_server.h"
 #include "engine/cli/serve/view_link.h"
 #include "io/file/errors.h"
+#include "io/remote/address.h"
 
 namespace mw::cli {
 namespace {
@@ -27,9 +28,14 @@ std::uint16_t parse_port(const std::string& text) {
   return port;
 }
 
+std::string parse_viewer(const std::string& text) {
+  if (io::origin_of(text).empty()) engine::fail_expected("an address such as https://HOST/", text);
+  return text;
+}
+
 int run_serve(const ServeJob& job) {
   const FolderView view = read_folder_view(job.folder);
-  FolderServer server(job.folder, job.port);
+  FolderServer server(job.folder, job.port, io::origin_of(job.viewer));
   end_well_if_interrupted();
   (void)std::signal(SIGPIPE, SIG_IGN);  // a link that nobody reads is an error with a message
   std::cout << view_link(view, server.address(), job.viewer) << std::endl;
@@ -55,23 +61,24 @@ void add_options(OptionSet& options, ServeJob& job) {
                .assign = into(job.port, parse_port)});
   options.add({.name = "viewer",
                .value = "ADDRESS",
-               .help = "the neuroglancer to link to",
+               .help = "the neuroglancer to link to; no other page may read the meshes",
                .group = kRunGroup,
                .fallback = "https://neuroglancer-demo.appspot.com/",
-               .assign = into(job.viewer)});
+               .assign = into(job.viewer, parse_viewer)});
 }
 
 }  // namespace
 
 Command serve_command() {
   const auto job = std::make_shared<ServeJob>();
-  Command command{.name = "serve",
-                  .about = "serves precomputed meshes on this machine, and prints a link to them",
-                  .options = {},
-                  .run = [job](const OptionSet&) { return run_serve(*job); },
-                  .note =
-                      "Ctrl-C ends it.  Only programs on this machine reach it; the page that the\n"
-                      "link leads to is one of them, as it runs in your browser.\n"};
+  Command command{
+      .name = "serve",
+      .about = "serves precomputed meshes on this machine, and prints a link to them",
+      .options = {},
+      .run = [job](const OptionSet&) { return run_serve(*job); },
+      .note =
+          "Ctrl-C ends it.  Only programs on this machine reach it, and of the pages in\n"
+          "browsers only those of --viewer.\n"};
   add_options(command.options, *job);
   return command;
 }

@@ -88,7 +88,7 @@ class Serve(unittest.TestCase):
             self.assertEqual(layer["source"], f"precomputed://http://127.0.0.1:{server.port}")
             self.assertEqual((layer["name"], layer["segments"]), (form, largest))
 
-    def test_parts_of_files_are_served_to_pages_from_anywhere(self):
+    def test_parts_of_files_are_served(self):
         whole, size = self.whole, len(self.whole)
         parts = {"bytes=3-17": (206, whole[3:18]), "bytes=9-": (206, whole[9:]),
                  "bytes=-5": (206, whole[-5:]), "bytes=0-99999999": (206, whole),
@@ -104,7 +104,8 @@ class Serve(unittest.TestCase):
                 answer, found = server.ask("GET", "/1", **({"Range": asked} if asked else {}))
                 self.assertEqual((answer.status, found), (status, content), asked)
                 self.assertEqual(int(answer.headers["Content-Length"]), len(content), asked)
-                self.assertEqual(answer.headers.get_all("Access-Control-Allow-Origin"), ["*"])
+                self.assertEqual(answer.headers.get_all("Access-Control-Allow-Origin"),
+                                 ["https://neuroglancer-demo.appspot.com"])
                 if status == 416:
                     self.assertEqual(answer.headers["Content-Range"], f"bytes */{size}")
                 elif status == 200:
@@ -119,17 +120,53 @@ class Serve(unittest.TestCase):
                 self.assertEqual(answer.headers["Content-Type"], "application/octet-stream")
 
     def test_a_page_may_ask_whether_it_may_ask(self):
-        with Serving("draco") as server:
+        with Serving("draco", "--viewer", "https://viewer.example/v/") as server:
             for path in ("/1", "/none", "*"):
                 answer, content = server.ask("OPTIONS", path, Origin="https://viewer.example",
                                              **{"Access-Control-Request-Headers": "range",
                                                 "Access-Control-Request-Private-Network": "true"})
                 self.assertEqual((answer.status, content), (204, b""))
-                for header, value in (("Origin", "*"), ("Headers", "Range"),
+                for header, value in (("Origin", "https://viewer.example"), ("Headers", "Range"),
                                       ("Private-Network", "true")):
                     self.assertEqual(answer.headers[f"Access-Control-Allow-{header}"], value)
             for method in ("POST", "PUT", "DELETE"):
                 self.assertEqual(server.ask(method, "/1")[0].status, 405, method)
+
+    def test_no_other_page_may_read(self):
+        """Neither by the name of its own host, which it may have made lead here."""
+        with Serving("draco", "--viewer", "http://localhost:8080/") as server:
+            for host, status in (("127.0.0.1", 200), (f"localhost:{server.port}", 200),
+                                 ("[::1]:9", 200), ("evil.example", 421), ("127.0.0.1.evil.example", 421),
+                                 (f"evil.example:{server.port}", 421), ("localhost.evil.example", 421)):
+                answer, content = server.ask("GET", "/1", Host=host, Origin="https://evil.example")
+                self.assertEqual((answer.status, content), (status, self.whole if status == 200 else b""))
+                self.assertEqual(answer.headers.get_all("Access-Control-Allow-Origin"),
+                                 ["http://localhost:8080"])
+            self.assertIn(b" 421 ", server.send(b"GET /1 HTTP/1.0\r\n\r\n").partition(b"\r\n")[0])
+        for wrong in ("viewer.example", "ftp://viewer.example/", "file:///viewer.html", ""):
+            done = start("serve", "draco", "--viewer", wrong)
+            self.assertEqual((done.returncode, done.stdout), (2, ""), done.stderr)
+            self.assertIn("--viewer", done.stderr)
+
+    def test_one_client_does_not_keep_others_out(self):
+        with Serving("draco") as server:
+            used = server.connect()
+            held = []
+            for begun in 2 * (b"", b"GET /1 HTTP/1.1\r\nX: "):
+                for _ in range(150):
+                    held.append(socket.create_connection(("127.0.0.1", server.port), timeout=20))
+                    held[-1].sendall(begun)
+                used.request("GET", "/1")
+                first = used.sock
+                self.assertEqual(used.getresponse().read(), self.whole)
+                self.assertIs(used.sock, first)
+                fresh = http.client.HTTPConnection("127.0.0.1", server.port, timeout=8)
+                fresh.request("GET", "/1")
+                self.assertEqual(fresh.getresponse().read(), self.whole)
+                fresh.close()
+            used.close()
+            for connection in held:
+                connection.close()
 
     def test_nothing_outside_the_folder_is_served(self):
         run("surface", "m.vtu", "--format", "draco", "-o", "linked")

@@ -92,5 +92,15 @@ TEST(AddressTest, ServersDifferByAllBeforeTheirPaths) {
   }
 }
 
+TEST(AddressTest, OriginsAreThoseOfBrowsers) {
+  EXPECT_EQ(origin_of("https://Viewer.example/a/b?c#d"), "https://viewer.example");
+  EXPECT_EQ(origin_of("HTTPS://viewer.example:443"), "https://viewer.example");
+  EXPECT_EQ(origin_of("http://user@localhost:8080/x"), "http://localhost:8080");
+  EXPECT_EQ(origin_of("http://viewer.example:443/"), "http://viewer.example:443");
+  for (const char* none : {"", "viewer.example", "ftp://viewer.example/", "file:///x", "/x"}) {
+    EXPECT_EQ(origin_of(none), "") << none;
+  }
+}
+
 }  // namespace
 }  // namespace mw::io
