@@ -7,6 +7,7 @@ import os
 import random
 import re
 import shlex
+import shutil
 import signal
 import subprocess
 import tempfile
@@ -355,14 +356,41 @@ class Case:
             self.run(self.mesh_arguments("f/" + self.settings.output, ["--threads=1"]))
             if self.files("e") != self.files("f"):
                 raise Failed("after an edit the mesh is another one than that of a fresh run")
-            volume, lo, hi = volumes.edited(self.random, volume)
-            labels = volumes.packed(volume)
-            path.write_bytes(before[:len(before) - len(labels)] + labels)
+            meshed = volume
+            volume, changed = self.edit(meshed, before)
             kept = ["--from=kept"]
             if self.random.random() < 0.5:
-                kept.append("--changed=" + ",".join(map(str, lo + hi)))
+                kept.append(changed)
+        if self.random.random() < 0.5:
+            self.mixed_folders(meshed, before)
         path.write_bytes(before)
         self.did.append("edited")
+
+    def edit(self, volume, file):
+        """The volume edited, in the place of that in the file, and the flag that tells where."""
+        volume, lo, hi = volumes.edited(self.random, volume)
+        labels = volumes.packed(volume)
+        (self.folder / self.volume.file).write_bytes(file[:len(file) - len(labels)] + labels)
+        return volume, "--changed=" + ",".join(map(str, lo + hi))
+
+    def mixed_folders(self, meshed, file):
+        """Some files of the folder of another edit are refused, or make no difference."""
+        other, kept = self.folder / "other", self.folder / "kept"
+        self.edit(meshed, file)
+        self.run(self.mesh_arguments("f/" + self.settings.output, ["--keep=other"]))
+        _, changed = self.edit(meshed, file)
+        self.run(self.mesh_arguments("f/" + self.settings.output, ["--threads=1"]))
+        names = sorted(path.name for path in other.iterdir())
+        for name in self.random.sample(names, self.random.randint(1, 2)):
+            shutil.copy(other / name, kept / name)
+        code, text = self.end(self.start(self.mesh_arguments(
+            "e/" + self.settings.output, [*self.schedule(), "--from=kept", changed])))
+        if code == 3 and "is damaged: delete that folder" in text:
+            self.did.append("mixed, refused")
+        elif code != 0 or self.files("e") != self.files("f"):
+            raise Failed(f"files of another folder were not noticed, exit code {code}\n{text}")
+        else:
+            self.did.append("mixed")
 
     def killed_run(self, kept):
         process = self.start(self.mesh_arguments("e/" + self.settings.output,

@@ -112,16 +112,19 @@ void look_at_scales(const io::Place& place, CountScales count, OpenPlace open) {
   }
 }
 
-/// The bytes, and behind them the tail of an answer whose digest is right.
+constexpr io::ContentDigest kKey{1, 2};
+
+/// The bytes, and behind them the tail of the answer of kKey, whose digest is right.
 std::string as_answer(Bytes bytes, std::uint64_t version_bytes, std::uint64_t file_bytes) {
   std::string out(text_of(bytes));
   io::DigestMaker maker;
+  maker.add(kKey);
   maker.add(bytes);
   const std::array<std::uint64_t, 3> counts{bytes.size() - version_bytes, version_bytes,
                                             file_bytes};
   for (const std::uint64_t count : counts) maker.add(count);
   const io::ContentDigest digest = maker.finish();
-  out += "MWCACHE1";
+  out += "MWCACHE2";
   for (const std::uint64_t word : {counts[0], counts[1], counts[2], digest.first, digest.second}) {
     std::array<char, 8> stored{};
     io::store_little(word, reinterpret_cast<std::byte*>(stored.data()));
@@ -234,13 +237,12 @@ void fuzz_cache(Bytes bytes) {
   std::filesystem::create_directory(path.parent_path());
   std::ofstream(path, std::ios::binary) << content;
   io::DiskCache cache({folder.path()});
-  const io::ContentDigest key{1, 2};
-  const auto found = cache.find(key, "name");
+  const auto found = cache.find(kKey, "name");
   if (found) check_kept(*found, content);
   require(std::filesystem::exists(path) == found.has_value(), "what is no answer is removed");
   require(found.has_value() || !has_tail || version_bytes > rest.size(), "an answer is found");
-  cache.keep(key, {std::make_shared<ByteFile>(rest), 7, "version"});
-  const auto kept = cache.find(key, "name");
+  cache.keep(kKey, {std::make_shared<ByteFile>(rest), 7, "version"});
+  const auto kept = cache.find(kKey, "name");
   require(kept && kept->version == "version" && kept->file_bytes == 7, "an answer is replaced");
   require(io::read_whole(*kept->bytes, rest.size()) == text_of(rest), "its bytes come back");
 }
