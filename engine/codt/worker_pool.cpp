@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: The mwmesh authors
 // SPDX-License-Identifier: Apache-2.0
 // Takes workers from a stack and puts them back; starts a worker by posix_spawn, asks it over a
-// socket with deadlines, and ends it by SIGKILL.
+// socket with deadlines, ends it by SIGKILL, and tells crashes from what the machine does.
 #include "engine/codt/worker_pool.h"
 
 #include <fcntl.h>
@@ -15,12 +15,32 @@
 #include <algorithm>
 #include <cerrno>
 #include <cstring>
+#include <ctime>
+#include <thread>
 #include <utility>
 
 #include "io/file/errors.h"
 #include "kernels/core/error.h"
 
 namespace mw::engine::codt {
+namespace {
+
+/// Waits twice as long as after the loss before; after seven losses that makes two seconds.
+void pause_after(int losses) {
+  constexpr std::chrono::milliseconds kFirst{16};
+  std::this_thread::sleep_for(kFirst * (1 << (losses - 1)));
+}
+
+[[noreturn]] void fail_lost(const std::filesystem::path& program, int times,
+                            const std::string& loss) {
+  throw Error(ErrorKind::kResource,
+              io::text("--optimizer tetgen: ", times, " workers in a row were lost over a window; ",
+                       program.string(), " ", loss,
+                       ": see that there is memory for it, give fewer --threads, or mesh with "
+                       "another --optimizer"));
+}
+
+}  // namespace
 
 WorkerPool::WorkerPool(PoolOptions options) : options_(std::move(options)) {
   if (options_.program.empty()) options_.program = find_worker();
@@ -28,23 +48,30 @@ WorkerPool::WorkerPool(PoolOptions options) : options_(std::move(options)) {
 }
 
 std::optional<Triangulation> WorkerPool::triangulate(const Plc& plc) {
+  using Outcome = WorkerProcess::Outcome;
+  constexpr int kMostCrashes = 2, kMostLosses = 8;
   ++requests_;
   Triangulation made;
   std::unique_ptr<WorkerProcess> worker = take();
-  WorkerProcess::Outcome outcome = worker->run(plc, made, options_.patience);
-  if (outcome == WorkerProcess::Outcome::kDead) {
+  for (int crashes = 0, losses = 0;;) {
+    const Outcome outcome = worker->run(plc, made, options_.patience);
+    if (outcome == Outcome::kAnswered || outcome == Outcome::kRefused) {
+      give_back(std::move(worker));
+      if (outcome == Outcome::kAnswered) return made;
+      ++refused_;
+      return std::nullopt;
+    }
+    ++(outcome == Outcome::kCrashed ? crashes : losses);
+    if (crashes == kMostCrashes) {
+      ++failed_;
+      return std::nullopt;
+    }
+    if (losses == kMostLosses) fail_lost(options_.program, losses, worker->loss());
+    // What takes workers, as a lack of memory does, may pass.
+    if (outcome == Outcome::kLost) pause_after(losses);
     ++restarted_;
     worker = std::make_unique<WorkerProcess>(options_.program);
-    outcome = worker->run(plc, made, options_.patience);
   }
-  if (outcome == WorkerProcess::Outcome::kDead) {
-    ++failed_;
-    return std::nullopt;
-  }
-  give_back(std::move(worker));
-  if (outcome == WorkerProcess::Outcome::kAnswered) return made;
-  ++refused_;
-  return std::nullopt;
 }
 
 PoolFacts WorkerPool::facts() const {
@@ -134,17 +161,25 @@ class SpawnPlan {
   posix_spawnattr_t attributes_{};
 };
 
-/// Returns true when something can be read or the other end is closed, false at the deadline.
-bool wait_for_message(int descriptor, Clock::time_point deadline) {
-  for (;;) {
-    const auto left =
-        std::chrono::duration_cast<std::chrono::milliseconds>(deadline - Clock::now()).count();
+/// Returns the processor time that a process has taken, 0 once it has ended.
+std::chrono::nanoseconds processor_time(pid_t id) {
+  clockid_t clock{};
+  timespec time{};
+  if (::clock_getcpuclockid(id, &clock) != 0 || ::clock_gettime(clock, &time) != 0) return {};
+  return std::chrono::seconds(time.tv_sec) + std::chrono::nanoseconds(time.tv_nsec);
+}
+
+/// Returns true when something can be read or the other end is closed, false when the worker has
+/// taken too long.  One that is stopped, or gets no processor, is waited for ten times as long.
+bool wait_for_message(int descriptor, pid_t worker, std::chrono::milliseconds patience) {
+  constexpr int kSliceMs = 100, kByTheClock = 10;
+  const auto last = processor_time(worker) + patience;
+  const Clock::time_point deadline = Clock::now() + kByTheClock * patience;
+  do {
     pollfd wanted{descriptor, POLLIN, 0};
-    const int ready =
-        ::poll(&wanted, 1, static_cast<int>(std::clamp<std::int64_t>(left, 0, 1 << 30)));
-    if (ready > 0) return true;
-    if (ready == 0 || errno != EINTR) return false;
-  }
+    if (::poll(&wanted, 1, kSliceMs) > 0) return true;
+  } while (processor_time(worker) < last && Clock::now() < deadline);
+  return false;
 }
 
 }  // namespace
@@ -156,25 +191,57 @@ WorkerProcess::WorkerProcess(const std::filesystem::path& program) {
 }
 
 WorkerProcess::~WorkerProcess() {
-  ::kill(id_, SIGKILL);
-  while (::waitpid(id_, nullptr, 0) < 0 && errno == EINTR) {
-  }
+  if (id_ > 0) static_cast<void>(end());
 }
 
-std::optional<Reply> WorkerProcess::ask(const Order& order, Milliseconds patience) const {
-  const Clock::time_point deadline = Clock::now() + patience;
+/// Kills it if it is alive, and returns the status that it ended with.
+int WorkerProcess::end() {
+  int status = 0;
+  ::kill(id_, SIGKILL);
+  while (::waitpid(id_, &status, 0) < 0 && errno == EINTR) {
+  }
+  id_ = -1;
+  return status;
+}
+
+/// Ends a worker that has closed its socket, and returns what it died of.
+WorkerProcess::Outcome WorkerProcess::find_cause() {
+  const int status = end();
+  if (WIFEXITED(status)) {
+    loss_ = io::text("ended with exit code ", WEXITSTATUS(status));
+    return Outcome::kLost;
+  }
+  const int signal = WTERMSIG(status);
+  for (const int crash : {SIGSEGV, SIGABRT, SIGFPE, SIGBUS}) {
+    if (signal == crash) return Outcome::kCrashed;
+  }
+  const char* const name = ::sigdescr_np(signal);
+  loss_ =
+      io::text("was ended by signal ", signal, name == nullptr ? "" : io::text(" (", name, ")"));
+  return Outcome::kLost;
+}
+
+std::optional<Reply> WorkerProcess::ask(const Order& order, Milliseconds patience) {
+  failure_ = Outcome::kCrashed;
   ssize_t count = -1;
   do {
     count = ::send(control_.get(), &order, sizeof order, MSG_NOSIGNAL);
   } while (count < 0 && errno == EINTR);
-  if (count != sizeof order || !wait_for_message(control_.get(), deadline)) return std::nullopt;
   Reply reply;
-  do {
-    count = ::recv(control_.get(), &reply, sizeof reply, 0);
-  } while (count < 0 && errno == EINTR);
+  if (count == sizeof order) {
+    if (!wait_for_message(control_.get(), id_, patience)) {
+      loss_ = io::text("took more than ", static_cast<double>(patience.count()) / 1000,
+                       " s of processor time, or ten times that by the clock");
+      failure_ = Outcome::kLost;
+      return std::nullopt;
+    }
+    do {
+      count = ::recv(control_.get(), &reply, sizeof reply, 0);
+    } while (count < 0 && errno == EINTR);
+  }
+  if (count <= 0) failure_ = find_cause();
   const bool known = reply.kind == ReplyKind::kDone || reply.kind == ReplyKind::kNoTriangulation;
-  if (count != sizeof reply || !known) return std::nullopt;
-  return reply;
+  return count == sizeof reply && known ? std::optional(reply) : std::nullopt;
 }
 
 bool WorkerProcess::share(std::size_t bytes, Milliseconds patience) {
@@ -190,20 +257,19 @@ bool WorkerProcess::share(std::size_t bytes, Milliseconds patience) {
 
 WorkerProcess::Outcome WorkerProcess::run(const Plc& plc, Triangulation& out,
                                           Milliseconds patience) {
-  // An answer has some three times the bytes of its request; a worker that claims far more is dead.
+  // An answer has some three times the bytes of its request; a worker that claims far more is
+  // broken.
   constexpr std::size_t kMaxAnswer = 64;
   const std::size_t bytes = bytes_of(plc);
-  if (!share(bytes, patience)) return Outcome::kDead;
+  if (!share(bytes, patience)) return failure_;
   put(plc, memory_.bytes());
   const std::optional<Reply> done = ask({.kind = OrderKind::kRun}, patience);
-  if (!done) return Outcome::kDead;
+  if (!done) return failure_;
   if (done->kind == ReplyKind::kNoTriangulation) return Outcome::kRefused;
-  if (done->bytes > kMaxAnswer * bytes + kMinMemory) return Outcome::kDead;
-  if (!share(done->bytes, patience) || !ask({.kind = OrderKind::kFetch}, patience)) {
-    return Outcome::kDead;
-  }
+  if (done->bytes > kMaxAnswer * bytes + kMinMemory) return Outcome::kCrashed;
+  if (!share(done->bytes, patience) || !ask({.kind = OrderKind::kFetch}, patience)) return failure_;
   std::optional<Triangulation> made = get_triangulation(memory_.bytes());
-  if (!made) return Outcome::kDead;
+  if (!made) return Outcome::kCrashed;
   out = std::move(*made);
   return Outcome::kAnswered;
 }

@@ -12,6 +12,7 @@
 #include <memory>
 #include <mutex>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "engine/codt/find_worker.h"
@@ -39,34 +40,44 @@ class WorkerProcess {
   enum class Outcome {
     kAnswered,
     kRefused,  ///< the worker says that there is no triangulation
-    kDead,     ///< it died, was too late, or broke the protocol, and cannot be used any more
+    // A worker that gave one of these cannot be used any more.
+    kCrashed,  ///< the request is to blame: a signal as of a crash, or the protocol was broken
+    kLost,     ///< the machine is: another signal, an exit, or too much time; see loss()
   };
-  /// Waits at most `patience` for each of the worker's replies; `out` is set when it answered.
+  /// Waits for each of the worker's replies until it has taken `patience` of processor time, or ten
+  /// times that by the clock; `out` is set when it answered.
   /// ERRORS: those of SharedMemory::create().
   [[nodiscard]] Outcome run(const Plc& plc, Triangulation& out, Milliseconds patience);
 
   [[nodiscard]] pid_t id() const { return id_; }
+  /// Returns what happened to a worker that was lost, as "was ended by signal 9 (Killed)".
+  [[nodiscard]] const std::string& loss() const { return loss_; }
 
  private:
-  /// Returns nothing when the outcome is kDead.
-  [[nodiscard]] std::optional<Reply> ask(const Order& order, Milliseconds patience) const;
+  /// Returns nothing when the outcome is failure_.
+  [[nodiscard]] std::optional<Reply> ask(const Order& order, Milliseconds patience);
   [[nodiscard]] bool share(std::size_t bytes, Milliseconds patience);
+  [[nodiscard]] Outcome find_cause();
+  [[nodiscard]] int end();
 
   io::FileDescriptor control_;
   pid_t id_ = -1;
   SharedMemory memory_;
+  Outcome failure_ = Outcome::kCrashed;
+  std::string loss_;
 };
 
 struct PoolOptions {
-  std::filesystem::path program;               ///< if empty, find_worker()
-  std::chrono::milliseconds patience{60'000};  ///< time for each reply, then the worker is killed
+  std::filesystem::path program;  ///< if empty, find_worker()
+  /// Processor time for each reply, then the worker is killed.
+  std::chrono::milliseconds patience{60'000};
 };
 
 /// What a pool has done.
 struct PoolFacts {
   std::uint64_t requests = 0;
   std::uint64_t refused = 0;    ///< TetGen found no triangulation
-  std::uint64_t failed = 0;     ///< two workers in a row died over a request
+  std::uint64_t failed = 0;     ///< two workers crashed over a request
   std::uint64_t restarted = 0;  ///< workers started in place of dead ones
 };
 
@@ -74,8 +85,9 @@ struct PoolFacts {
 /// predicate constants in statics, rewrites tables and uses the process-wide rand(), so two threads
 /// of one process get different meshes; it may crash or hang, and it is under the AGPL.
 ///
-/// When a worker dies or is too late, a fresh one is asked the same.  When that dies as well, the
-/// request fails, as it would fail in every other run.
+/// When a worker is gone, a fresh one is asked the same.  When a second one crashes, the request
+/// fails, as it would fail in every other run.  What the machine does to workers must not change a
+/// mesh: where it takes eight from one request, that is an error.
 /// Thread-safe.
 class WorkerPool {
  public:
@@ -83,7 +95,8 @@ class WorkerPool {
   /// ERRORS: those of find_worker() and WorkerProcess.
   explicit WorkerPool(PoolOptions options);
 
-  /// Does what a Triangulate must do.  ERRORS: those of WorkerProcess.
+  /// Does what a Triangulate must do.  ERRORS: those of WorkerProcess; kResource when the machine
+  /// takes one worker after the other.
   [[nodiscard]] std::optional<Triangulation> triangulate(const Plc& plc);
 
   [[nodiscard]] PoolFacts facts() const;

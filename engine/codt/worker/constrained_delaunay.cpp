@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
+#include <new>
 #include <string>
 
 namespace mw::engine::codt {
@@ -15,6 +16,7 @@ namespace {
 
 constexpr unsigned kSeed = 1;
 constexpr std::uint32_t kNoRegion = 0xffffffffU;
+constexpr int kOutOfMemory = 1;  // of TetGen's numbers
 
 /// p: triangulate a piecewise linear complex; Y: put no Steiner points on facets and segments; A:
 /// give each tet the number of its region; Q: print nothing.
@@ -94,7 +96,8 @@ std::optional<Triangulation> constrained_delaunay(const Plc& plc) {
   try {
     std::string switches = kSwitches;
     tetrahedralize(switches.data(), &in, &out);
-  } catch (...) {  // TetGen throws numbers
+  } catch (int reason) {  // terminatetetgen()
+    if (reason == kOutOfMemory) throw std::bad_alloc();
     return std::nullopt;
   }
   if (static_cast<std::size_t>(out.numberofpoints) < plc.points.size()) return std::nullopt;

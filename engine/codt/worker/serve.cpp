@@ -9,6 +9,7 @@
 #include <sys/socket.h>
 #include <unistd.h>
 
+#include <cstdlib>
 #include <system_error>
 #include <thread>
 
@@ -68,9 +69,13 @@ void serve(const Triangulate& triangulate) {
   }
   Worker worker(triangulate);
   Order order;
-  while (::recv(kControlDescriptor, &order, sizeof order, 0) == sizeof order) {
-    const Reply reply = worker.answer(order);
-    if (::send(kControlDescriptor, &reply, sizeof reply, MSG_NOSIGNAL) != sizeof reply) return;
+  try {
+    while (::recv(kControlDescriptor, &order, sizeof order, 0) == sizeof order) {
+      const Reply reply = worker.answer(order);
+      if (::send(kControlDescriptor, &reply, sizeof reply, MSG_NOSIGNAL) != sizeof reply) return;
+    }
+  } catch (...) {
+    ::_exit(EXIT_FAILURE);  // a lack of memory, which must not look like a crash over the request
   }
 }
 

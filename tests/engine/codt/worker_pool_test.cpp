@@ -142,18 +142,52 @@ void expect_failures(WorkerPool& pool) {
 }
 
 TEST(WorkerPool, GivesUpOnWorkersThatDie) {
-  const FakeWorker crash("kill -SEGV $$");
-  WorkerPool crashing(crash.options());
-  expect_failures(crashing);
-  const FakeWorker quit("exit 0");
-  WorkerPool quitting(quit.options());
-  expect_failures(quitting);
+  for (const char* signal : {"SEGV", "ABRT", "FPE", "BUS"}) {
+    const FakeWorker crash(std::string("kill -") + signal + " $$");
+    WorkerPool crashing(crash.options());
+    expect_failures(crashing);
+  }
 }
 
-TEST(WorkerPool, GivesUpOnWorkersThatHang) {
-  const FakeWorker worker("exec sleep 1000");
-  WorkerPool pool(worker.options(50));
-  expect_failures(pool);
+/// No answer may come of it, as another run might get one.
+TEST(WorkerPool, EndsWhereTheMachineTakesEachWorker) {
+  struct Case {
+    const char* script;
+    const char* said;
+    int patience_ms;
+  };
+  std::mt19937 random(1308);
+  const Plc plc = random_plc(random);
+  for (const Case& c : {Case{"kill -KILL $$", "ended by signal 9 (Killed)", 20'000},
+                        Case{"kill -TERM $$", "ended by signal 15 (Terminated)", 20'000},
+                        Case{"exit 3", "ended with exit code 3", 20'000},
+                        Case{"exec sleep 1000", "took more than 0.02 s", 20},
+                        Case{"while :; do :; done", "took more than 0.02 s", 20}}) {
+    const FakeWorker worker(c.script);
+    WorkerPool pool(worker.options(c.patience_ms));
+    expect_error(ErrorKind::kResource, {"8 workers in a row", c.said},
+                 [&] { (void)pool.triangulate(plc); });
+    EXPECT_EQ(pool.facts().failed, 0U);
+    EXPECT_EQ(pool.facts().restarted, 7U);
+  }
+}
+
+/// As under a debugger, or on a machine with too much to do.
+TEST(WorkerPool, WaitsForAWorkerThatIsStopped) {
+  NEEDS_WORKER();
+  std::mt19937 random(1309);
+  const Plc plc = random_plc(random);
+  WorkerPool pool({.program = MW_CODT_WORKER, .patience = std::chrono::milliseconds(1000)});
+  const Answer reference = answer_of(pool, plc);
+  const pid_t id = pool.idle().at(0);
+  ::kill(id, SIGSTOP);
+  std::thread waker([&] {
+    std::this_thread::sleep_for(std::chrono::milliseconds(1500));
+    ::kill(id, SIGCONT);
+  });
+  EXPECT_TRUE(answer_of(pool, plc) == reference);
+  waker.join();
+  EXPECT_EQ(pool.facts().restarted, 0U);
 }
 
 TEST(WorkerPool, GivesUpOnWorkersThatTalkNonsense) {
@@ -195,10 +229,11 @@ TEST(WorkerPool, LeavesNoSharedMemoryBehind) {
   };
   std::mt19937 random(1306);
   {
-    WorkerPool pool(has_worker() ? real_workers() : PoolOptions{.program = "/bin/false"});
+    const FakeWorker crash("kill -SEGV $$");
+    WorkerPool pool(has_worker() ? real_workers() : crash.options());
     (void)pool.triangulate(random_plc(random));
     EXPECT_EQ(names(), std::set<std::string>{});
-    WorkerPool failing({.program = "/bin/false"});
+    WorkerPool failing(crash.options());
     (void)failing.triangulate(random_plc(random));
   }
   EXPECT_EQ(names(), std::set<std::string>{});
