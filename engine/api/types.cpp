@@ -5,10 +5,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "engine/api/guarded.h"
 #include "engine/settings/size_text.h"
 #include "io/file/errors.h"
+#include "io/file/text_numbers.h"
 #include "io/mesh/field_names.h"
 #include "io/mesh/open_mesh.h"
 #include "io/volume/checks.h"
@@ -59,6 +61,17 @@ void check_affine(const std::array<std::array<double, 4>, 3>& affine) {
                 io::text("affine: column ", k + 1, " must be finite",
                          k == 3 ? "" : " and not 0, as it is the edge of a voxel"));
   }
+}
+
+/// Returns whether the numbers are those of a header in floats of 32 bits, as most are in NIfTI.
+bool is_in_floats(const std::array<std::array<double, 4>, 3>& affine) {
+  const auto is_float = [](double x) {
+    return std::abs(x) <= std::numeric_limits<float>::max() &&
+           static_cast<double>(static_cast<float>(x)) == x;
+  };
+  return std::all_of(affine.begin(), affine.end(), [&](const auto& row) {
+    return std::all_of(row.begin(), row.end(), is_float);
+  });
 }
 
 }  // namespace
@@ -212,13 +225,18 @@ Space space_of_affine(const std::array<std::array<double, 4>, 3>& affine, const 
   return mw::api::guarded([&] {
     mw::api::check_affine(affine);
     const bool is_voxel = frame == "voxel";
-    mw::io::FileSpace told{.first = mw::io::Vector3{affine[0][3], affine[1][3], affine[2][3]},
+    mw::io::FileSpace told{.first = mw::io::Vector3{},
                            .frame = is_voxel ? mw::io::WorldFrame::kOwn
                                              : mw::api::frame_of(frame, "own, ras, lps or voxel"),
                            .steps_field = "affine",
                            .first_field = "affine"};
-    for (std::size_t i = 0; i < 3; ++i) {
-      for (std::size_t k = 0; k < 3; ++k) told.steps[i][k] = affine[k][i];
+    told.in_floats = mw::api::is_in_floats(affine);
+    const auto number = [&](double x) {
+      return told.in_floats ? mw::io::decimal_of(static_cast<float>(x)) : x;
+    };
+    for (std::size_t k = 0; k < 3; ++k) {
+      for (std::size_t i = 0; i < 3; ++i) told.steps[i][k] = number(affine[k][i]);
+      (*told.first)[k] = number(affine[k][3]);
     }
     if (spacing) {
       for (const double edge : *spacing) mw::io::check_spacing("affine", "spacing", edge);

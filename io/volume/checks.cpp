@@ -90,25 +90,33 @@ bool is_direction(const Vector3& step) {
   return std::isfinite(length) && length > 0;
 }
 
-/// Rounds to 14 digits, which is all that lengths of turned steps are good for: a turned spacing of
-/// 1.25 is 1.25 again, so that a volume is meshed the same in all its directions.
-double tidied(double length) {
-  std::array<char, 32> text{};
-  const char* end = std::to_chars(text.data(), text.data() + text.size(), length,
-                                  std::chars_format::scientific, 13)
-                        .ptr;
+/// Rounds to the fewest digits within a relative error, and at most to 14, which is all that
+/// lengths of turned steps are good for: a turned spacing of 1.25 is 1.25 again, so that a volume
+/// is meshed the same in all its directions.
+double tidied(double length, double error) {
+  constexpr int kMostDigits = 14;
   double out = length;
-  std::from_chars(text.data(), end, out);
+  for (int digits = 1; digits <= kMostDigits; ++digits) {
+    std::array<char, 32> text{};
+    const char* end = std::to_chars(text.data(), text.data() + text.size(), length,
+                                    std::chars_format::scientific, digits - 1)
+                          .ptr;
+    std::from_chars(text.data(), end, out);
+    if (std::abs(out - length) <= error * length) break;
+  }
   return out;
 }
 
 double length_of(const FileSpace& space, std::size_t axis) {
-  constexpr double kAgree = 1e-5;  // error of floats, or of six digits
+  constexpr double kAgree = 1e-5;       // error of six digits
+  constexpr double kFloatError = 3e-7;  // error of floats, and of sums of them
   const Vector3& step = space.steps[axis];
   const double length = std::hypot(step[0], step[1], step[2]);
   if (std::count(step.begin(), step.end(), 0.0) == 2) return length;
-  const double stated = space.lengths ? (*space.lengths)[axis] : length;
-  return tidied(std::abs(stated - length) <= kAgree * length ? stated : length);
+  double stated = space.lengths ? (*space.lengths)[axis] : length;
+  if (!(std::abs(stated - length) <= kAgree * length)) stated = length;
+  const bool is_rounded = space.in_floats && std::abs(stated - length) <= kFloatError * length;
+  return is_rounded ? tidied(length, kFloatError) : tidied(stated, 0);
 }
 
 void check_steps(std::string_view file, const FileSpace& space) {

@@ -72,6 +72,9 @@ struct FileSpace {
   /// The lengths of the steps where the file states them, too.  They replace the lengths of turned
   /// steps that agree with them, which have rounding errors.
   std::optional<Vector3> lengths;
+  /// The steps are floats of 32 bits, read by decimal_of(): lengths of turned ones are the numbers
+  /// of fewest digits within the rounding, so that they do not depend on whether they are stated.
+  bool in_floats = false;
   /// Where the first voxel is; empty: the file does not say it, and its first corner is at 0.
   std::optional<Vector3> first;
   bool first_is_centre = true;  ///< `first` is the centre of that voxel, else its first corner

@@ -35,11 +35,8 @@ def _image_array(image):
 
 
 def _image_affine(image, frame):
-    """Returns the affine of a nibabel image, whose frame is RAS, in that frame.  Numbers of 32 bits
-    are what their shortest decimals say, as for files."""
+    """Returns the affine of a nibabel image, whose frame is RAS, in that frame."""
     affine = np.asarray(image.affine, dtype=float)
-    if np.array_equal(affine, affine.astype(np.float32)):
-        affine = np.array([[float(str(v)) for v in row] for row in affine.astype(np.float32)])
     return np.diag([-1.0, -1.0, 1.0, 1.0]) @ affine if frame == "lps" else affine
 
 
@@ -68,10 +65,7 @@ def _space(spacing, origin, affine, frame, unit, stated=None):
     """Returns where a volume lies; stated are edges of a voxel that replace the affine's."""
     if affine is not None and (spacing is not None or origin is not None):
         raise UsageError("affine: spacing and origin follow from it, leave them out")
-    if affine is not None and frame == "voxel":
-        norms = np.linalg.norm(_affine_rows(affine)[:, :3], axis=0)
-        spacing = norms if stated is None else stated
-    elif affine is not None:
+    if affine is not None:
         space = _core.space_of_affine(_affine_rows(affine).tolist(), frame or "own", stated)
         space.unit = unit
         return space

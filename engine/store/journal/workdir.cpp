@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <array>
 #include <cerrno>
+#include <cmath>
 #include <fstream>
 #include <map>
 #include <optional>
@@ -110,6 +111,19 @@ std::string volume_text(const io::VolumeInfo& volume) {
                   "origin = ", triple(space.origin), "\n");
 }
 
+/// Whether the first corners of a volume, in one space, are within rounding where they are in
+/// another.
+bool is_near(const io::VolumeSpace& one, const io::VolumeSpace& other) {
+  constexpr double kRounding = 1e-6;  // voxels
+  for (const io::Vector3& corner : {io::Vector3{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}}) {
+    const io::Vector3 there = to_corner(other, to_world(one, corner));
+    for (std::size_t k = 0; k < 3; ++k) {
+      if (!(std::abs(there[k] - corner[k]) <= kRounding)) return false;
+    }
+  }
+  return true;
+}
+
 }  // namespace
 
 std::string settings_in(const fs::path& path, std::string_view expected) {
@@ -188,6 +202,23 @@ std::string place_differences(const fs::path& path, const io::VolumeInfo& volume
     now += io::text(name, " = ", is.at(name), "\n");
   }
   return differences(before, now);
+}
+
+io::VolumeSpace settled_space(const fs::path& path, const io::VolumeSpace& space) {
+  const Lines lines = lines_of(settings_in(path / kSettingsFile));
+  std::string text;
+  for (const char* name : {"spacing", "axes", "origin"}) {
+    text += value_of(lines, name).value_or("") + " ";
+  }
+  std::ranges::replace(text, ',', ' ');
+  const auto numbers = io::parse_reals(text);
+  if (!numbers || numbers->size() != 15) return space;
+  io::VolumeSpace out = space;
+  auto next = numbers->begin();
+  for (io::Vector3* v : {&out.spacing, &out.axes[0], &out.axes[1], &out.axes[2], &out.origin}) {
+    for (double& x : *v) x = *next++;
+  }
+  return is_near(space, out) ? out : space;
 }
 
 bool is_identity_of(const fs::path& path, const std::string& settings) {

@@ -85,6 +85,12 @@ class Workdir : public WorkFiles {
 [[nodiscard]] std::string place_differences(const std::filesystem::path& path,
                                             const io::VolumeInfo& volume);
 
+/// Returns the space with the spacing, axes and origin that the settings in a folder name, where
+/// these are its own up to a millionth of a voxel's edge, as when another program has saved a file
+/// again; else the space as it is.
+[[nodiscard]] io::VolumeSpace settled_space(const std::filesystem::path& path,
+                                            const io::VolumeSpace& space);
+
 /// Returns a line "name = value" for shape, type and space of the volume and for each entry of
 /// setting_table().  The caller adds what it knows of the program and the labels (StoreOptions):
 /// mwmesh adds its version and results_id(), and a fingerprint of the labels after --crop, --merge

@@ -169,7 +169,9 @@ std::uint64_t parse_vox_offset(const View& view, std::string_view file) {
 /// Reads the place by NIfTI-1's method 3: the rows of an affine map.
 FileSpace sform(const View& view) {
   const std::size_t at = view.fields().srow;
-  FileSpace space{.steps_field = "sform", .first_field = "sform offset"};
+  FileSpace space{.in_floats = view.fields().version == 1,
+                  .steps_field = "sform",
+                  .first_field = "sform offset"};
   Vector3 first{};
   for (std::size_t k = 0; k < 3; ++k) {
     for (std::size_t i = 0; i < 3; ++i) space.steps[i][k] = view.real(at, 4 * k + i);

@@ -205,6 +205,11 @@ class SameMesh(InFolder):
             for frame in (None, "ras", "lps", "voxel"):
                 made = mwmesh.mesh(nibabel.load(self.path("i.nii")), frame=frame)
                 self.assertEqual(made.digest, mwmesh.mesh(self.path("i.nii"), frame=frame).digest)
+            image = nibabel.load(self.path("i.nii"))  # as edited, and saved again
+            made = mwmesh.mesh(image)
+            self.assertEqual(made.digest, mwmesh.mesh(data, affine=image.affine, frame="ras").digest)
+            nibabel.save(nibabel.Nifti1Image(data, image.affine), self.path("j.nii"))
+            self.assertEqual(made.digest, mwmesh.mesh(self.path("j.nii")).digest)
         with self.assertRaises(mwmesh.UsageError):
             mwmesh.mesh(nibabel.load(self.path("i.nii")), spacing=1)
 

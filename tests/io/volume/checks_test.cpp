@@ -215,6 +215,27 @@ TEST(NiftiSpace, SformThenQformThenPixdim) {
   }
 }
 
+/// A file that another program has saved again states lengths as sums of floats, or none.
+TEST(NiftiSpace, LengthsOfATurnedSformDoNotDependOnWhatIsStated) {
+  const TempDir dir;
+  std::mt19937 random(3520);
+  for (int i = 0; i < 50; ++i) {
+    const auto digits = [&] { return 0.1 + static_cast<double>(random() % 900000) / 1e6; };
+    const Vector3 spacing = i == 0 ? Vector3{1.2, 1.2, 3} : Vector3{digits(), digits(), digits()};
+    NiftiSample sample{.sform_code = 1, .magic = {}};
+    const std::array<Vector3, 3> steps = random_steps(random, spacing);
+    for (std::size_t k = 0; k < 3; ++k) {
+      for (std::size_t axis = 0; axis < 3; ++axis) sample.matrix[k][axis] = steps[axis][k];
+    }
+    for (const double stated : {1.0, 1 - 1e-7, 1 + 1.5e-7, 0.0}) {
+      for (std::size_t axis = 0; axis < 3; ++axis) sample.pixdim[axis + 1] = spacing[axis] * stated;
+      const auto path = dir.file("a.nii", sample.header() + std::string(60, 'a'));
+      const Vector3 read = open_volume(path)->info().space.spacing;
+      for (std::size_t k = 0; k < 3; ++k) EXPECT_DOUBLE_EQ(read[k], spacing[k]) << stated;
+    }
+  }
+}
+
 TEST(NiftiSpace, AnSformWithoutVolumeGivesWayToTheQform) {
   const TempDir dir;
   NiftiSample sample{.qform_code = 1, .sform_code = 1, .magic = {}};
