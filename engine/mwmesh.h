@@ -81,6 +81,7 @@ struct Space {
 /// Returns the space of an array whose indices of voxels `affine` (three rows of a 4 x 4 matrix)
 /// takes to the world; as in NIfTI, they stand for centres, while the affine of `mwmesh info
 /// --json` takes corners, and is to get half of each of its first three columns added to the last.
+/// Where all twelve are floats of 32 bits, they are what their shortest decimals say, as in files.
 /// frame is "own", "ras" or "lps", or "voxel" to keep nothing but the edges of a voxel.  spacing
 /// has these edges where a file states them beside the matrix; it counts for axes that lie along
 /// none of the world's, and only where it is that of the matrix to five digits.
@@ -269,8 +270,9 @@ struct Options {
   /// tells what the edit did ("delta"), unless no run was complete there.
   bool from_kept = false;
   /// With from_kept, boxes of voxels, counted as without a crop, that hold all changes since the
-  /// last run that returned, and that alone are read; if empty, everything may have changed.  A run
-  /// that threw may have kept its labels all the same, so its boxes must be there, too.
+  /// last run that returned, and that alone are read, beside a sample that must not have changed;
+  /// if empty, everything may have changed.  A run that threw may have kept its labels all the same,
+  /// so its boxes must be there, too.
   std::vector<Box> changed{};
   /// Images whose values tets get, as `mwmesh mesh --sample` has them: "NAME=FILE" or
   /// "NAME=FILE:mode", several joined by ';'.  The voxels of a .npy file are those of the volume,

@@ -67,8 +67,10 @@ std::string obstacle(const MeshJob& job) {
            "or verify the file";
   }
   if (job.certify == Certify::kAuto && job.run.keep.use == KeepUse::kUpdate) {
-    return "the mesh is, byte for byte, that of a run that begins afresh: give --certify on, or "
-           "verify the file";
+    return io::text(
+        "the mesh is, byte for byte, that of a run that begins afresh",
+        job.run.keep.changed.empty() ? "" : ", if nothing outside of --changed has changed",
+        ": give --certify on, or verify the file");
   }
   if (job.run.store.memory / 4 < kShared + kPerThread) {
     return "needs --memory " + io::mebibytes(4 * (kShared + kPerThread)) + " or more";

@@ -69,6 +69,21 @@ class CountedVolume : public io::VolumeView {
   mutable std::atomic<std::uint64_t> voxels_ = 0;
 };
 
+/// A volume that lies elsewhere.
+class PlacedVolume : public io::VolumeView {
+ public:
+  PlacedVolume(const io::LabelVolume& volume, const io::VolumeSpace& space)
+      : VolumeView(volume), info_(volume.info()) {
+    info_.space = space;
+  }
+
+  [[nodiscard]] const io::VolumeInfo& info() const override { return info_; }
+  void read(const Box3& box, std::span<RawLabel> out) const override { below().read(box, out); }
+
+ private:
+  io::VolumeInfo info_;
+};
+
 /// Throws if a box has no voxel: what it was to say is not known then.  One that lies outside of
 /// the volume says that nothing has changed in it, as where the volume was cropped.
 void check_changed(const std::vector<Box3>& changed) {
@@ -105,6 +120,7 @@ class KeptInput {
   /// Must be called before the run keeps anything: from here on its labels may be in the folder.
   void begin() {
     if (folder_ == nullptr) return;
+    if (patched_) refuse_untold_change();
     folder_->begin_change(changed_);
     after_ = std::make_unique<io::AtomicFile>(folder_->path() / kLabelsFile);
     write_kept_labels(volume(), *after_, scanner_count(volume(), 1, memory_));
@@ -204,6 +220,18 @@ class KeptInput {
       options.say(folder +
                   ": no run was complete here, so all labels are read, not only --changed");
     }
+  }
+
+  /// ERRORS: mw::Error(kUsage) when labels outside of the boxes are found to have changed.
+  void refuse_untold_change() const {
+    const auto box = patched_->untold_change(scanner_count(counted_, 1, memory_));
+    if (!box) return;
+    const Index3 lo = box->lo + counted_.info().first, hi = box->hi + counted_.info().first;
+    io::fail_usage(
+        "--changed: labels have changed outside of its boxes, too: those of the tile from ", lo.x,
+        ",", lo.y, ",", lo.z, " to ", hi.x, ",", hi.y, ",", hi.z,
+        " are not those of the last run in ", folder_->path().string(),
+        "; give all boxes that changed, or leave --changed out, so that all is read");
   }
 
   CountedVolume counted_;
@@ -540,8 +568,11 @@ report::FinishedRun mesh_and_keep(const io::LabelVolume& opened, const MeshJob& 
 
 report::FinishedRun mesh(const io::LabelVolume& opened, const MeshJob& job, io::MeshSink& sink) {
   const io::WaitStop waits(&job.stop);
+  const KeepOptions& keep = job.run.keep;
   try {
-    return mesh_and_keep(opened, job, sink);
+    if (keep.use != KeepUse::kUpdate) return mesh_and_keep(opened, job, sink);
+    const PlacedVolume placed(opened, settled_space(keep.folder, opened.info().space));
+    return mesh_and_keep(placed, job, sink);
   } catch (const DamagedWork& damage) {
     fail_damaged(damage, job.run);
   }

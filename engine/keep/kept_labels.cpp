@@ -12,6 +12,7 @@
 #include "engine/window/window_grid.h"
 #include "io/codec/checksums.h"
 #include "io/codec/codec.h"
+#include "io/codec/hasher.h"
 #include "io/file/byte_order.h"
 #include "kernels/core/index.h"
 
@@ -101,6 +102,10 @@ std::vector<RawLabel> KeptLabels::read(Index3 tile) const {
   fail_damaged("a tile cannot be unpacked");
 }
 
+std::uint64_t KeptLabels::checksum(Index3 tile) const {
+  return places_[raster(tile, tiles_.count())].checksum;
+}
+
 std::string KeptLabels::note() const {
   std::uint64_t end = 0;
   for (const Place& place : places_) end = std::max(end, place.offset + place.size);
@@ -172,14 +177,60 @@ void PatchedVolume::read(const Box3& box, std::span<RawLabel> out) const {
   std::vector<RawLabel> labels;
   for_each_index(over, [&](Index3 tile) {
     const Box3 tile_box = kept_.tiles().box(tile), part = intersection(tile_box, box);
-    const bool has_changed = std::any_of(changed_.begin(), changed_.end(), [&](const Box3& c) {
-      return !is_empty(intersection(c, tile_box));
-    });
-    if (!has_changed) return copy_box<RawLabel>(part, tile_box, kept_.read(tile), box, out);
+    if (!is_told(tile_box)) {
+      return copy_box<RawLabel>(part, tile_box, kept_.read(tile), box, out);
+    }
     labels.resize(static_cast<std::size_t>(part.voxels()));
     below().read(part, labels);
     copy_box<RawLabel>(part, part, labels, box, out);
   });
+}
+
+bool PatchedVolume::is_told(const Box3& tile) const {
+  return std::any_of(changed_.begin(), changed_.end(),
+                     [&](const Box3& c) { return !is_empty(intersection(c, tile)); });
+}
+
+/// Returns one tile of each of equal parts of those that no box touches.
+std::vector<Index3> PatchedVolume::sampled_tiles() const {
+  constexpr std::int64_t kLeast = 8, kOneOf = 100;
+  const ReadingTiles& tiles = kept_.tiles();
+  std::vector<Index3> untold;
+  io::DigestMaker labels;
+  for_each_index(tiles.count(), [&](Index3 tile) {
+    if (is_told(tiles.box(tile))) return;
+    untold.push_back(tile);
+    labels.add(kept_.checksum(tile));
+  });
+  const auto all = static_cast<std::int64_t>(untold.size());
+  const std::int64_t least = kLeast * ReadingTiles::kMaxVoxels / tiles.box({0, 0, 0}).voxels();
+  const auto count = static_cast<int>(std::min(all, std::max(least, (all + kOneOf - 1) / kOneOf)));
+  const io::ContentDigest seed = labels.finish();
+  std::vector<Index3> out;
+  for (SequencePart part{.index = 0, .count = count}; part.index < count; ++part.index) {
+    io::DigestMaker draw;
+    draw.add(seed);
+    draw.add(static_cast<std::uint64_t>(part.index));
+    const auto size = static_cast<std::uint64_t>(part.end(all) - part.begin(all));
+    out.push_back(untold[static_cast<std::size_t>(part.begin(all)) + draw.finish().first % size]);
+  }
+  return out;
+}
+
+std::optional<Box3> PatchedVolume::untold_change(int threads) const {
+  const std::vector<Index3> tiles = sampled_tiles();
+  std::optional<Box3> out;
+  const auto is_other = [&](std::size_t i) {
+    const Box3 box = kept_.tiles().box(tiles[i]);
+    std::vector<RawLabel> labels(static_cast<std::size_t>(box.voxels()));
+    below().read(box, labels);
+    return labels != kept_.read(tiles[i]);
+  };
+  each_in_order<bool>({.threads = threads, .at_once = static_cast<std::size_t>(threads)},
+                      tiles.size(), is_other, [&](std::size_t i, bool&& other) {
+                        if (other && !out) out = kept_.tiles().box(tiles[i]);
+                      });
+  return out;
 }
 
 }  // namespace mw::engine

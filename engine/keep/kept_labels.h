@@ -33,6 +33,8 @@ class KeptLabels {
   [[nodiscard]] const ReadingTiles& tiles() const { return tiles_; }
   /// Returns the labels of a tile, x fastest.  Thread-safe.  ERRORS: DamagedWork.
   [[nodiscard]] std::vector<RawLabel> read(Index3 tile) const;
+  /// Returns what is known of a tile's labels without reading them.
+  [[nodiscard]] std::uint64_t checksum(Index3 tile) const;
   /// Returns what append_note() added behind the tiles, empty if nothing.  ERRORS: DamagedWork.
   [[nodiscard]] std::string note() const;
 
@@ -70,7 +72,16 @@ class PatchedVolume : public io::VolumeView {
 
   void read(const Box3& box, std::span<RawLabel> out) const override;
 
+  /// Reads 1 % of the tiles that no box touches, at least as many voxels as eight of full size
+  /// have, on `threads` threads, each of which holds a tile.  Which ones depends on the labels that
+  /// were kept.  Returns the voxels of the first tile whose labels are not those; nothing if all
+  /// are.
+  [[nodiscard]] std::optional<Box3> untold_change(int threads) const;
+
  private:
+  [[nodiscard]] bool is_told(const Box3& tile) const;
+  [[nodiscard]] std::vector<Index3> sampled_tiles() const;
+
   const KeptLabels& kept_;
   std::vector<Box3> changed_;
 };

@@ -352,10 +352,13 @@ class Case:
         for _ in range(self.random.randint(2, 4)):
             if kept[0] == "--from=kept" and self.random.random() < 0.3:
                 self.killed_run(kept)
+            early = self.badly_told_run() if kept[0] == "--from=kept" else None
             self.run(self.mesh_arguments("e/" + self.settings.output, [*self.schedule(), *kept]))
             self.run(self.mesh_arguments("f/" + self.settings.output, ["--threads=1"]))
             if self.files("e") != self.files("f"):
                 raise Failed("after an edit the mesh is another one than that of a fresh run")
+            if early not in (None, self.files("f")):
+                raise Failed("an edit that --changed did not tell gave a stale mesh")
             meshed = volume
             volume, changed = self.edit(meshed, before)
             kept = ["--from=kept"]
@@ -385,12 +388,29 @@ class Case:
             shutil.copy(other / name, kept / name)
         code, text = self.end(self.start(self.mesh_arguments(
             "e/" + self.settings.output, [*self.schedule(), "--from=kept", changed])))
-        if code == 3 and "is damaged: delete that folder" in text:
+        is_refused = code == 3 and "is damaged: delete that folder" in text
+        if is_refused or (code == 2 and "labels have changed outside of its boxes" in text):
             self.did.append("mixed, refused")
         elif code != 0 or self.files("e") != self.files("f"):
             raise Failed(f"files of another folder were not noticed, exit code {code}\n{text}")
         else:
             self.did.append("mixed")
+
+    def badly_told_run(self):
+        """An edit, and a box that need not hold it: the program refuses, or reads it all the same.
+        Returns the files of a run that ended well."""
+        if self.random.random() < 0.6:
+            return None
+        lo = [self.random.randrange(n) for n in self.volume.shape]
+        box = ",".join(map(str, lo + [n + 1 for n in lo]))
+        code, text = self.run(self.mesh_arguments("e/" + self.settings.output, [
+            *self.schedule(), "--from=kept", "--changed=" + box]), allowed=(0, 2))
+        if code == 0:
+            return self.files("e")
+        if "labels have changed outside of its boxes" not in text:
+            raise Failed(f"exit code 2 for no good reason\n{text}")
+        self.did.append("refused-edit")
+        return None
 
     def killed_run(self, kept):
         process = self.start(self.mesh_arguments("e/" + self.settings.output,

@@ -35,6 +35,10 @@ def content_of(path):
         return file.read()
 
 
+def tree_of(folder):
+    return {path.name: path.read_bytes() for path in pathlib.Path(folder).iterdir()}
+
+
 class Keep(unittest.TestCase):
     def setUp(self):
         folder = tempfile.TemporaryDirectory()
@@ -118,19 +122,47 @@ class Keep(unittest.TestCase):
         self.assertIn("have to stay", told.stderr)
         self.refused(2, "name it with --keep", "mesh", "v.npy", "-o", "m.vtu", "--keep-bytes", "1GB")
 
-    def test_what_is_not_told_is_not_seen(self):
-        """Counter-test: windows that are skipped wrongly give another mesh, which these tests see."""
+    def test_an_edit_that_is_not_told_is_refused(self):
         self.done("synth", "voronoi", "--shape", "72,72,72", "--labels", "20", "--seed", "1", "-o",
-                  "v.npy")  # labels are read again by tiles of up to 64^3 voxels
+                  "v.npy")
         self.volume = np.load("v.npy")
         self.mesh("--keep", "k")
-        before = content_of("m.vtu")
-        self.volume[10:14, 10:14, 10:14] = 5
+        self.volume[10:14, 10:14, 10:14] = 5  # in tiles of 80 x 16 x 16 voxels
+        self.volume[70:, 70:, 70:] = 6
         self.save()
-        self.mesh("--from", "k", "--changed", "71,71,71,72,72,72")
-        self.assertEqual(content_of("m.vtu"), before)
+        before, mesh = tree_of("k"), content_of("m.vtu")
+        self.refused(2, "those of the tile from 0,0,0 to 72,16,16 are not", "mesh", "v.npy", "-o",
+                     "m.vtu", *SETTINGS, "--from", "k", "--changed", "70,70,70,72,72,72")
+        self.assertEqual((tree_of("k"), content_of("m.vtu")), (before, mesh))
+        # Counter-test: windows that are skipped wrongly give another mesh, which these tests see.
         with self.assertRaises(AssertionError):
             self.expect_fresh()
+        said = self.mesh("--from", "k", "--changed", "70,70,70,72,72,72", "--changed",
+                         "10,10,10,14,14,14").stdout
+        self.assertIn("if nothing outside of --changed has changed", said)
+        self.expect_fresh()
+        self.volume[0, 0, 0] = 7
+        self.save()
+        self.assertNotIn("--changed", self.mesh("--from", "k").stdout)
+        self.expect_fresh()
+
+    def test_a_place_that_differs_by_rounding_is_the_one_that_was_kept(self):
+        place = ("--spacing", "1.2,1.2,1.5", "--origin", "50.46883834,-3,7")
+        near = ("--spacing", "1.1999999,1.2,1.5000001", "--origin", "50.4688383,-3,7")
+        self.mesh("--keep", "k", *place)
+        kept = content_of("m.vtu")
+        self.mesh("--from", "k", *near)
+        self.assertEqual(self.visited(), 0)
+        self.assertEqual(content_of("m.vtu"), kept)
+        self.volume[3:6, 3:6, 3:6] = 5
+        self.save()
+        self.mesh("--from", "k", *near)
+        self.done("mesh", "v.npy", "-o", "fresh.vtu", "--order", "colour", *SETTINGS, *place)
+        self.assertEqual(content_of("m.vtu"), content_of("fresh.vtu"))
+        for far in (("--spacing", "1.2,1.20001,1.5", *place[2:]),
+                    (*place[:2], "--origin", "50.46883834,-3,7.00001")):
+            self.refused(2, "is of another run", "mesh", "v.npy", "-o", "m.vtu", *SETTINGS,
+                         "--from", "k", *far)
 
     def test_a_folder_of_another_build_says_so(self):
         self.mesh("--keep", "k")

@@ -6,6 +6,8 @@
 #include <gtest/gtest.h>
 
 #include <fstream>
+#include <mutex>
+#include <set>
 
 #include "engine/store/journal/work_file.h"
 #include "tests/engine/keep/edits.h"
@@ -68,6 +70,107 @@ TEST(PatchedVolume, IsTheNewVolumeWhereTheBoxesHaveAllChanges) {
     }
     EXPECT_FALSE(KeptLabels::open(path, before.shape + Index3{1, 0, 0}).has_value());
   }
+}
+
+/// Labels in memory, which can be edited, and what was kept of them before.
+class KeptVolume {
+ public:
+  explicit KeptVolume(const test::SmallVolume& volume) : labels_(volume) {
+    const auto path = folder_.path() / "labels";
+    io::AtomicFile file(path);
+    write_kept_labels(MemoryVolume(labels_, {}), file);
+    file.commit();
+    kept_ = KeptLabels::open(path, volume.shape);
+  }
+
+  [[nodiscard]] const KeptLabels& kept() const { return kept_.value(); }
+  [[nodiscard]] Box3 box() const { return {{0, 0, 0}, labels_.shape}; }
+  void set(const Box3& voxels, Label label) {
+    for_each_index(voxels, [&](Index3 v) {
+      labels_.labels[static_cast<std::size_t>(box().offset(v))] = label;
+    });
+  }
+  /// Returns what is found when these boxes are told.
+  [[nodiscard]] std::optional<Box3> untold(const std::vector<Box3>& told, int threads = 1) const {
+    const MemoryVolume volume(labels_, {});
+    return PatchedVolume(volume, kept(), told).untold_change(threads);
+  }
+
+ private:
+  TempFolder folder_;
+  test::SmallVolume labels_;
+  std::optional<KeptLabels> kept_;
+};
+
+/// Of small volumes all tiles are read.
+TEST(PatchedVolume, FindsEachUntoldEditOfASmallVolume) {
+  std::mt19937 random(3516);
+  int found = 0, told = 0;
+  for (int i = 0; i < 40; ++i) {
+    KeptVolume volume(
+        random_volume_of(random, VolumeKind::kBlobs, random_shape(random, 20, 70), 9));
+    const Box3 changed = random_box(random, volume.box().hi);
+    const Index3 at = random_box(random, volume.box().hi).lo;
+    EXPECT_FALSE(volume.untold({changed}).has_value());
+    volume.set({at, at + Index3{1, 1, 1}}, 99);
+    const ReadingTiles& tiles = volume.kept().tiles();
+    const Box3 tile = tiles.box(tiles.over({at, at + Index3{1, 1, 1}}).lo);
+    const bool is_told = !is_empty(intersection(tile, changed));
+    const std::optional<Box3> seen = volume.untold({changed}, 1 + i % 3);
+    EXPECT_EQ(seen, is_told ? std::nullopt : std::optional(tile));
+    ++(is_told ? told : found);
+  }
+  EXPECT_GT(found, 5);
+  EXPECT_GT(told, 5);
+}
+
+/// Notes where it is read.
+class NotingVolume : public io::VolumeView {
+ public:
+  using VolumeView::VolumeView;
+  void read(const Box3& box, std::span<RawLabel> out) const override {
+    below().read(box, out);
+    const std::lock_guard turn(noting_);
+    noted_.insert({box.lo.z, box.lo.y});
+  }
+  [[nodiscard]] const std::set<std::pair<std::int64_t, std::int64_t>>& noted() const {
+    return noted_;
+  }
+
+ private:
+  mutable std::mutex noting_;
+  mutable std::set<std::pair<std::int64_t, std::int64_t>> noted_;
+};
+
+/// Of others one tile of each of equal parts is read, which depends on labels alone.
+TEST(PatchedVolume, SamplesALargeVolume) {
+  test::SmallVolume labels{.shape = {128, 128, 256}, .label_count = 100, .labels = {}};
+  constexpr std::size_t kSamples = 64;  // tiles of 128 x 16 x 16: 8 * ReadingTiles::kMaxVoxels
+  constexpr std::int64_t kTold = 1, kTiles = 8 * 16 - kTold;
+  std::set<std::set<std::pair<std::int64_t, std::int64_t>>> draws;
+  for (const Label label : {1U, 2U, 3U}) {
+    labels.labels.assign(std::size_t{1} << 22U, label);
+    const KeptVolume kept(labels);
+    const MemoryVolume volume(labels, {});
+    for (const int threads : {1, 4}) {
+      const NotingVolume noting(volume);
+      const PatchedVolume patched(noting, kept.kept(), {{{0, 0, 0}, {1, 1, 1}}});
+      EXPECT_FALSE(patched.untold_change(threads).has_value());
+      EXPECT_EQ(noting.noted().size(), kSamples);
+      std::set<std::int64_t> parts;
+      for (const auto& [z, y] : noting.noted()) {
+        const std::int64_t tile = z / 16 * 8 + y / 16 - kTold;
+        EXPECT_GE(tile, 0) << "the tile that is told is read";
+        for (int k = 0; k < static_cast<int>(kSamples); ++k) {
+          const SequencePart part{k, kSamples};
+          if (tile >= part.begin(kTiles) && tile < part.end(kTiles)) parts.insert(k);
+        }
+      }
+      EXPECT_EQ(parts.size(), kSamples);
+      draws.insert(noting.noted());
+    }
+  }
+  EXPECT_EQ(draws.size(), 3U);  // threads draw alike, other labels other tiles
 }
 
 /// Returns whether the file is refused, or taken for one of another shape.
