@@ -69,18 +69,23 @@ void ExodusWriter::write(GroupedMesh& mesh) {
 template <class Visit>
 void ExodusWriter::for_each_side_set(const GroupedMesh& mesh, const PlainNames& names,
                                      Visit visit) {
+  int id = 0;
   for_each_named(mesh, names, [&](const NamedFacets& set) {
-    visit(FacetSet{set.name, set.group.facets});
-    if (!set.other.empty()) visit(FacetSet{set.other, set.group.facets, true});
+    visit(FacetSet{.name = set.name, .facets = set.group.facets, .id = ++id});
+    if (set.other.empty()) return;
+    visit(FacetSet{.name = set.other,
+                   .facets = set.group.facets,
+                   .id = ++id,
+                   .of_second = true,
+                   .has_nodes = set.is_split});
   });
 }
 
 template <class Visit>
 void ExodusWriter::for_each_node_set(const GroupedMesh& mesh, const PlainNames& names,
                                      Visit visit) {
-  for_each_named(mesh, names, [&](const NamedFacets& set) {
-    visit(FacetSet{set.name, set.group.facets});
-    if (set.is_split) visit(FacetSet{set.other, set.group.facets, true});
+  for_each_side_set(mesh, names, [&](const FacetSet& set) {
+    if (set.has_nodes) visit(set);
   });
 }
 
@@ -93,8 +98,10 @@ ExodusWriter::Plan ExodusWriter::plan_of(const GroupedMesh& mesh,
   for (std::size_t g = 1; g <= mesh.wedge_groups().size(); ++g) {
     plan.ids.push_back(static_cast<int>(numbers.largest() + static_cast<std::int64_t>(g)));
   }
-  for_each_side_set(mesh, plan.names, [&](const FacetSet& /*set*/) { ++plan.side_sets; });
-  for_each_node_set(mesh, plan.names, [&](const FacetSet& /*set*/) { ++plan.node_sets; });
+  for_each_side_set(mesh, plan.names,
+                    [&](const FacetSet& set) { plan.side_sets.push_back(set.id); });
+  for_each_node_set(mesh, plan.names,
+                    [&](const FacetSet& set) { plan.node_sets.push_back(set.id); });
   plan_element_sets(mesh, plan);
   return plan;
 }
@@ -146,7 +153,7 @@ void ExodusWriter::define(GroupedMesh& mesh, Plan& plan) {
 
 void ExodusWriter::define_facet_sets(GroupedMesh& mesh, Plan& plan) {
   int number = 0;
-  side_set_list_ = define_list("num_side_sets", "ss_", static_cast<std::size_t>(plan.side_sets));
+  side_set_list_ = define_list("num_side_sets", "ss_", plan.side_sets.size());
   for_each_side_set(mesh, plan.names, [&](const FacetSet& set) {
     ++number;
     const int sides = out_.add_dimension(text("num_side_ss", number), set.facets.size());
@@ -155,7 +162,7 @@ void ExodusWriter::define_facet_sets(GroupedMesh& mesh, Plan& plan) {
     out_.add_integers(text("side_ss", number), {sides});
   });
   number = 0;
-  node_set_list_ = define_list("num_node_sets", "ns_", static_cast<std::size_t>(plan.node_sets));
+  node_set_list_ = define_list("num_node_sets", "ns_", plan.node_sets.size());
   for_each_node_set(mesh, plan.names, [&](const FacetSet& set) {
     ++number;
     std::uint64_t count = 0;
@@ -352,8 +359,8 @@ void ExodusWriter::write_wedges(GroupedMesh& mesh, const Plan& plan) {
 
 void ExodusWriter::write_facet_sets(GroupedMesh& mesh, const Plan& plan) {
   constexpr int kOfSideSet = 2;  // variables
-  write_list(side_set_list_, counted_from_one(plan.side_sets));
-  write_list(node_set_list_, counted_from_one(plan.node_sets));
+  write_list(side_set_list_, plan.side_sets);
+  write_list(node_set_list_, plan.node_sets);
   int at = 0;
   for_each_side_set(mesh, plan.names, [&](const FacetSet& set) {
     out_.put_text(side_set_list_.names, static_cast<std::uint64_t>(at), set.name, kNameBytes);

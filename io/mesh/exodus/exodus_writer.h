@@ -17,8 +17,10 @@ namespace mw::io {
 /// each interface, FACE_1_2 of the tets of label 1 and FACE_2_1 of those of label 2; one for each
 /// side of the box (X_MIN to Z_MAX), and OUTER for what else bounds the mesh.  The nodes of each of
 /// these, those of an interface once unless vertices were doubled, are a node set of the same name.
-/// Side and node sets have ids from 1 on.  Faces of elements are numbered as Exodus II does: side 1
-/// has the nodes 1 2 4, side 2 has 2 3 4, side 3 has 1 4 3, side 4 has 1 3 2.
+/// Side sets have ids from 1 on, and a node set has the id of the side set of its name: libMesh has
+/// one numbering for both, so that another id would join the nodes of two names.
+/// Faces of elements are numbered as Exodus II does: side 1 has the nodes 1 2 4, side 2 has 2 3 4,
+/// side 3 has 1 4 3, side 4 has 1 3 2.
 /// Wedges between the sides of an interface are blocks of WEDGE behind those of labels, with ids
 /// above theirs and names such as COHESIVE_1_2; between tets of ten nodes they are not written,
 /// because VTK's reader and libMesh know no wedge of 12 nodes.
@@ -39,7 +41,9 @@ class ExodusWriter : public GroupedWriter {
   struct FacetSet {
     std::string name;
     RowRange facets;
+    int id = 0;
     bool of_second = false;
+    bool has_nodes = true;  ///< whether there is a node set of the name
   };
   /// A set of the elements of a material, or of a mask.
   struct ElementSet {
@@ -52,11 +56,11 @@ class ExodusWriter : public GroupedWriter {
   /// The contents of the file, with the variables that hold them.
   struct Plan {
     PlainNames names;
-    std::vector<int> ids{};  ///< of blocks: by rank of label; then those of wedges
-    int side_sets = 0;
+    std::vector<int> ids{};        ///< of blocks: by rank of label; then those of wedges
+    std::vector<int> side_sets{};  ///< ids
     int side_variable = 0;  ///< the first one; each side set has one of elements and one of sides
-    int node_sets = 0;
-    int node_variable = 0;  ///< the first one; each node set has one
+    std::vector<int> node_sets{};  ///< ids
+    int node_variable = 0;         ///< the first one; each node set has one
     std::vector<ElementSet> element_sets{};
     std::array<int, 3> coordinates{};
     std::vector<int> connectivity{};  ///< by block

@@ -16,6 +16,7 @@ from program import PROGRAM, enter_folder, run
 try:
     import meshio
     import numpy
+    from netCDF4 import Dataset
     from vtkmodules.util.numpy_support import vtk_to_numpy
     from vtkmodules.vtkIOExodus import vtkExodusIIReader
     from vtkmodules.vtkIOHDF import vtkHDFReader
@@ -25,6 +26,16 @@ except ImportError as missing:
     sys.exit(77)
 
 EDGES = [(0, 1), (1, 2), (2, 0), (0, 3), (1, 3), (2, 3)]
+
+
+def set_ids(path, prefix):
+    """Returns {name: id} of the side sets ("ss") or node sets ("ns") of an Exodus file."""
+    with Dataset(path) as file:
+        names = ["".join(c.decode() for c in row if c)
+                 for row in numpy.ma.filled(file[prefix + "_names"][:], b"")]
+        ids = file[prefix + "_prop1"][:].tolist()
+    assert len(set(names)) == len(ids)
+    return dict(zip(names, ids))
 
 
 def volumes(points, tets):
@@ -170,6 +181,20 @@ class Solvers(unittest.TestCase):
                 sorted(rows),
                 canonical(wanted.points, wanted.cells[0].data, wanted.cell_data["label"][0]))
             self.check_side_sets("m.exo")
+
+    def test_exodus_has_one_id_for_a_name(self):
+        """libMesh adds the nodes of a side set to the node set of the same id."""
+        run("mesh", "v.npy", "-o", "one.vtu", "--labels", "1")
+        run("mesh", "v.npy", "-o", "split.vtu", "--split", "*")
+        for source in ("m.vtu", "named.mesh", "one.vtu", "split.vtu"):
+            for element in ("tet4", "tet10"):
+                run("convert", source, "ids.exo", "--element", element)
+                sides, nodes = set_ids("ids.exo", "ss"), set_ids("ids.exo", "ns")
+                self.assertEqual(len(set(sides.values())), len(sides))
+                self.assertEqual(nodes, {name: sides[name] for name in nodes})
+                pairs = sum(name.startswith("FACE_") for name in sides)
+                self.assertEqual(pairs > 0, source != "one.vtu")
+                self.assertEqual(len(sides) - len(nodes), 0 if source == "split.vtu" else pairs / 2)
 
     def check_side_sets(self, path):
         """VTK makes the triangles of sides itself; those of FACE_a_b and FACE_b_a are the same."""
