@@ -18,9 +18,9 @@
 namespace mw::io {
 namespace {
 
-/// Writes 80 bytes of text with space_comment(), the number of triangles in 32 bits, then for each
-/// its normal and its corners as 32-bit floats and two bytes of 0.  The format has neither labels
-/// nor vertices; readers join the corners that have the same coordinates.
+/// Writes 80 bytes of text with shift_comment() and space_comment(), the number of triangles in 32
+/// bits, then for each its normal and its corners as 32-bit floats and two bytes of 0.  The format
+/// has neither labels nor vertices; readers join the corners that have the same coordinates.
 /// Memory: 10 MiB; vertices wait in a temporary file.
 class StlSink : public SurfaceSink {
  public:
@@ -38,7 +38,7 @@ class StlSink : public SurfaceSink {
 };
 
 /// The title must not begin with "solid", by which readers know the text kind of .stl.
-constexpr std::string_view kTitle = "binary STL, surface of a labelled mesh";
+constexpr std::string_view kTitle = "mwmesh: binary STL";
 constexpr std::size_t kTitleBytes = 80;
 
 /// Returns the normal of length 1; 0 0 0 where the corners are on one line.
@@ -59,8 +59,15 @@ StlSink::StlSink(const std::filesystem::path& path)
 void StlSink::begin(const SurfaceHeader& header) {
   const std::uint64_t count = header.triangles();
   check_max(name_, "triangles", count, std::numeric_limits<std::uint32_t>::max());
+  check_floats(name_, header, 1, "give --shift X,Y,Z, a place near the mesh, or write .ply");
   std::string title(kTitle);
-  if (const std::string space = space_comment(header); !space.empty()) title += "; " + space;
+  for (const std::string& comment : {shift_comment(header), space_comment(header)}) {
+    if (!comment.empty()) title += "; " + comment;
+  }
+  if (title.size() > kTitleBytes) {
+    fail_usage(name_, ": no room for '", title, "' in the ", kTitleBytes,
+               " bytes of the header; give --shift with fewer digits");
+  }
   title.resize(kTitleBytes, ' ');
   file_.append(title);
   append_little(file_, static_cast<std::uint32_t>(count));
@@ -139,8 +146,9 @@ void PlySink::begin(const SurfaceHeader& header) {
 }
 
 void PlySink::append_comments() {
-  if (const std::string space = space_comment(header_); !space.empty()) {
-    file_.append("comment " + space + "\n");
+  for (const std::string& comment :
+       {std::string("mwmesh"), shift_comment(header_), space_comment(header_)}) {
+    if (!comment.empty()) file_.append("comment " + comment + "\n");
   }
   const LabelTable& table = header_.labels->table;
   for (const Label rank : ranks_of(header_)) {

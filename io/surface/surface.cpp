@@ -4,9 +4,11 @@
 #include "io/surface/surface.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include "io/file/scratch/external_sort.h"
 #include "io/surface/vertex_sheets.h"
+#include "kernels/core/vector3.h"
 
 namespace mw::io {
 namespace {
@@ -42,6 +44,8 @@ Surface::Surface(const SurfaceSource& source, std::shared_ptr<const SurfaceLabel
     : vertices_(source.folder), triangles_(source.folder) {
   header_.labels = std::move(labels);
   header_.frame = source.mesh.header().record.frame;
+  header_.shift = source.shift;
+  header_.shortest_edge = source.mesh.shortest_edge();
   for (const ShellPlan& plan : plans) add_shell(source, plan, manifold);
 }
 
@@ -62,7 +66,8 @@ void Surface::add_shell(const SurfaceSource& source, const ShellPlan& plan, bool
   corners.each([&](const CornersByVertex::Record& record) {
     const std::array<std::uint64_t, 2> vertex{record[0], record[1]};
     if (count == 0 || vertex != last) {
-      const Position position = source.mesh.node(record[0]);
+      const Position position = minus(source.mesh.node(record[0]), source.shift);
+      for (const double x : position) header_.largest = std::max(header_.largest, std::abs(x));
       vertices_.append(std::as_bytes(std::span(position)));
       ++count;
     }

@@ -54,6 +54,7 @@ class ShellPlans {
 struct SurfaceSource {
   GroupedMesh& mesh;
   std::filesystem::path folder;  ///< of temporary files
+  Position shift{};              ///< is taken off all coordinates
 };
 
 /// Returns the label that the normals of a part point out of.

@@ -4,9 +4,11 @@
 #include "io/surface/surface_sink.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include "io/file/errors.h"
 #include "io/mesh/grouped/group_names.h"
+#include "io/mesh/grouped/label_numbers.h"
 #include "kernels/core/assert.h"
 #include "kernels/core/sort_distinct.h"
 
@@ -72,6 +74,23 @@ std::uint64_t SurfaceHeader::triangles() const {
 std::string space_comment(const SurfaceHeader& header) {
   if (header.frame == WorldFrame::kOwn) return {};
   return header.frame == WorldFrame::kRas ? "SPACE=RAS" : "SPACE=LPS";
+}
+
+std::string shift_comment(const SurfaceHeader& header) {
+  const auto& [x, y, z] = header.shift;
+  if (x == 0 && y == 0 && z == 0) return {};
+  return text("SHIFT=", x, ",", y, ",", z);
+}
+
+void check_floats(std::string_view file, const SurfaceHeader& header, double scale,
+                  const std::string& way_out) {
+  constexpr int kBits = 24;
+  const double largest = header.largest * scale;
+  check_rounding(file, {.largest = largest,
+                        .shortest_edge = header.shortest_edge * scale,
+                        .loss = std::ldexp(largest, -kBits),
+                        .room = text(kBits, " bits"),
+                        .way_out = way_out});
 }
 
 bool RunCursor::next() {

@@ -70,6 +70,9 @@ struct SurfaceHeader {
   std::shared_ptr<const SurfaceLabels> labels;
   std::vector<SurfaceShell> shells;
   WorldFrame frame = WorldFrame::kOwn;  ///< of coordinates
+  Position shift{};                     ///< was taken off all coordinates
+  double largest = 0;                   ///< coordinate of a vertex, without its sign and the shift
+  double shortest_edge = 0;             ///< of the mesh
 
   [[nodiscard]] std::uint64_t vertices() const;
   [[nodiscard]] std::uint64_t triangles() const;
@@ -114,6 +117,14 @@ class RunCursor {
 /// Returns "SPACE=RAS" or "SPACE=LPS", which 3D Slicer looks for in comments of files; empty where
 /// the frame is not known.
 [[nodiscard]] std::string space_comment(const SurfaceHeader& header);
+
+/// Returns "SHIFT=X,Y,Z", which is to be added to all coordinates; empty without a shift.
+[[nodiscard]] std::string shift_comment(const SurfaceHeader& header);
+
+/// Checks the rounding of coordinates that are written times a scale as 32-bit floats.
+/// ERRORS: those of check_rounding().
+void check_floats(std::string_view file, const SurfaceHeader& header, double scale,
+                  const std::string& way_out);
 
 /// ERRORS: mw::Error(kUsage) when there are more than `max` of `what`, which is all that a format
 /// with numbers of 32 bits can hold.

@@ -143,7 +143,7 @@ class GroupedMesh {
   [[nodiscard]] const std::filesystem::path& folder() const { return folder_; }
   /// Returns the largest coordinate of a vertex, without its sign.
   [[nodiscard]] double largest_coordinate() const { return largest_coordinate_; }
-  /// Returns the length of the shortest edge of a tet, infinity if there is no tet.
+  /// Returns the length of the shortest edge of a tet that has one, infinity if there is none.
   [[nodiscard]] double shortest_edge() const { return std::sqrt(shortest_square_); }
   /// Returns six times the volume of the smallest straight tet, infinity if there is no tet.
   [[nodiscard]] double least_volume6() const { return least_volume6_; }

@@ -151,7 +151,8 @@ void GroupedSink::place_tet(TetRows tet, Faces& faces) {
   for (std::size_t i = 0; i < 4; ++i) corners[i] = mesh_.vertices_[tet[i]];
   for (const auto& [from, to] : kTetEdges) {
     const Position edge = minus(corners[to], corners[from]);
-    mesh_.shortest_square_ = std::min(mesh_.shortest_square_, dot(edge, edge));
+    const double square = dot(edge, edge);
+    if (square > 0) mesh_.shortest_square_ = std::min(mesh_.shortest_square_, square);
   }
   const double volume = volume6(corners[0], corners[1], corners[2], corners[3]);
   mesh_.least_volume6_ = std::min(mesh_.least_volume6_, std::abs(volume));

@@ -86,14 +86,22 @@ void check_number(std::string_view file, std::uint64_t largest, const NumberLimi
              " are needed; write ", limit.others);
 }
 
+void check_rounding(std::string_view file, const Rounding& rounding) {
+  if (rounding.loss <= rounding.shortest_edge / 64) return;
+  fail_usage(file, ": the format has ", rounding.room, ", too few for edges of ",
+             rounding.shortest_edge, " at coordinates of ", rounding.largest, "; ",
+             rounding.way_out);
+}
+
 void check_digits(std::string_view file, const GroupedMesh& mesh, int digits) {
   const double largest = mesh.largest_coordinate();
   if (largest == 0) return;
   const double last_digit = std::pow(10.0, std::floor(std::log10(largest)) - (digits - 1));
-  if (0.5 * last_digit <= mesh.shortest_edge() / 64) return;
-  fail_usage(file, ": the format has ", digits, " digits, too few for edges of ",
-             mesh.shortest_edge(), " at coordinates of ", largest,
-             "; set --origin nearer to 0, or write .inp, .exo or .vtkhdf");
+  check_rounding(file, {.largest = largest,
+                        .shortest_edge = mesh.shortest_edge(),
+                        .loss = 0.5 * last_digit,
+                        .room = text(digits, " digits"),
+                        .way_out = "set --origin nearer to 0, or write .inp, .exo or .vtkhdf"});
 }
 
 std::filesystem::path label_table_path(const std::filesystem::path& mesh) {

@@ -47,8 +47,20 @@ struct NumberLimit {
 /// ERRORS: mw::Error(kUsage) naming the file where `largest` is above the limit.
 void check_number(std::string_view file, std::uint64_t largest, const NumberLimit& limit);
 
-/// ERRORS: mw::Error(kUsage) naming the file where coordinates of `digits` significant digits would
-/// move nodes by more than a 64th of the shortest edge: tets lose their shape then.
+/// How a format rounds coordinates.
+struct Rounding {
+  double largest = 0;        ///< coordinate, without its sign
+  double shortest_edge = 0;  ///< in the same unit
+  double loss = 0;           ///< the most that a coordinate moves
+  std::string room;          ///< what the format has for one, as "10 digits"
+  std::string way_out;
+};
+
+/// ERRORS: mw::Error(kUsage) naming the file where nodes move by more than a 64th of the shortest
+/// edge: tets and triangles lose their shape then.
+void check_rounding(std::string_view file, const Rounding& rounding);
+
+/// Checks the rounding of coordinates of `digits` significant digits.
 void check_digits(std::string_view file, const GroupedMesh& mesh, int digits);
 
 /// Returns the path of the table that lies beside a mesh: MESH.labels.csv.

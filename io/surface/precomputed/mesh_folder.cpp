@@ -100,6 +100,7 @@ LegacySink::LegacySink(const std::filesystem::path& segment, double nm_per_unit)
 void LegacySink::begin(const SurfaceHeader& header) {
   constexpr std::uint64_t kMax = std::numeric_limits<std::uint32_t>::max();
   check_max(segment_.string(), "vertices", header.vertices(), kMax);
+  check_floats(segment_.string(), header, nm_per_unit_, "give --format draco");
   append_little(file_, static_cast<std::uint32_t>(header.vertices()));
 }
 

@@ -57,6 +57,47 @@ TEST(SurfaceFiles, SayWhichFrameTheyAreInAsSlicerLooksForIt) {
   }
 }
 
+/// Edges have a length of 1 at least, and a 64th of that are 2^18 steps of a 32-bit float.
+TEST(SurfaceFiles, FloatsThatAreTooCoarseAreRefusedUnlessTheyAreShifted) {
+  const TempDir dir;
+  for (const double place : {-200'000.0, 200'000.0, 300'000.0, -300'000.0, 4'512'345.25}) {
+    MeshData data = grid_mesh({2, 2, 2}, 1);
+    for (Position& p : data.vertices) p[1] += place;
+    SurfaceMesh mesh(data);
+    const auto write = [&](const char* name, const Position& shift) {
+      const ShellPlans plans(mesh.mesh(), true);
+      const auto sink = open_surface_sink(dir.path() / name);
+      Surface({mesh.mesh(), dir.path(), shift}, surface_labels(mesh.mesh()), {plans.of_label(0)},
+              false)
+          .write(*sink);
+      return content_of(dir.path() / name);
+    };
+    const std::string near = write("near.stl", {0, place, 0});
+    EXPECT_THAT(near.substr(0, 80), testing::HasSubstr(text("; SHIFT=0,", place, ",0")));
+    EXPECT_THAT(write("s.ply", {0, place, 0}),
+                testing::HasSubstr(text("comment SHIFT=0,", place, ",0\n")));
+    EXPECT_THAT(write("s.ply", {}), testing::Not(testing::HasSubstr("SHIFT")));
+    if (std::abs(place) < 250'000) {
+      EXPECT_EQ(write("far.stl", {}).size(), near.size());
+      continue;
+    }
+    expect_error(ErrorKind::kUsage, {"far2.stl", "24 bits", "--shift X,Y,Z", ".ply"},
+                 [&] { static_cast<void>(write("far2.stl", {})); });
+  }
+  MeshData flat = grid_mesh({2, 2, 2}, 1);
+  flat.vertices[1] = flat.vertices[0];  // an edge without a length, as other programs write them
+  write_file(flat, dir.path() / "flat.stl");
+  expect_error(ErrorKind::kUsage, {"long.stl", "fewer digits"}, [&] {
+    SurfaceMesh mesh(grid_mesh({2, 2, 2}, 1));
+    const ShellPlans plans(mesh.mesh(), true);
+    const Position shift{1.0 / 3, 1.0 / 7, -1e5 / 9};
+    const auto sink = open_surface_sink(dir.path() / "long.stl");
+    Surface({mesh.mesh(), dir.path(), shift}, surface_labels(mesh.mesh()), {plans.of_label(0)},
+            false)
+        .write(*sink);
+  });
+}
+
 TEST(SurfaceFiles, NothingIsLeftOfOneThatWasNotFinished) {
   SurfaceMesh mesh(named_mesh(2));
   const ShellPlans plans(mesh.mesh(), true);

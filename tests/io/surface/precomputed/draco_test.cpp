@@ -429,6 +429,25 @@ TEST(DracoMeshes, FolderSaysWhatItIs) {
   EXPECT_EQ(names["properties"][0]["values"], std::vector<std::string>{"one \"1\""});
 }
 
+/// Plain meshes have coordinates as 32-bit floats in nm; Draco's have steps from a corner.
+TEST(PrecomputedMeshes, PlainFloatsThatAreTooCoarseAreRefused) {
+  MeshData data = grid_mesh({2, 2, 2}, 1);
+  for (Position& p : data.vertices) p[0] += 400'000;
+  SurfaceMesh mesh(data);
+  const ShellPlans plans(mesh.mesh(), true);
+  const TempDir dir;
+  for (const FragmentKind kind : {FragmentKind::kLegacy, FragmentKind::kDraco}) {
+    MeshFolder folder(dir.path() / "far", {.kind = kind});
+    folder.use_unit("um");
+    const auto write = [&] { mesh.surface({plans.of_label(0)}, false).write(*folder.sink(1)); };
+    if (kind == FragmentKind::kDraco) {
+      write();
+    } else {
+      expect_error(ErrorKind::kUsage, {"24 bits", "coordinates of 40000", "--format draco"}, write);
+    }
+  }
+}
+
 /// A box of 2 x 3 x 3 cubes beside others of the same mesh.
 TEST(PrecomputedMeshes, SegmentsHaveFigures) {
   MeshData data = grid_mesh({4, 3, 3}, 0);
