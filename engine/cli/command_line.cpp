@@ -6,9 +6,11 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <deque>
+#include <filesystem>
 
 #include "engine/settings/number_text.h"
 #include "io/file/errors.h"
+#include "io/mesh/open_mesh.h"
 
 namespace mw::cli {
 namespace {
@@ -23,6 +25,12 @@ const Command& find_command(const std::vector<Command>& commands, const std::str
     return name == command.name || (name == command.older_name && !name.empty());
   });
   if (found != commands.end()) return *found;
+  if (std::error_code ignored; std::filesystem::exists(name, ignored)) {
+    const bool is_mesh = io::is_read_mesh_path(name);
+    refuse(name + ": no command; give mwmesh " +
+               (is_mesh ? "info " + name : "mesh " + name + " -o OUTPUT.vtu"),
+           nullptr);
+  }
   std::vector<std::string> known;
   for (const Command& command : commands) known.push_back(command.name);
   refuse(name + ": unknown command" + engine::did_you_mean(name, known), nullptr);
@@ -112,12 +120,22 @@ class Reader {
       const std::string name = flag->substr(0, flag->find('='));
       return name + ": unknown flag" + engine::did_you_mean(name, known_flags());
     }
-    if (!unknown.empty()) return unknown.front() + ": one argument too many";
+    if (!unknown.empty()) {
+      return unknown.front() + ": one argument too many" + way_to_output(unknown.front());
+    }
     const auto twice = std::find_if(flags_.begin(), flags_.end(), [](const Flag& given) {
       return !given.is_switch() && !given.option->repeats && given.parsed->count() > 1;
     });
     if (twice != flags_.end()) return twice->parsed->get_name() + ": is given more than once";
     return error.what();
+  }
+
+  /// Returns how the command is told what to write, where it was not.
+  [[nodiscard]] std::string way_to_output(const std::string& word) const {
+    const bool lacks_output = std::any_of(flags_.begin(), flags_.end(), [](const Flag& flag) {
+      return flag.option->flags == "-o,--output" && flag.parsed->count() == 0;
+    });
+    return lacks_output ? "; to write it, give -o " + word : "";
   }
 
   [[nodiscard]] std::vector<std::string> known_flags() const {

@@ -211,15 +211,18 @@ std::string other_way(const std::string& extension) {
   return is_surface ? "; surfaces of a mesh are written by 'mwmesh surface MESH -o FILE.stl'" : "";
 }
 
-Error unknown_format(const std::filesystem::path& path, const std::string& supported) {
-  return {ErrorKind::kUsage, text(path.string(), ": extension '", path.extension().string(),
-                                  "' is no mesh format known here; supported are ", supported,
-                                  other_way(path.extension().string()))};
+Error unknown_format(const std::filesystem::path& path, const std::string& supported,
+                     const std::string& way_out) {
+  return {ErrorKind::kUsage,
+          text(path.string(), ": extension '", path.extension().string(),
+               "' is no mesh format known here; supported are ", supported, way_out)};
 }
 
 const MeshFormat& written_format(const std::filesystem::path& path) {
   const MeshFormat* const format = find_format(path);
-  if (format == nullptr) throw unknown_format(path, mesh_extensions());
+  if (format == nullptr) {
+    throw unknown_format(path, mesh_extensions(), other_way(path.extension().string()));
+  }
   if (format->is_written()) return *format;
   fail_usage(path.string(), ": a mesh in pieces; write it whole, and then with 'convert ",
              "--pieces N'");
@@ -227,7 +230,11 @@ const MeshFormat& written_format(const std::filesystem::path& path) {
 
 const MeshFormat& read_format(const std::filesystem::path& path) {
   const MeshFormat* const format = find_format(path);
-  if (format == nullptr) throw unknown_format(path, read_mesh_extensions());
+  if (format == nullptr) {
+    const std::string way = other_way(path.extension().string());
+    throw unknown_format(path, read_mesh_extensions(),
+                         way.empty() ? "; if it is a volume, mesh it first: mwmesh mesh" : way);
+  }
   if (format->is_read()) return *format;
   fail_usage(path.string(), ": ", format->extension,
              " is written here, but not read; meshes are read from ", read_mesh_extensions());

@@ -155,9 +155,14 @@ std::unique_ptr<ByteStream> VtkDocument::stream_of(pugi::xml_node array, const A
   }
   const std::uint64_t offset = number(array, "offset", 0);
   const std::uint64_t position = saturating_sum(appended_start_, offset);
-  if (format != "appended" || !appended_ || source_.size_within(position) < position) {
+  if (format != "appended" || !appended_) {
     fail_input(name.file, text("array '", name.array, "'"),
-               text("format '", format, "' with no data at offset ", offset));
+               text("format '", format, "' with no appended data"));
+  }
+  if (source_.size_within(position) < position) {
+    fail_input(name.file, text("array '", name.array, "'"),
+               text("truncated: the file ends before its data, at byte ", position),
+               "get a whole copy");
   }
   if (appended_raw_) return std::make_unique<SourceStream>(source_, position);
   const std::string_view all = appended_text();

@@ -166,7 +166,7 @@ Workdir::Workdir(const fs::path& path, bool resume, const std::string& settings)
     if (!resume) {
       refuse(path_,
              "holds the saved work of a run that did not end; add --resume to go on with "
-             "it, or delete the folder to start again");
+             "it, or delete the folder to start again; --force replaces outputs, not this work");
     }
     check_settings(settings);
     return;

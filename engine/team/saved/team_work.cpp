@@ -114,7 +114,7 @@ TeamWork::TeamWork(Team& team, const fs::path& folder, bool resume, const std::s
   if (before_ && !resume) {
     refuse(folder_,
            "holds the saved work of a run that did not end; add --resume to go on with it, or "
-           "delete the folder to start again");
+           "delete the folder to start again; --force replaces outputs, not this work");
   }
   if (before_ && before_->identity != identity) {
     refuse(folder_, "cannot go on, its work is that of another run: " +

@@ -35,6 +35,7 @@ TEST_F(ResumeProgramTest, EndsWith75AndGoesOnToTheSameMesh) {
   interrupt("", "n.vtu.work");
   const std::string mesh = "mesh n.npy -o n.vtu ";
   expect_failure(2, mesh + "--window 8", "add --resume to go on");
+  expect_failure(2, mesh + "--window 8 --force", "--force replaces outputs, not this work");
   expect_failure(2, mesh + "--window 10 --resume", "window was 8 and is 10");
   expect_failure(2, mesh + "--window 8 --odt-iterations 3 --resume",
                  "odt-iterations was 10 and is 3");
