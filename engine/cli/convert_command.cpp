@@ -21,6 +21,7 @@ struct ConvertJob {
   std::filesystem::path to;
   io::Element element = io::Element::kTet4;
   std::uint64_t pieces = 0;  ///< 0: not asked for
+  bool force = false;        ///< whether it may replace files of others
   io::MeshExtras extras;
 };
 
@@ -39,12 +40,13 @@ class SourceFacts : public io::NoSink {
   bool is_curved_ = false;
 };
 
-void require_files_apart(const ConvertJob& job) {
+void check_files(const ConvertJob& job) {
   FileNames files;
   files.read_mesh(job.from);
   files.write_mesh(job.to, job.extras.materials.has_value());
   files.write("--pairs", job.extras.pairs);
   files.require_apart();
+  if (!job.force) files.require_own();
 }
 
 std::unique_ptr<io::MeshSink> open_output(const ConvertJob& job) {
@@ -73,7 +75,7 @@ void tell_left_out(const ConvertJob& job, const SourceFacts& source) {
 }
 
 int run_convert(const ConvertJob& job) {
-  require_files_apart(job);
+  check_files(job);
   const std::unique_ptr<io::MeshSink> sink = open_output(job);
   SourceFacts source;
   io::TeeSink both(*sink, source);
@@ -131,6 +133,7 @@ void add_output_options(OptionSet& options, ConvertJob& job) {
                .group = kOutputGroup,
                .kind = ValueKind::kInteger,
                .assign = into(job.pieces, parse_pieces)});
+  add_force_option(options, job.force);
 }
 
 }  // namespace

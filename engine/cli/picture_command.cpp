@@ -32,6 +32,7 @@ struct PictureRequest {
   std::array<int, 2> pixels{1200, 900};         ///< width and height
   picture::Lines lines = picture::Lines::kAuto;
   bool transparent = false;
+  bool force = false;  ///< whether it may replace a file of others
 };
 
 constexpr const char* kShownGroup = "What to show";
@@ -129,6 +130,7 @@ void add_style(OptionSet& options, PictureRequest& request) {
                .kind = ValueKind::kSwitch,
                .fallback = "false",
                .assign = into(request.transparent)});
+  add_force_option(options, request.force);
 }
 
 /// Adds every option of the command.  REQUIRES: request outlives options.
@@ -152,6 +154,7 @@ void check(const PictureRequest& request) {
   files.read("--names", request.names);
   files.write("-o", request.output);
   files.require_apart();
+  if (!request.force) files.require_own();
 }
 
 /// Returns by rank whether a label was asked for.

@@ -5,6 +5,7 @@
 
 #include "engine/cli/command.h"
 #include "engine/cli/exit_code.h"
+#include "engine/cli/options/file_names.h"
 #include "engine/cli/options/shared_options.h"
 #include "engine/cli/options/values.h"
 #include "io/file/errors.h"
@@ -21,6 +22,7 @@ struct SynthJob {
   SynthSpec spec;
   std::optional<io::VoxelType> type;  ///< empty: the narrowest that fits
   std::filesystem::path output;
+  bool force = false;  ///< whether it may replace a file
 };
 
 /// Returns the narrowest type that holds the largest label, which may be the number of labels.
@@ -49,6 +51,7 @@ int run_synth(const SynthJob& job) {
   if (job.output.extension() != ".npy") {
     io::fail_usage("-o " + job.output.string() + ": volumes are written as .npy");
   }
+  if (!job.force) require_own_file({"-o", job.output});
   io::VolumeInfo info;
   info.shape = spec.shape;
   info.type = job.type.value_or(type_for(spec.labels));
@@ -104,6 +107,7 @@ void add_options(OptionSet& options, SynthJob& job) {
                .value = "TYPE",
                .help = "u8 to u64 [the narrowest that fits]",
                .assign = into(job.type, parse_dtype)});
+  add_force_option(options, job.force);
 }
 
 }  // namespace

@@ -33,6 +33,7 @@ struct VerifyRequest {
   engine::AskedBounds asked;
   int threads = 0;                      ///< 0: all cores
   std::optional<std::uint64_t> memory;  ///< bytes; after check_verify_request() never empty
+  bool force = false;                   ///< whether it may replace a file of others
 };
 
 constexpr const char* kNone = "none";
@@ -88,6 +89,7 @@ void add_verify_options(OptionSet& options, VerifyRequest& request) {
                .help = "writes the result as JSON",
                .group = kOutputGroup,
                .assign = into(request.report)});
+  add_force_option(options, request.force);
 }
 
 /// Fills in what follows from other values.
@@ -105,6 +107,7 @@ void check_verify_request(VerifyRequest& request) {
   files.read_mesh(request.mesh);
   files.write("--report", request.report);
   files.require_apart();
+  if (!request.force) files.require_own();
   if (!request.memory) request.memory = engine::default_memory_budget();
   request.volume.open.cache_bytes = cache_bytes(*request.memory);
 }

@@ -5,6 +5,7 @@
 
 #include <png.h>
 
+#include <array>
 #include <csetjmp>
 #include <string>
 #include <vector>
@@ -83,12 +84,20 @@ PngWriter::PngWriter(std::uint32_t width, std::uint32_t height, bool transparent
   library.png = png_create_write_struct(PNG_LIBPNG_VER_STRING, &library.buffer, leave, keep_silent);
   if (library.png != nullptr) library.info = png_create_info_struct(library.png);
   if (library.info == nullptr) throw Error(ErrorKind::kInternal, "libpng does not start");
+  std::array<char, 9> key{"Software"};
+  std::array<char, 7> program{"mwmesh"};
+  png_text written_by{};
+  written_by.compression = PNG_TEXT_COMPRESSION_NONE;
+  written_by.key = key.data();
+  written_by.text = program.data();
+  written_by.text_length = program.size() - 1;
   library.require([&] {
     png_set_write_fn(library.png, &library.buffer, keep_bytes, flush_nothing);
     png_set_compression_level(library.png, 9);
     png_set_IHDR(library.png, library.info, width, height, 8,
                  transparent ? PNG_COLOR_TYPE_RGB_ALPHA : PNG_COLOR_TYPE_RGB, PNG_INTERLACE_NONE,
                  PNG_COMPRESSION_TYPE_DEFAULT, PNG_FILTER_TYPE_DEFAULT);
+    png_set_text(library.png, library.info, &written_by, 1);
     png_set_sRGB(library.png, library.info, PNG_sRGB_INTENT_PERCEPTUAL);
     png_write_info(library.png, library.info);
   });

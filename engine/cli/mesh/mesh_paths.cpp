@@ -4,14 +4,10 @@
 #include "engine/cli/mesh/mesh_request.h"
 
 #include <algorithm>
-#include <array>
-#include <span>
-#include <string_view>
 #include <vector>
 
 #include "engine/cli/options/file_names.h"
 #include "io/file/errors.h"
-#include "io/file/source/file_source.h"
 
 namespace mw::cli {
 namespace {
@@ -56,7 +52,7 @@ void require_folder_apart(const MeshRequest& request, const FileNames& files,
   const fs::path workdir = whole_path(folder.path);
   std::vector<NamedFile> all = files.files_read();
   all.insert(all.end(), files.files_written().begin(), files.files_written().end());
-  for (const auto& [flag, file] : all) {
+  for (const auto& [flag, file, beside] : all) {
     const std::string name = flag == "-o" ? "the output" : flag;
     const fs::path whole = whole_path(file);
     const bool is_in_file = is_at_or_in(workdir, whole), has_file = is_at_or_in(whole, workdir);
@@ -68,59 +64,10 @@ void require_folder_apart(const MeshRequest& request, const FileNames& files,
   }
 }
 
-/// A file of ours has one of these near its beginning or its end: the record of its run, or words
-/// of the formats and the first lines of the tables that have no place for it.
-constexpr std::array<std::string_view, 7> kMarks{"mwmesh",
-                                                 "$MeshFormat\n",
-                                                 "\nTetrahedra of ",
-                                                 "placeholders: one for each label",
-                                                 "id,number,name,r,g,b,a\n",
-                                                 "number,name,side,first,second\n",
-                                                 "material,set,from,to,mean,tets,volume\n"};
-
-/// Returns what a file begins and ends with; nothing where it cannot be read.
-std::string ends_of(const fs::path& path) {
-  constexpr std::uint64_t kBytes = 1 << 16;
-  try {
-    const io::FileSource file(path);
-    const std::size_t size = std::min(file.size(), kBytes);
-    std::string out(2 * size, '\0');
-    const auto bytes = std::as_writable_bytes(std::span(out));
-    file.read_at(0, bytes.first(size));
-    file.read_at(file.size() - size, bytes.last(size));
-    return out;
-  } catch (const Error& error) {
-    if (error.kind() != ErrorKind::kInput) throw;
-    return {};
-  }
-}
-
-bool is_there(const fs::path& path) {
-  std::error_code ignored;
-  return fs::is_regular_file(path, ignored) && fs::file_size(path, ignored) > 0;
-}
-
-bool is_ours(const fs::path& path) {
-  const std::string ends = ends_of(path);
-  return std::any_of(kMarks.begin(), kMarks.end(),
-                     [&](std::string_view mark) { return ends.find(mark) != ends.npos; });
-}
-
 }  // namespace
 
 void require_own_output(const MeshRequest& request) {
-  const fs::path& mesh = request.output;
-  if (is_there(mesh)) {
-    // The files beside a mesh of ours were written with it.
-    if (is_ours(mesh)) return;
-    refuse("-o", mesh, "is there, and no mesh of mwmesh; --force replaces it");
-  }
-  for (const fs::path& file : files_of_mesh(mesh, request.extras.materials.has_value())) {
-    if (!is_there(file) || is_ours(file)) continue;
-    refuse("-o", file,
-           "is there, and not of mwmesh, but would be written with " + mesh.string() +
-               "; --force replaces it");
-  }
+  files_of(request).require_own();
 }
 
 void require_paths_apart(const MeshRequest& request) {

@@ -250,7 +250,7 @@ void add_output_options(OptionSet& options, MeshRequest& request) {
                .listed = Listed::kInHelpAll,
                .assign = into(request.extras.pairs)});
   options.add({.name = "force",
-               .help = "replaces an OUTPUT that is no mesh of this program",
+               .help = "replaces files that are not of this program",
                .group = kOutputGroup,
                .kind = ValueKind::kSwitch,
                .fallback = "false",

@@ -19,7 +19,7 @@ struct MeshRequest {
   std::filesystem::path output;
   io::Element element = io::Element::kTet4;
   io::MeshExtras extras;                 ///< what the output has beside the mesh
-  bool force = false;                    ///< whether it may replace a file that we did not write
+  bool force = false;                    ///< whether it may replace files of others
   std::filesystem::path report;          ///< empty: none
   std::filesystem::path html;            ///< empty: none
   std::filesystem::path trace;           ///< empty: none
@@ -49,8 +49,7 @@ void check_mesh_request(MeshRequest& request);
 /// ERRORS: mw::Error(kUsage) naming flag and path.
 void require_paths_apart(const MeshRequest& request);
 
-/// Checks that the files of a mesh that are to be replaced are empty or were written by this
-/// program, as those beside a mesh of its own were.  ERRORS: mw::Error(kUsage) naming --force.
+/// Checks that the files that are to be replaced are ours (FileNames::require_own()).
 void require_own_output(const MeshRequest& request);
 
 }  // namespace mw::cli

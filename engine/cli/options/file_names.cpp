@@ -7,6 +7,7 @@
 #include <span>
 #include <utility>
 
+#include "engine/cli/options/own_files.h"
 #include "io/file/errors.h"
 #include "io/mesh/grouped/material_sets.h"
 #include "io/mesh/open_mesh.h"
@@ -56,7 +57,9 @@ void FileNames::write(std::string flag, fs::path path) {
 }
 
 void FileNames::write_mesh(const fs::path& mesh, bool has_materials) {
-  for (const fs::path& file : files_of_mesh(mesh, has_materials)) write("-o", file);
+  for (const fs::path& file : files_of_mesh(mesh, has_materials)) {
+    written_.push_back({"-o", file, file == mesh ? fs::path() : mesh});
+  }
 }
 
 void FileNames::require_apart() const {
@@ -69,6 +72,18 @@ void FileNames::require_apart() const {
     require_other(file, read_);
     require_other(file, std::span(written_).first(i));
   }
+}
+
+void FileNames::require_own() const {
+  for (const NamedFile& file : written_) require_own_file(file);
+}
+
+void require_own_file(const NamedFile& file) {
+  // A mesh that is there is ours, as it comes first, and what is beside it was written with it.
+  if (is_filled(file.mesh) || !is_foreign(file.path)) return;
+  const std::string why =
+      file.mesh.empty() ? "" : ", but would be written with " + file.mesh.string();
+  refuse_file(file, "is there, and not of mwmesh" + why + "; --force replaces it");
 }
 
 std::vector<fs::path> files_of_mesh(const fs::path& mesh, bool has_materials) {

@@ -15,6 +15,7 @@ namespace mw::cli {
 struct NamedFile {
   std::string name;
   std::filesystem::path path;
+  std::filesystem::path mesh{};  ///< beside which it is written; empty unless there is one
 };
 
 /// The files of a command; those with an empty path are not there.
@@ -33,6 +34,9 @@ class FileNames {
   /// Checks before any work that no file is both read and written, and that none is written twice.
   /// ERRORS: mw::Error(kUsage) naming the flag, the path, and what else has that name.
   void require_apart() const;
+  /// Checks that the files that are to be replaced are empty or were written by this program, as
+  /// those beside a mesh of its own were.  ERRORS: mw::Error(kUsage) naming --force.
+  void require_own() const;
 
   [[nodiscard]] const std::vector<NamedFile>& files_read() const { return read_; }
   [[nodiscard]] const std::vector<NamedFile>& files_written() const { return written_; }
@@ -41,6 +45,9 @@ class FileNames {
   std::vector<NamedFile> read_;
   std::vector<NamedFile> written_;
 };
+
+/// Checks one file, which is written under this flag, as FileNames::require_own() does.
+void require_own_file(const NamedFile& file);
 
 /// Returns the files that are written for a mesh: its own, those beside it, and the table of its
 /// materials if it has some.

@@ -106,6 +106,14 @@ void add_choice_options(OptionSet& options, engine::LabelChoice& choice) {
                .assign = into(choice.background, parse_label)});
 }
 
+void add_force_option(OptionSet& options, bool& force) {
+  options.add({.name = "force",
+               .help = "replaces files that are not of this program",
+               .group = kOutputGroup,
+               .kind = ValueKind::kSwitch,
+               .assign = into(force)});
+}
+
 void add_mesh_option(OptionSet& options, std::filesystem::path& mesh, const std::string& what) {
   options.add({.name = "mesh",
                .value = "MESH",

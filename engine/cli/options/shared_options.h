@@ -35,6 +35,9 @@ void add_resource_options(OptionSet& options, int& threads, std::optional<std::u
 /// Adds --labels and --background.
 void add_choice_options(OptionSet& options, engine::LabelChoice& choice);
 
+/// Adds --force, without which a command replaces no file of others (FileNames::require_own()).
+void add_force_option(OptionSet& options, bool& force);
+
 /// Adds the argument MESH; `what` says in the help what the command does with it.
 void add_mesh_option(OptionSet& options, std::filesystem::path& mesh, const std::string& what);
 

@@ -25,7 +25,7 @@ class SurfaceJob {
   /// REQUIRES: all of them outlive it.
   SurfaceJob(const SurfaceRequest& request, io::GroupedMesh& mesh, SurfaceOutput& output)
       : request_(request),
-        source_{mesh, io::scratch_folder()},
+        source_{mesh, io::scratch_folder(), request.shift},
         plans_(mesh, request.closed),
         labels_(io::surface_labels(mesh)),
         output_(output) {}
@@ -33,7 +33,7 @@ class SurfaceJob {
   void run() {
     output_.begin(unit());
     if (request_.target == SurfaceTarget::kFile) {
-      write(plans_of_file(), *output_.sink(0, {}));
+      write(plans_of_file(), *output_.sink(0, {}, {}));
     } else {
       write_each();
     }
@@ -126,7 +126,8 @@ class SurfaceJob {
       const RawLabel label = labels_->table.raw(rank);
       if (!request_.labels.empty()) require_facets(plan, "label " + text_of(label));
       if (plan.parts.empty()) continue;
-      write({plan}, *output_.sink(label, io::label_text(label, labels_->table.is_signed())));
+      write({plan}, *output_.sink(label, io::label_text(label, labels_->table.is_signed()),
+                                  labels_->titles[rank]));
       any = true;
     }
     if (!any) require_facets({}, "the mesh");
@@ -146,6 +147,7 @@ int run_surface(const SurfaceFlags& flags) {
     files.read_mesh(request.mesh);
     files.write("-o", request.output);
     files.require_apart();
+    if (!request.force) files.require_own();
   }
   const std::unique_ptr<SurfaceOutput> output = open_surface_output(request);
   io::GroupedSink grouped(io::scratch_folder(), nullptr);

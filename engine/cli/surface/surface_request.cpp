@@ -6,7 +6,9 @@
 #include <algorithm>
 #include <cerrno>
 #include <filesystem>
+#include <set>
 
+#include "engine/cli/options/file_names.h"
 #include "engine/cli/options/shared_options.h"
 #include "engine/cli/options/values.h"
 #include "io/file/errors.h"
@@ -36,11 +38,12 @@ std::array<RawLabel, 2> parse_pair(const std::string& text) {
   return {labels[0], labels[1]};
 }
 
-/// Returns the format by --format, else by the extension; a path without one is a folder.
+/// Returns the format by --format, else by the extension; a path without one is a folder, of .stl
+/// files with --each.
 std::string format_of(const SurfaceFlags& flags) {
   const std::string extension = std::filesystem::path(flags.output).extension().string();
   if (flags.format.empty()) {
-    if (extension.empty()) return "precomputed";
+    if (extension.empty()) return flags.each ? "stl" : "precomputed";
     if (io::is_surface_path(flags.output)) return extension.substr(1);
     fail("-o " + flags.output + ": extension '" + extension +
          "' is no surface format known here; supported are " + io::surface_extensions() +
@@ -57,17 +60,23 @@ std::string format_of(const SurfaceFlags& flags) {
   return flags.format;
 }
 
-bool names_each(const SurfaceFlags& flags) {
-  return flags.each || flags.output.find(kLabelPlaceholder) != std::string::npos;
+bool has_placeholder(const SurfaceFlags& flags) {
+  return flags.output.find(kLabelPlaceholder) != std::string::npos ||
+         flags.output.find(kNamePlaceholder) != std::string::npos;
 }
 
-/// Returns the pattern of file names: the output if it has `{label}`, else files in that folder.
+bool names_each(const SurfaceFlags& flags) {
+  return flags.each || has_placeholder(flags);
+}
+
+/// Returns the pattern of file names: the output if it has a placeholder, else files in that
+/// folder.
 std::string pattern_of(const SurfaceFlags& flags, const std::string& format) {
-  if (flags.output.find(kLabelPlaceholder) != std::string::npos) return flags.output;
+  if (has_placeholder(flags)) return flags.output;
   if (io::is_surface_path(flags.output)) {
-    fail("-o " + flags.output + ": with --each the name needs " + kLabelPlaceholder +
-         " where the label goes, as -o 'parts/" + kLabelPlaceholder + "." + format +
-         "'; or give a folder and --format " + format);
+    fail(io::text("-o ", flags.output, ": with --each the name needs ", kLabelPlaceholder, " or ",
+                  kNamePlaceholder, " where the label goes, as -o 'parts/", kLabelPlaceholder, ".",
+                  format, "'; or give a folder and --format ", format));
   }
   return (std::filesystem::path(flags.output) / (std::string(kLabelPlaceholder) + "." + format))
       .string();
@@ -77,9 +86,10 @@ void set_target(const SurfaceFlags& flags, SurfaceRequest& request) {
   const std::string format = format_of(flags);
   if (is_folder_format(format)) {
     if (request.pair) fail("--pair: precomputed meshes are surfaces of labels; write .ply or .stl");
-    if (flags.output.find(kLabelPlaceholder) != std::string::npos) {
+    if (has_placeholder(flags)) {
       fail("-o " + flags.output + ": one folder of precomputed meshes holds all labels");
     }
+    if (flags.shift) fail("--shift: precomputed meshes lie where their volume does");
     request.target = SurfaceTarget::kFolder;
     if (format == "draco") request.folder.kind = io::FragmentKind::kDraco;
     request.folder.closed = request.closed;
@@ -107,13 +117,13 @@ void add_output_options(OptionSet& options, SurfaceFlags& flags) {
                .required = true,
                .assign = into(flags.output)});
   options.add({.name = "each",
-               .help = "a file for each label, as -o 'parts/{label}.stl' says by itself",
+               .help = "a file for each label, as -o 'parts/{label}.stl' or '{name}.stl' says",
                .group = kOutputGroup,
                .kind = ValueKind::kSwitch,
                .assign = into(flags.each)});
   options.add({.name = "format",
                .value = "FORMAT",
-               .help = "stl, ply, precomputed or draco [by the extension]",
+               .help = "stl, ply, precomputed or draco [by the extension; --each: stl]",
                .group = kOutputGroup,
                .assign = into(flags.format)});
   options.add({.name = "unit",
@@ -121,6 +131,12 @@ void add_output_options(OptionSet& options, SurfaceFlags& flags) {
                .help = "nm, um, mm or m: of the mesh, for precomputed meshes [its own, or nm]",
                .group = kOutputGroup,
                .assign = into(flags.unit)});
+  options.add({.name = "shift",
+               .value = "X,Y,Z",
+               .help = "a place that becomes 0,0,0; the file says it",
+               .group = kOutputGroup,
+               .assign = into(flags.shift, parse_numbers)});
+  add_force_option(options, flags.force);
 }
 
 }  // namespace
@@ -159,10 +175,12 @@ SurfaceRequest parse_surface_request(const SurfaceFlags& flags) {
                          .folder = {},
                          .labels = flags.labels,
                          .pair = flags.pair,
+                         .shift = flags.shift.value_or(io::Position{}),
+                         .force = flags.force,
                          .manifold = flags.manifold,
                          .closed = !flags.open};
   if (flags.pair && (!flags.labels.empty() || names_each(flags))) {
-    fail(std::string("--pair: not together with --labels, --each or ") + kLabelPlaceholder);
+    fail(io::text("--pair: not together with --labels, --each or ", kLabelPlaceholder));
   }
   set_target(flags, request);
   return request;
@@ -174,7 +192,7 @@ class FileOutput : public SurfaceOutput {
  public:
   explicit FileOutput(const std::string& path) : sink_(io::open_surface_sink(path)) {}
 
-  std::unique_ptr<io::SurfaceSink> sink(RawLabel, const std::string&) override {
+  std::unique_ptr<io::SurfaceSink> sink(RawLabel, const std::string&, const std::string&) override {
     return std::move(sink_);
   }
   void finish(const io::LabelNames&) override {}
@@ -194,18 +212,39 @@ std::filesystem::path replaceable(const std::filesystem::path& path) {
                                                     : path;
 }
 
+void replace_all(std::string& text, std::string_view from, std::string_view to) {
+  for (std::size_t at = text.find(from); at != text.npos; at = text.find(from, at + to.size())) {
+    text.replace(at, from.size(), to);
+  }
+}
+
+/// Returns the name as a part of a file's name, which is neither hidden nor another folder.
+std::string file_part(std::string name) {
+  for (char& c : name) {
+    const auto code = static_cast<unsigned char>(c);
+    if (code < ' ' || c == '/' || c == '\\') c = '_';
+  }
+  if (name.starts_with('.')) name.front() = '_';
+  return name;
+}
+
 /// None of the files gets its name before all are whole.
 class EachFileOutput : public SurfaceOutput {
  public:
-  explicit EachFileOutput(std::string pattern) : pattern_(std::move(pattern)) {}
+  explicit EachFileOutput(const SurfaceRequest& request)
+      : pattern_(request.output), force_(request.force) {}
 
-  std::unique_ptr<io::SurfaceSink> sink(RawLabel, const std::string& digits) override {
-    const std::string_view position(kLabelPlaceholder);
+  std::unique_ptr<io::SurfaceSink> sink(RawLabel, const std::string& digits,
+                                        const std::string& title) override {
     std::string name = pattern_;
-    for (std::size_t at = name.find(position); at != name.npos; at = name.find(position, at)) {
-      name.replace(at, position.size(), digits);
+    replace_all(name, kLabelPlaceholder, digits);
+    replace_all(name, kNamePlaceholder, file_part(title));
+    if (!names_.insert(name).second) {
+      fail(io::text("-o ", pattern_, ": two labels would be ", name, "; put ", kLabelPlaceholder,
+                    " into the name"));
     }
     const std::filesystem::path path(name), whole = replaceable(path);
+    if (!force_) require_own_file({"-o", whole});
     std::error_code failed;
     if (path.has_parent_path()) std::filesystem::create_directories(path.parent_path(), failed);
     if (failed) io::fail_output(path.parent_path().string(), "create", failed.value());
@@ -236,6 +275,8 @@ class EachFileOutput : public SurfaceOutput {
   };
 
   std::string pattern_;
+  bool force_;
+  std::set<std::string> names_;
   std::vector<Waiting> waiting_;
 };
 
@@ -244,7 +285,8 @@ class FolderOutput : public SurfaceOutput {
   explicit FolderOutput(const SurfaceRequest& request) : folder_(request.output, request.folder) {}
 
   void begin(const std::string& unit) override { folder_.use_unit(unit); }
-  std::unique_ptr<io::SurfaceSink> sink(RawLabel label, const std::string&) override {
+  std::unique_ptr<io::SurfaceSink> sink(RawLabel label, const std::string&,
+                                        const std::string&) override {
     return folder_.sink(label);
   }
   void finish(const io::LabelNames& names) override { folder_.finish(names); }
@@ -264,7 +306,7 @@ std::unique_ptr<SurfaceOutput> open_surface_output(const SurfaceRequest& request
     case SurfaceTarget::kFolder:
       return std::make_unique<FolderOutput>(request);
     case SurfaceTarget::kEachFile:
-      return std::make_unique<EachFileOutput>(request.output);
+      return std::make_unique<EachFileOutput>(request);
     case SurfaceTarget::kFile:
       break;
   }

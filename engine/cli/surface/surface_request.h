@@ -25,13 +25,15 @@ struct SurfaceFlags {
   std::string format;
   std::string unit;
   bool each = false;
+  std::optional<io::Position> shift;
   bool manifold = false;
   bool open = false;
+  bool force = false;
 };
 
 enum class SurfaceTarget {
   kFile,      ///< all surfaces in one file
-  kEachFile,  ///< one file for each label, with `{label}` in the path
+  kEachFile,  ///< one file for each label, with `{label}` or `{name}` in the path
   kFolder,    ///< precomputed meshes
 };
 
@@ -43,6 +45,8 @@ struct SurfaceRequest {
   std::string unit;              ///< with kFolder: of the mesh; empty: as the mesh says
   std::vector<RawLabel> labels;  ///< labels with a surface each; if empty, all, or the interfaces
   std::optional<std::array<RawLabel, 2>> pair;
+  io::Position shift{};  ///< is taken off all coordinates
+  bool force = false;    ///< whether it may replace files of others
   bool manifold = false;
   bool closed = true;
 };
@@ -53,8 +57,9 @@ void add_surface_options(OptionSet& options, SurfaceFlags& flags);
 /// ERRORS: mw::Error(kUsage) for values that contradict each other, or that cannot be written.
 [[nodiscard]] SurfaceRequest parse_surface_request(const SurfaceFlags& flags);
 
-/// What stands for the label in the path of --each.
-inline constexpr const char* kLabelPlaceholder = "{label}";
+/// What stands for the label, and for its name, in the path of --each.
+inline constexpr std::string_view kLabelPlaceholder = "{label}";
+inline constexpr std::string_view kNamePlaceholder = "{name}";
 
 /// Returns whether the format is "precomputed" or "draco".
 [[nodiscard]] bool is_folder_format(std::string_view format);
@@ -64,10 +69,11 @@ class SurfaceOutput {
   virtual ~SurfaceOutput() = default;
   /// Must be called before all surfaces with the unit of their coordinates.
   virtual void begin(const std::string& /*unit*/) {}
-  /// Returns the sink of the next surface, which is that of `label`, written with these digits.
-  /// ERRORS: those of SurfaceSink.
+  /// Returns the sink of the next surface, which is that of `label`, written with these digits and
+  /// called `title`.  ERRORS: those of SurfaceSink.
   [[nodiscard]] virtual std::unique_ptr<io::SurfaceSink> sink(RawLabel label,
-                                                              const std::string& digits) = 0;
+                                                              const std::string& digits,
+                                                              const std::string& title) = 0;
   /// Must be called after all surfaces.
   virtual void finish(const io::LabelNames& names) = 0;
 };

@@ -154,7 +154,7 @@ std::string format_npy_header(const VolumeInfo& info) {
   std::string dict = text("{'descr': '", bytes == 1 ? "|" : "<", is_signed(info.type) ? "i" : "u",
                           bytes, "', 'fortran_order': False, 'shape': (", info.shape.z, ", ",
                           info.shape.y, ", ", info.shape.x, "), }");
-  while ((10 + dict.size() + 1) % 64 != 0) dict.push_back(' ');
+  dict.resize(kOwnNpyHeaderBytes - 11, ' ');
   dict.push_back('\n');
   std::string header(kMagic);
   header.append(

@@ -40,7 +40,12 @@ struct NpyHeader {
 [[nodiscard]] NpyHeader parse_npy_dict(std::string_view dict, VoxelValues values,
                                        std::string_view file);
 
-/// Returns a version 1.0 header, padded to a multiple of 64 bytes, for a C-order array [z, y, x].
+/// The length of a header that is written here, and what it begins with.  numpy pads the header of
+/// such an array to 128 bytes at most, so that this tells whose file it is.
+inline constexpr std::size_t kOwnNpyHeaderBytes = 192;
+inline constexpr std::string_view kOwnNpyStart{"\x93NUMPY\1\0\xb6\0{'descr': '", 21};
+
+/// Returns a version 1.0 header of kOwnNpyHeaderBytes for a C-order array [z, y, x].
 [[nodiscard]] std::string format_npy_header(const VolumeInfo& info);
 
 /// Opens an array with axes [z, y, x], in C or Fortran order.  The format knows neither spacing nor

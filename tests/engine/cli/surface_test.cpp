@@ -31,6 +31,7 @@ TEST_F(SurfaceCommand, RefusesWhatContradictsItself) {
   expect_failure(2, "surface m.vtu -o s --unit ft", "--unit ft");
   expect_failure(2, "surface m.vtu -o 's/{label}'", "all labels");
   expect_failure(2, "surface m.vtu -o s --pair 1,2", "--pair");
+  expect_failure(2, "surface m.vtu -o s --shift 1,2,3", "--shift");
   expect_failure(2, "surface m.vtu -o s.stl --pair 1,2 --labels 1", "--pair");
   expect_failure(2, "surface m.vtu -o '{label}.stl' --pair 1,2", "--pair");
   expect_failure(2, "surface m.vtu -o s.stl --pair 1", "--pair 1");
@@ -123,6 +124,48 @@ TEST_F(SurfaceCommand, WritesAllLabelsOrNone) {
   expect_done("surface v.vtu -o four.ply --labels 4");
   EXPECT_EQ(read("elsewhere"), read("four.ply"));
   for (const std::string& name : files()) EXPECT_FALSE(name.starts_with(".")) << name;
+}
+
+TEST_F(SurfaceCommand, EachIsAnStlUnlessAskedOtherwise) {
+  make_mesh();
+  expect_done("surface v.vtu --labels 1,2 --each -o parts");
+  expect_done("surface v.vtu --labels 1,2 --each -o parts --format ply");
+  expect_done("surface v.vtu --labels 1 -o one.stl");
+  std::set<std::string> names;
+  for (const auto& entry : std::filesystem::directory_iterator(folder() / "parts")) {
+    names.insert(entry.path().filename().string());
+  }
+  EXPECT_EQ(names, (std::set<std::string>{"1.ply", "1.stl", "2.ply", "2.stl"}));
+  EXPECT_EQ(read("parts/1.stl"), read("one.stl"));
+  expect_done("surface v.vtu --labels 1 --each -o viewed --format precomputed");
+  EXPECT_FALSE(read("viewed/info").empty());
+}
+
+TEST_F(SurfaceCommand, NamesFilesAfterLabels) {
+  make_volume();
+  write("names.csv", "id,name\n1,left liver\n2,../../etc/passwd\n3,a/b\n4,a\\b\n");
+  expect_done("mesh v.npy -o v.vtu --names names.csv");
+  expect_done("surface v.vtu -o '{name}.stl' --labels 1,2,5");
+  expect_done("surface v.vtu -o '{label}.stl' --labels 1,2,5");
+  EXPECT_EQ(read("left liver.stl"), read("1.stl"));
+  EXPECT_EQ(read("_._.._etc_passwd.stl"), read("2.stl"));
+  EXPECT_EQ(read("label_5.stl"), read("5.stl"));
+  EXPECT_EQ(read("5.stl").empty(), false);
+  expect_failure(2, "surface v.vtu -o '{name}.ply' --labels 3,4", "two labels would be a_b.ply");
+  expect_done("surface v.vtu -o '{label}-{name}.ply' --labels 3,4");
+  EXPECT_TRUE(files().contains("3-a_b.ply") && files().contains("4-a_b.ply"));
+}
+
+TEST_F(SurfaceCommand, PlacesThatFloatsDoNotHoldAreRefused) {
+  make_volume();
+  expect_done("mesh v.npy -o v.vtu --spacing 0.25 --origin 512345.5,4512345.25,812.75");
+  expect_failure(2, "surface v.vtu -o s.stl", "s.stl: the format has 24 bits, too few for edges");
+  expect_failure(2, "surface v.vtu -o '{label}.stl'", ".stl: the format has 24 bits");
+  expect_failure(2, "surface v.vtu -o s", "--format draco");
+  expect_done("surface v.vtu -o s --format draco");
+  expect_done("surface v.vtu -o s.ply");
+  expect_done("surface v.vtu -o s.stl --shift 512345,4512345,800");
+  EXPECT_LT(read("s.stl").find("SHIFT=512345,4512345,800"), 80U);
 }
 
 TEST_F(SurfaceCommand, TakesNamesOfLabels) {

@@ -75,6 +75,21 @@ TEST_F(UsageTest, UnknownCommandsAndFlagsAreNamed) {
   expect_failure(2, "mesh v.npy -o v.vtu --threads", "--threads: 1 required");
 }
 
+TEST_F(UsageTest, SaysWhatWasForgotten) {
+  make_volume();
+  expect_failure(2, "mesh v.npy x.vtu", "x.vtu: one argument too many; to write it, give -o x.vtu");
+  expect_failure(2, "picture x.vtu x.png", "give -o x.png");
+  expect_failure(2, "mesh v.npy x.vtu -o y.vtu", "x.vtu: one argument too many; see mwmesh mesh");
+  expect_failure(2, "v.npy", "v.npy: no command; give mwmesh mesh v.npy -o OUTPUT.vtu; see");
+  write("v.vtu", "");
+  expect_failure(2, "v.vtu --json", "v.vtu: no command; give mwmesh info v.vtu; see");
+  for (const char* command : {"picture v.npy -o p.png", "surface v.npy -o s.stl",
+                              "convert v.npy c.vtu", "digest v.npy", "verify v.npy v.npy"}) {
+    expect_failure(2, command, "if it is a volume, mesh it first: mwmesh mesh");
+  }
+  expect_failure(2, "convert v.stl c.vtu", "mwmesh surface MESH -o");
+}
+
 TEST_F(UsageTest, RefusesUnknownWords) {
   make_volume();
   expect_failure(2, "", "a command is needed");
@@ -165,7 +180,7 @@ TEST_F(UsageTest, RefusesUnwritableOutputBeforeWork) {
 TEST_F(UsageTest, ReplacesNothingButItsOwnMeshes) {
   make_volume();
   write("v.vtu", "Dear Sir,");
-  expect_failure(2, "mesh v.npy -o v.vtu", "v.vtu: is there, and no mesh of mwmesh; --force");
+  expect_failure(2, "mesh v.npy -o v.vtu", "v.vtu: is there, and not of mwmesh; --force");
   EXPECT_EQ(read("v.vtu"), "Dear Sir,");
   expect_done("mesh v.npy -o v.vtu --force");
   write("empty.vtu", "");
@@ -174,6 +189,49 @@ TEST_F(UsageTest, ReplacesNothingButItsOwnMeshes) {
     expect_done(std::string("mesh v.npy -o ") + name);
     expect_done(std::string("mesh v.npy -o ") + name);
   }
+}
+
+/// Every file that a command writes, each by itself, and then once more over its own.
+TEST_F(UsageTest, ReplacesNothingButItsOwnFiles) {
+  make_volume();
+  expect_done("mesh v.npy -o k.vtu --keep k");
+  expect_done("mesh v.npy -o m.vtu --periodic x");
+  const std::string mesh = "mesh v.npy -o m.vtu --periodic x ";
+  const std::string synth = "synth spheres --shape 9,8,7 --count 2 --seed 1 -o ";
+  const std::vector<std::array<std::string, 2>> cases{
+      {"r.json", mesh + "--report r.json"},
+      {"p.html", mesh + "--html p.html"},
+      {"t.csv", mesh + "--trace t.csv"},
+      {"d.json", "mesh v.npy -o k.vtu --from k --delta d.json"},
+      {"pairs.csv", mesh + "--pairs pairs.csv"},
+      {"pairs.inp", mesh + "--pairs pairs.inp"},
+      {"c.vtu", "convert m.vtu c.vtu"},
+      {"c.inp", "convert m.vtu c.inp"},
+      {"c.xdmf.labels.csv", "convert m.vtu c.xdmf"},
+      {"q.csv", "convert m.vtu c.vtu --pairs q.csv"},
+      {"s.stl", "surface m.vtu -o s.stl"},
+      {"s.ply", "surface m.vtu -o s.ply"},
+      {"e4.ply", "surface m.vtu -o 'e{label}.ply'"},
+      {"p.png", "picture m.vtu -o p.png --pixels 64x64"},
+      {"y.npy", synth + "y.npy"},
+      {"z.npy", synth + "z.npy --dtype u32"},
+      {"vr.json", "verify v.npy m.vtu --report vr.json"}};
+  for (const auto& [file, command] : cases) {
+    write(file, "my measurements");
+    expect_failure(2, command, file + ": is there, and not of mwmesh");
+    EXPECT_EQ(read(file), "my measurements");
+    expect_done(command + " --force");
+    EXPECT_NE(read(file), "my measurements");
+    expect_done(command);
+  }
+  // What numpy writes is not ours.
+  const std::string dict = "{'descr': '|u1', 'fortran_order': False, 'shape': (2, 2, 2), }";
+  const std::string numpy = std::string("\x93NUMPY\1\0v\0", 10) + dict +
+                            std::string(117 - dict.size(), ' ') + "\n" + std::string(8, '\1');
+  write("seg.npy", numpy);
+  expect_done("info seg.npy");
+  expect_failure(2, synth + "seg.npy", "seg.npy: is there, and not of mwmesh; --force replaces it");
+  EXPECT_EQ(read("seg.npy"), numpy);
 }
 
 /// Files beside a mesh are known by the mesh; where that is not there, by themselves.
