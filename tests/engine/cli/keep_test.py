@@ -124,7 +124,7 @@ class Keep(unittest.TestCase):
 
     def test_an_edit_that_is_not_told_is_refused(self):
         self.done("synth", "voronoi", "--shape", "72,72,72", "--labels", "20", "--seed", "1", "-o",
-                  "v.npy")
+                  "v.npy", "--force")
         self.volume = np.load("v.npy")
         self.mesh("--keep", "k")
         self.volume[10:14, 10:14, 10:14] = 5  # in tiles of 80 x 16 x 16 voxels
