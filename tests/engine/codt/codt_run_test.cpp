@@ -118,7 +118,8 @@ class Script {
 TEST(CodtRun, KilledWorkersChangeNoByte) {
   NEEDS_WORKER();
   // Each worker is killed from outside some time after its start, which is too soon for some.
-  const Script mortal("(exec 3>&-; sleep $(($$ % 3)).1; kill -KILL $$) &\nexec " MW_CODT_WORKER);
+  const Script mortal(
+      "(exec 3>&-; sleep $(($$ % 5 / 2)).1; kill -KILL $$) &\nexec " MW_CODT_WORKER);
   std::mt19937 random(1403);
   std::uint64_t restarted = 0;
   for (int i = 0; i < 6 && !HasFailure(); ++i) {
