@@ -254,6 +254,11 @@ io::Json welds_json(const std::optional<io::WeldFacts>& welds) {
 
 void print_welds(const std::optional<io::WeldFacts>& welds) {
   if (!welds) return;
+  if (!welds->has_solid) {
+    std::cout
+        << "welded      nothing: --weld names all labels of the volume, and joins the others\n";
+    return;
+  }
   std::cout << "welded      " << welds->voxels << " voxels were filled, in " << welds->rounds
             << " rounds\n";
 }

@@ -66,6 +66,8 @@ class WeldedVolume::Tile {
     }
   }
 
+  [[nodiscard]] bool has_solid() const { return std::ranges::find(solid_, 1) != solid_.end(); }
+
   /// Marks the givers that are in the tile or around it, by their rank.
   void see_givers(std::vector<char>& seen) const {
     for (std::size_t i = 0; i < labels_.size(); ++i) {
@@ -222,6 +224,7 @@ WeldedVolume::WeldedVolume(const LabelVolume& volume, const std::vector<RawLabel
       const Box3 voxels = voxels_of(key, shape);
       const Tile tile(*this, voxels);
       if (is_first) tile.see_givers(seen);
+      if (is_first && tile.has_solid()) facts_.has_solid = true;
       round.add(tile, voxels);
     }
     if (is_first) check_givers(seen);

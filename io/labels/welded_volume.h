@@ -14,6 +14,7 @@ namespace mw::io {
 struct WeldFacts {
   std::uint64_t voxels = 0;
   int rounds = 0;
+  bool has_solid = false;  ///< some voxel is no giver's; without one there is nothing to join
 };
 
 /// Fills voxels of some labels, the givers, with the other labels, which are solid.  A place is an

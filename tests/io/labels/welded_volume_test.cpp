@@ -113,6 +113,7 @@ TEST(WeldedVolume, FillsWhatTheRuleSays) {
     EXPECT_EQ(read_all(welds), labels) << small.text();
     EXPECT_EQ(welds.facts().voxels, facts.voxels);
     EXPECT_EQ(welds.facts().rounds, facts.rounds);
+    EXPECT_EQ(welds.facts().has_solid, givers.size() < present.size());
     welded += facts.voxels > 0 ? 1 : 0;
     rounds += facts.rounds > 1 ? 1 : 0;
   }
