@@ -50,6 +50,25 @@ std::string_view clean_character(std::string_view bytes, const Character& c) {
 
 }  // namespace
 
+bool is_utf8(std::string_view bytes) {
+  while (!bytes.empty()) {
+    const std::size_t length = first_character(bytes).length;
+    if (length == 0) return false;
+    bytes.remove_prefix(length);
+  }
+  return true;
+}
+
+std::string utf8_of_latin1(std::string_view bytes) {
+  std::string out;
+  for (const char c : bytes) {
+    const auto code = static_cast<unsigned char>(c);
+    if (code >= 0x80) out += static_cast<char>(0xC0U | code >> 6U);
+    out += static_cast<char>(code < 0x80 ? code : 0x80U | (code & 0x3FU));
+  }
+  return out;
+}
+
 std::string clean_name(std::string_view bytes) {
   std::string out;
   while (!bytes.empty()) {

@@ -27,6 +27,12 @@ inline constexpr std::size_t kMaxNameBytes = 1000;
 /// bytes that are no UTF-8), without blanks at its ends.  A clean name stays as it is.
 [[nodiscard]] std::string clean_name(std::string_view bytes);
 
+/// Whether the bytes are text in UTF-8 (RFC 3629).
+[[nodiscard]] bool is_utf8(std::string_view bytes);
+
+/// Returns in UTF-8 what the bytes are in Latin-1 (ISO 8859-1).
+[[nodiscard]] std::string utf8_of_latin1(std::string_view bytes);
+
 /// Red, green, blue and opacity, 0 to 255.
 using Colour = std::array<std::uint8_t, 4>;
 

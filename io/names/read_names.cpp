@@ -23,11 +23,15 @@ bool is_csv(std::string_view text) {
 
 }  // namespace
 
-LabelNames parse_names(std::string_view text, std::string_view file) {
+LabelNames parse_names(std::string_view text, std::string_view file, std::string* note) {
   if (text.starts_with(kByteOrderMark)) text.remove_prefix(kByteOrderMark.size());
   if (text.find('\0') != std::string_view::npos) {
     fail_input(file, {}, "holds binary data or text in UTF-16, no table of names",
                "save it as text in UTF-8");
+  }
+  if (!is_utf8(text)) {
+    if (note != nullptr) *note = io::text(file, ": is not in UTF-8, and is read as Latin-1");
+    return parse_names(utf8_of_latin1(text), file);
   }
   LabelNames names = is_csv(text) ? parse_csv_names(text, file) : parse_colour_table(text, file);
   if (!names.empty()) return names;
@@ -36,7 +40,7 @@ LabelNames parse_names(std::string_view text, std::string_view file) {
              "columns id and name");
 }
 
-LabelNames read_names(const std::filesystem::path& path) {
+LabelNames read_names(const std::filesystem::path& path, std::string* note) {
   const std::unique_ptr<ByteSource> source = open_bytes(path);
   const std::optional<std::string> content = read_whole(*source, kMaxNamesBytes);
   if (!content) {
@@ -44,7 +48,7 @@ LabelNames read_names(const std::filesystem::path& path) {
                text("is no table of names: it has more than ", kMaxNamesBytes, " bytes"),
                "give a table of the labels alone");
   }
-  return parse_names(*content, source->name());
+  return parse_names(*content, source->name(), note);
 }
 
 }  // namespace mw::io

@@ -27,6 +27,29 @@ TEST(ReadNames, ItkSnap) {
                                        {2, "", Colour{0, 255, 0, 128}}}));
 }
 
+TEST(ReadNames, Latin1IsToldAndRead) {
+  for (const std::string table : {"id,name\n7,Gr\xF6\xDF"
+                                  "e\n8,\xE9t\xE9\n",
+                                  "7 255 0 0 1 1 1 \"Gr\xF6\xDF"
+                                  "e\"\n8 0 9 0 1 1 1 \"\xE9t\xE9\"\n"}) {
+    std::string note;
+    const LabelNames names = parse_names(table, "table", &note);
+    EXPECT_EQ(names.name(7),
+              "Gr\xC3\xB6\xC3\x9F"
+              "e");
+    EXPECT_EQ(names.name(8), "\xC3\xA9t\xC3\xA9");
+    EXPECT_NE(note.find("Latin-1"), std::string::npos) << note;
+  }
+  std::string note;
+  EXPECT_EQ(parse_names("id,name\n7,Gr\xC3\xB6\xC3\x9F"
+                        "e\n",
+                        "table", &note)
+                .name(7),
+            "Gr\xC3\xB6\xC3\x9F"
+            "e");
+  EXPECT_EQ(note, "");
+}
+
 TEST(ReadNames, FreeSurferIsOpaqueWhereAllOpacityIsZero) {
   const LabelNames names = parse(
       "#$Id: FreeSurferColorLUT.txt\n\n#No. Label Name:        R   G   B   A\n\n"
