@@ -135,8 +135,10 @@ struct VolumeFile {
   /// The label of a voxel that is in several masks: "first" or "last" takes that of one of them,
   /// "all" makes a label for each set of masks; if empty, such a voxel is an error.
   std::string overlap{};
-  std::optional<Box> crop{};  ///< voxels to keep; they stay in place unless origin is given
-  bool trust_paths = false;   ///< lets headers name files outside of their own folder
+  /// Voxels to keep, as the data set counts them: the first one of a store with an offset is that
+  /// many voxels from 0 (io/README.md).  They stay in place unless origin is given.
+  std::optional<Box> crop{};
+  bool trust_paths = false;  ///< lets headers name files outside of their own folder
   /// What the numbers are: "labels", "probabilities" (one for each class), or "distances" (one for
   /// each label, signed, negative inside).
   std::string values = "labels";
@@ -146,6 +148,9 @@ struct VolumeFile {
   /// "DIR" or "DIR,SIZE": a folder that keeps what servers send for later runs, and the most bytes
   /// that it may hold (io/README.md); if empty, nothing is kept.
   std::string cache{};
+  /// Which place of a NIfTI file counts, "sform" or "qform"; if empty, the sform where there is
+  /// one. Images of Options::sample lie by theirs.
+  std::string use_form{};
 };
 
 class VolumeAccess;
@@ -269,7 +274,7 @@ struct Options {
   /// edit reaches are then meshed again.  The mesh is that of a run that begins afresh; the report
   /// tells what the edit did ("delta"), unless no run was complete there.
   bool from_kept = false;
-  /// With from_kept, boxes of voxels, counted as without a crop, that hold all changes since the
+  /// With from_kept, boxes of voxels, counted as by crop, that hold all changes since the
   /// last run that returned, and that alone are read, beside a sample that must not have changed;
   /// if empty, everything may have changed.  A run that threw may have kept its labels all the same,
   /// so its boxes must be there, too.

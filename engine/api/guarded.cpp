@@ -26,7 +26,7 @@ bool is_of_library(std::string_view flag) {
       "labels",     "materials",   "memory",  "merge",   "names",    "object", "open-hinges",
       "origin",     "overlap",     "pairs",   "parts",   "preset",   "report", "resume",
       "sample",     "scale",       "spacing", "split",   "threads",  "values", "trust-paths",
-      "weld",       "workdir"};
+      "use-form",   "weld",        "workdir"};
   const auto& settings = engine::setting_table();
   return std::ranges::find(kOptions, flag) != std::end(kOptions) ||
          std::ranges::find(settings, flag, &engine::Setting::name) != settings.end();

@@ -81,7 +81,8 @@ engine::RunHooks run_hooks(const io::VolumeInfo& labels, const mwmesh::Options& 
   if (options.keep_bytes > 0) out.keep.bytes = options.keep_bytes;
   for (const mwmesh::Box& box : options.changed) {
     const Box3 voxels = io_box(box);
-    out.keep.changed.push_back({voxels.lo - labels.first, voxels.hi - labels.first});
+    const Index3 first = io::first_number(labels);
+    out.keep.changed.push_back({voxels.lo - first, voxels.hi - first});
   }
   if (hooks.progress) {
     out.progress = [&hooks](const engine::RunProgress& at) {

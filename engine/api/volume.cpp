@@ -36,6 +36,12 @@ io::FrameChoice frame_choice(const std::string& name) {
   throw mw::Error(mw::ErrorKind::kUsage, "frame " + name + ": expected file, ras, lps or voxel");
 }
 
+io::FormChoice form_choice(const std::string& name) {
+  if (name.empty()) return io::FormChoice::kFile;
+  if (const auto form = io::parse_form_choice(name)) return *form;
+  throw mw::Error(mw::ErrorKind::kUsage, "use_form: '" + name + "' is none of sform and qform");
+}
+
 }  // namespace
 
 Volume Volume::of(const ArrayVolume& array) {
@@ -59,6 +65,7 @@ Volume Volume::open(const VolumeFile& file, const Hooks& hooks) {
     io::OpenOptions options{.spacing = file.spacing,
                             .origin = file.origin,
                             .frame = frame_choice(file.frame),
+                            .form = form_choice(file.use_form),
                             .dataset = file.dataset,
                             .scale = file.scale,
                             .overlap = overlap_rule(file.overlap),

@@ -10,6 +10,7 @@
 #include "engine/cli/options/option_set.h"
 #include "engine/cli/options/shared_options.h"
 #include "engine/cli/options/values.h"
+#include "engine/cli/options/volume_options.h"
 #include "engine/picture/draw.h"
 #include "engine/report/mesh_facts.h"
 #include "io/file/errors.h"
@@ -202,7 +203,7 @@ std::uint64_t draw_mesh(const PictureRequest& request, const io::TakeBytes& take
   io::copy_mesh(request.mesh, sink);
   io::GroupedMesh& mesh = sink.mesh();
   io::LabelNames names = mesh.names();
-  if (!request.names.empty()) names = names.merged_with(io::read_names(request.names));
+  if (!request.names.empty()) names = names.merged_with(names_in(request.names));
   picture::MeshScene scene(
       mesh,
       request.labels ? asked_labels(mesh.table(), *request.labels) : inner_labels(mesh, names),

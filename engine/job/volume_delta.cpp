@@ -133,7 +133,8 @@ VolumeDelta delta_of(const io::LabelVolume& before, const io::LabelVolume& after
     out.labels.push_back({label, fact(was, label), fact(is, label)});
   }
   out.contacts = contact_changes(before, after, readers);
-  out.box = {out.box.lo + after.info().first, out.box.hi + after.info().first};
+  const Index3 first = first_number(after.info());
+  out.box = {out.box.lo + first, out.box.hi + first};
   if (out.labels_signed) sort_signed(out);
   return out;
 }

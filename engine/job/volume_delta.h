@@ -37,7 +37,7 @@ struct ContactChange {
 
 struct VolumeDelta {
   std::uint64_t voxels = 0;             ///< how many changed
-  Box3 box;                             ///< holds all that changed, in voxels of the file
+  Box3 box;                             ///< holds all that changed, in voxels as people count them
   std::vector<LabelChange> labels;      ///< ascending
   std::vector<ContactChange> contacts;  ///< ascending
   bool labels_signed = false;

@@ -185,7 +185,7 @@ void add_volume(py::module_& module) {
          std::optional<Vector> spacing, std::optional<Vector> origin, const std::string& frame,
          std::optional<std::pair<Index, Index>> crop, const std::string& overlap,
          const std::string& values, const std::vector<std::uint64_t>& object, bool trust_paths,
-         const std::string& cache) {
+         const std::string& cache, const std::string& use_form) {
         VolumeFile file{.path = path,
                         .dataset = dataset,
                         .scale = scale,
@@ -196,7 +196,8 @@ void add_volume(py::module_& module) {
                         .trust_paths = trust_paths,
                         .values = values,
                         .object = object,
-                        .cache = cache};
+                        .cache = cache,
+                        .use_form = use_form};
         if (crop) file.crop = Box{crop->first, crop->second};
         return watched_run(py::none(), [&](const Hooks& hooks) {
           return HeldVolume{Volume::open(file, hooks), nullptr};

@@ -160,8 +160,9 @@ std::array<Vector3, 3> axes_of(std::string_view file, const FileSpace& space) {
              std::string_view("xyz").substr((i + 1) % 3, 1),
              " of the array are not at right angles in the world (cosine ", cosine,
              "): a sheared volume has no quality or distance that could be promised"),
-        "resample it onto a grid with right angles, or, where it is the volume to mesh, give "
-        "--frame voxel");
+        text(space.way_out,
+             "resample it onto a grid with right angles, or, where it is the volume to mesh, give "
+             "--frame voxel"));
   }
   return straightened(axes);
 }
@@ -191,7 +192,9 @@ std::optional<FrameChoice> parse_frame_choice(std::string_view text) {
 }
 
 VolumeSpace placed(std::string_view file, const FileSpace& space, const OpenOptions& options) {
-  VolumeSpace out{.unit = space.unit, .frame = space.frame};
+  VolumeSpace out{.unit = space.unit,
+                  .frame = space.frame,
+                  .is_sized = space.is_sized || options.spacing.has_value()};
   const bool has_directions = std::all_of(space.steps.begin(), space.steps.end(), is_direction);
   if (!options.spacing) check_steps(file, space);
   if (has_directions && options.frame != FrameChoice::kVoxel) {
@@ -214,6 +217,26 @@ VolumeSpace placed(std::string_view file, const FileSpace& space, const OpenOpti
   }
   if (options.origin) out.origin = *options.origin;
   return out;
+}
+
+Index3 number_of_first_voxel(const std::function<OwnPlace()>& place) {
+  constexpr double kRounding = 1e-3;
+  constexpr double kMost = 0x1p48;  // far beyond any volume
+  std::array<std::int64_t, 3> out{};
+  try {
+    const auto [space, first_is_centre] = place();
+    if (!is_upright(space)) return {0, 0, 0};
+    for (std::size_t i = 0; i < 3; ++i) {
+      const double number = space.origin[i] / space.spacing[i] + (first_is_centre ? 0.5 : 0);
+      const double whole = std::round(number);
+      if (!(std::abs(number - whole) <= kRounding && std::abs(whole) < kMost)) return {0, 0, 0};
+      out[i] = static_cast<std::int64_t>(whole);
+    }
+  } catch (const Error& error) {
+    if (error.kind() != ErrorKind::kInput) throw;
+    return {0, 0, 0};
+  }
+  return {out[0], out[1], out[2]};
 }
 
 }  // namespace mw::io

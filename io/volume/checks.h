@@ -6,6 +6,7 @@
 
 #include <array>
 #include <cstdint>
+#include <functional>
 #include <optional>
 #include <span>
 #include <string>
@@ -82,6 +83,8 @@ struct FileSpace {
   WorldFrame frame = WorldFrame::kOwn;
   const char* steps_field = "spacing";  ///< what errors call the two
   const char* first_field = "origin";
+  bool is_sized = true;      ///< false: the file does not say the steps
+  const char* way_out = "";  ///< what a user may do about sheared steps, ending in ", or, "
 };
 
 /// Returns steps along the axes of the array, of these lengths.
@@ -99,5 +102,16 @@ struct FileSpace {
 /// straightened); kUsage when the axes cannot be turned to the frame that is asked for.
 [[nodiscard]] VolumeSpace placed(std::string_view file, const FileSpace& space,
                                  const OpenOptions& options);
+
+/// Where a file alone says that a volume lies.
+struct OwnPlace {
+  VolumeSpace space;
+  bool first_is_centre = false;  ///< the file places the centre of the first voxel, not its corner
+};
+
+/// Returns the number of an array's first voxel where that data set counts voxels from the one at
+/// coordinates 0.  It is 0 where the array is no whole number of voxels away from there, and where
+/// the place makes no sense, as options may replace it.
+[[nodiscard]] Index3 number_of_first_voxel(const std::function<OwnPlace()>& place);
 
 }  // namespace mw::io

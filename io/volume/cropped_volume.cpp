@@ -7,14 +7,23 @@
 
 namespace mw::io {
 
-void check_crop(std::string_view file, const Box3& crop, Index3 shape) {
-  const Index3 &lo = crop.lo, &hi = crop.hi;
+std::string box_text(const Box3& box) {
+  return text(box.lo.x, ",", box.lo.y, ",", box.lo.z, ",", box.hi.x, ",", box.hi.y, ",", box.hi.z);
+}
+
+Box3 voxels_of_crop(std::string_view file, const Box3& crop, const VolumeInfo& whole) {
+  const Index3 &lo = crop.lo, &hi = crop.hi, &shape = whole.shape;
   const bool is_box = lo.x < hi.x && lo.y < hi.y && lo.z < hi.z;
-  if (is_box && intersection(crop, {{0, 0, 0}, shape}) == crop) return;
-  fail_usage("--crop ", lo.x, ",", lo.y, ",", lo.z, ",", hi.x, ",", hi.y, ",", hi.z,
-             is_box ? ": reaches outside of " : ": no box in ", file, ", which has ", shape.x,
-             " x ", shape.y, " x ", shape.z,
-             " voxels; give the first voxel and the one past the last, 0 <= first < last");
+  const Box3 all{whole.offset, whole.offset + shape};
+  if (is_box && intersection(crop, all) == crop) return {lo - whole.offset, hi - whole.offset};
+  const std::string counted = whole.offset == Index3{}
+                                  ? ""
+                                  : text(", ", box_text(all), " as the data set counts them and ",
+                                         box_text({{}, shape}), " in its array");
+  fail_usage("--crop ", box_text(crop), is_box ? ": reaches outside of " : ": no box in ", file,
+             ", which has ", shape.x, " x ", shape.y, " x ", shape.z, " voxels", counted,
+             "; give the first voxel and the one past the last, ",
+             counted.empty() ? "0 <= first < last" : "as the data set counts them");
 }
 
 CroppedVolume::CroppedVolume(std::unique_ptr<LabelVolume> volume, const Box3& box,
@@ -33,8 +42,8 @@ void CroppedVolume::read(const Box3& box, std::span<RawLabel> out) const {
 std::unique_ptr<LabelVolume> cropped(std::unique_ptr<LabelVolume> volume, std::string_view file,
                                      const OpenOptions& options) {
   if (!options.crop) return volume;
-  check_crop(file, *options.crop, volume->info().shape);
-  return std::make_unique<CroppedVolume>(std::move(volume), *options.crop, !options.origin);
+  const Box3 box = voxels_of_crop(file, *options.crop, volume->info());
+  return std::make_unique<CroppedVolume>(std::move(volume), box, !options.origin);
 }
 
 }  // namespace mw::io

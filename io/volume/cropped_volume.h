@@ -5,6 +5,7 @@
 
 #include <memory>
 #include <optional>
+#include <string>
 #include <string_view>
 
 #include "io/volume/number_volume.h"
@@ -44,13 +45,18 @@ class CroppedVolume : public VolumeView {
   std::optional<CroppedScores> scores_;
 };
 
-/// ERRORS: mw::Error(kUsage) naming `file` and its shape when the box of --crop is empty or reaches
+/// Returns a box as --crop takes it, "0,0,0,4,4,4".
+[[nodiscard]] std::string box_text(const Box3& box);
+
+/// Returns the voxels of the whole volume that are in the box of --crop, which counts as the data
+/// set does (VolumeInfo::offset).
+/// ERRORS: mw::Error(kUsage) naming `file` and its box when that of --crop is empty or reaches
 /// outside.
-void check_crop(std::string_view file, const Box3& crop, Index3 shape);
+[[nodiscard]] Box3 voxels_of_crop(std::string_view file, const Box3& crop, const VolumeInfo& whole);
 
 /// Returns the part of the volume that options.crop asks for, or all of it without a crop.  The
 /// origin of the options, if they have one, is that of the part.
-/// ERRORS: those of check_crop().
+/// ERRORS: those of voxels_of_crop().
 [[nodiscard]] std::unique_ptr<LabelVolume> cropped(std::unique_ptr<LabelVolume> volume,
                                                    std::string_view file,
                                                    const OpenOptions& options);

@@ -40,6 +40,9 @@ struct VolumeInfo {
   /// cheapest.  0 along an axis means that any box is.
   Index3 chunk{0, 0, 0};
   Index3 first{0, 0, 0};  ///< which voxel of the file is the first of these
+  /// The number that a data set gives the first voxel of its file: boxes that people give, and that
+  /// they read, count so (first_number()).
+  Index3 offset{0, 0, 0};
   bool is_placed = true;  ///< false: the format cannot say where voxels are
   LabelNames names;       ///< what the file calls labels
   /// The masks that the labels were made of, where each set of masks that meet has its own label.
@@ -54,6 +57,11 @@ struct VolumeInfo {
 /// Whether labels of the volume are signed numbers.
 [[nodiscard]] inline bool has_signed_labels(const VolumeInfo& info) {
   return info.scaled || is_signed(info.type);
+}
+
+/// Returns the number of the first voxel, as people count them.
+[[nodiscard]] inline Index3 first_number(const VolumeInfo& info) {
+  return info.offset + info.first;
 }
 
 /// A readable volume.  Thread safety: read() is const and may be called from many threads.

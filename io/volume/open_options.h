@@ -32,6 +32,20 @@ enum class FrameChoice {
   kVoxel,  ///< the array's axes: spacing * corner, the first corner at 0
 };
 
+/// Which of the two places that a NIfTI file may have.
+enum class FormChoice {
+  kFile,   ///< the sform, else the qform
+  kSform,  ///< the sform alone
+  kQform,  ///< the qform alone
+};
+
+/// Returns the choice called "sform" or "qform", and nothing for other names.
+[[nodiscard]] inline std::optional<FormChoice> parse_form_choice(std::string_view name) {
+  if (name == "sform") return FormChoice::kSform;
+  if (name == "qform") return FormChoice::kQform;
+  return std::nullopt;
+}
+
 /// What becomes of a voxel that is in several masks.
 enum class Overlap {
   kRefused,  ///< an error
@@ -68,12 +82,13 @@ struct OpenOptions {
   std::optional<std::array<double, 3>> spacing;  ///< instead of the file's, which is not looked at
   std::optional<std::array<double, 3>> origin;   ///< instead of the file's, which is not looked at
   FrameChoice frame = FrameChoice::kFile;
+  FormChoice form = FormChoice::kFile;  ///< of NIfTI files
   /// The array within a file or store that may hold several.  Empty: conventions choose it.
   std::string dataset;
   std::optional<int> scale;             ///< resolution level, 0 the finest; empty: the finest
   Overlap overlap = Overlap::kRefused;  ///< what masks that overlap become
   VoxelValues values = VoxelValues::kLabels;
-  std::optional<Box3> crop;  ///< part of the volume, voxels
+  std::optional<Box3> crop;  ///< part of the volume, voxels as the data set counts them
   /// The only labels that matter: all others become 0, and the volume ends around these
   /// (open_object()), within `crop`.  Where there are none, all labels matter.
   std::vector<RawLabel> object;

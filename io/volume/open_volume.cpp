@@ -61,6 +61,7 @@ struct VolumeFormat {
   bool has_datasets = false;  ///< --dataset chooses in it
   bool has_scales = false;    ///< --scale chooses in it
   bool has_masks = false;     ///< --overlap says what masks become that overlap
+  bool has_forms = false;     ///< --use-form chooses one of two places
   /// Null where the format has no scales.
   std::size_t (*count_scales)(const Place& place, const OpenOptions& options) = nullptr;
 };
@@ -85,7 +86,8 @@ constexpr std::array kFormats{
                  .endings = ".nii",
                  .is_file = has_nifti_magic,
                  .open_file = open_nifti,
-                 .has_masks = true},
+                 .has_masks = true,
+                 .has_forms = true},
     VolumeFormat{.name = "DICOM segmentation",
                  .endings = ".dcm",
                  .is_file = has_dicom_magic,
@@ -115,10 +117,11 @@ constexpr std::array kFormats{
     VolumeFormat{.name = "masks",
                  .is_folder = is_mask_folder,
                  .open_folder = open_mask_folder,
-                 .has_masks = true},
+                 .has_masks = true,
+                 .has_forms = true},
 };
 /// Masks that are listed instead of being in a folder of their own.
-constexpr VolumeFormat kMaskList{.name = "masks", .has_masks = true};
+constexpr VolumeFormat kMaskList{.name = "masks", .has_masks = true, .has_forms = true};
 /// The format of any content where the caller says how the voxels lie.
 constexpr VolumeFormat kRawFormat{.name = "raw"};
 
@@ -197,6 +200,9 @@ void check_understood(const VolumeFormat& format, const std::filesystem::path& p
   if (options.scale && !format.has_scales) fail("--scale", "scales", formats_with_scales());
   if (options.overlap != Overlap::kRefused && !format.has_masks) {
     fail("--overlap", "masks", formats_with_masks());
+  }
+  if (options.form != FormChoice::kFile && !format.has_forms) {
+    fail("--use-form", "sform or qform", "NIfTI");
   }
 }
 
@@ -348,13 +354,10 @@ std::unique_ptr<LabelVolume> open_object_of(const std::filesystem::path& path,
   };
   Box3 bounds{{0, 0, 0}, scaled.volume->info().shape};
   if (options.crop) {
-    check_crop(path.string(), *options.crop, bounds.hi);
-    bounds = *options.crop;
+    bounds = voxels_of_crop(path.string(), *options.crop, scaled.volume->info());
   }
   ObjectView view = open_object(std::move(scaled), options.object, bounds);
-  OpenOptions around = options;
-  around.crop = view.box;
-  return cropped(std::move(view.volume), path.string(), around);
+  return std::make_unique<CroppedVolume>(std::move(view.volume), view.box, !options.origin);
 }
 
 }  // namespace

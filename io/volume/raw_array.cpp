@@ -173,7 +173,7 @@ std::unique_ptr<LabelVolume> open_raw(std::unique_ptr<ByteSource> source,
                                       const OpenOptions& options) {
   const RawLayout& layout = *options.raw;
   VolumeInfo info = info_of(layout, source->name());
-  info.space = placed(source->name(), {}, options);
+  info.space = placed(source->name(), {.is_sized = false}, options);
   check_payload(*source, info, 0, BytesBehind::kRefused);
   return std::make_unique<RawArrayVolume>(std::move(source), std::move(info),
                                           ArrayLayout{.offset = 0, .order = layout.order});

@@ -34,6 +34,7 @@ struct VolumeSpace {
   std::array<Vector3, 3> axes{{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}};
   std::string unit;  ///< "mm", "um", "nm", "m" and so on; empty: unknown
   WorldFrame frame = WorldFrame::kOwn;
+  bool is_sized = true;  ///< false: nobody said how large voxels are, and 1 was taken
 };
 
 /// Returns how many nanometres "nm", "um", "mm" or "m" has; nothing for other texts.

@@ -10,6 +10,7 @@
 #include "engine/cli/info/volume_facts.h"
 #include "engine/cli/options/shared_options.h"
 #include "engine/cli/options/values.h"
+#include "engine/cli/options/volume_options.h"
 #include "engine/connect/connected_sink.h"
 #include "io/file/errors.h"
 #include "io/mesh/digest.h"
@@ -17,7 +18,6 @@
 #include "io/mesh/merged_vertices.h"
 #include "io/mesh/mesh_sink.h"
 #include "io/mesh/open_mesh.h"
-#include "io/names/read_names.h"
 
 namespace mw::cli {
 namespace {
@@ -38,7 +38,7 @@ MeshInfo look_at_mesh(const InfoJob& job) {
     volume = look_at_volume(job.volume, job.contacts);
     more_names = volume->names;
   } else if (!job.volume.names.empty()) {
-    more_names = io::read_names(job.volume.names);
+    more_names = names_in(job.volume.names);
   }
   io::GroupedSink sink(io::scratch_folder(), nullptr);
   io::DigestSink digest(io::scratch_folder());

@@ -32,6 +32,17 @@ Json affine_json(const io::VolumeSpace& space) {
   return rows;
 }
 
+Json range_json(const Box3& box) {
+  return {{"lo", {box.lo.x, box.lo.y, box.lo.z}}, {"hi", {box.hi.x, box.hi.y, box.hi.z}}};
+}
+
+/// Returns the voxels as --crop counts them, and as the array does.
+Json boxes_json(const io::VolumeInfo& info) {
+  const Index3 number = io::first_number(info);
+  return {{"crop", range_json({number, number + info.shape})},
+          {"array", range_json({info.first, info.first + info.shape})}};
+}
+
 Json labels_json(const std::vector<engine::LabelRegion>& regions, bool is_signed) {
   return {{"count", regions.size()},
           {"min", report::label_json(regions.front().label, is_signed)},
@@ -76,10 +87,12 @@ Json masks_json(const io::VolumeInfo& info, const std::vector<engine::LabelRegio
 Json scales_json(const std::vector<io::VolumeScale>& scales) {
   Json rows = Json::array();
   for (const auto& [number, info] : scales) {
-    rows.push_back({{"scale", number},
-                    {"shape_xyz", {info.shape.x, info.shape.y, info.shape.z}},
-                    {"spacing_xyz", info.space.spacing},
-                    {"chunk_xyz", {info.chunk.x, info.chunk.y, info.chunk.z}}});
+    Json row{{"scale", number},
+             {"shape_xyz", {info.shape.x, info.shape.y, info.shape.z}},
+             {"spacing_xyz", info.space.spacing},
+             {"chunk_xyz", {info.chunk.x, info.chunk.y, info.chunk.z}}};
+    if (info.offset != Index3{}) row["boxes"] = boxes_json(info);
+    rows.push_back(std::move(row));
   }
   return rows;
 }
@@ -99,6 +112,7 @@ VolumeFacts::VolumeFacts(const VolumeRequest& request) {
   info_ = input.volume().info();
   if (reads_labels(request)) regions_ = engine::label_regions(input.volume());
   facts_ = facts_of(request, info_, regions_);
+  if (info_.offset != Index3{}) facts_["boxes"] = boxes_json(info_);
   if (!info_.masks.empty()) facts_["masks"] = masks_json(info_, regions_);
   if (input.specks()) facts_["specks"] = report::specks_json(input.specks());
   if (input.welds()) facts_["welds"] = report::welds_json(input.welds());
@@ -109,11 +123,10 @@ VolumeFacts::VolumeFacts(const VolumeRequest& request) {
 
 Json VolumeFacts::label_row(std::size_t i) const {
   const engine::LabelRegion& region = regions_[i];
-  const Index3 lo = region.box.lo, hi = region.box.hi;
+  const Index3 first = io::first_number(info_);
   Json row = report::named_row_json(region.label, has_signed_labels(info_), info_.names);
   row["voxels"] = region.voxels;
-  row["lo"] = {lo.x, lo.y, lo.z};
-  row["hi"] = {hi.x, hi.y, hi.z};
+  row.update(range_json({region.box.lo + first, region.box.hi + first}));
   row["volume"] = volume_of(i);
   report::add_colour(row, region.label, info_.names);
   return row;

@@ -25,6 +25,7 @@
 #include "io/mesh/mesh_sink.h"
 #include "io/mesh/open_mesh.h"
 #include "io/remote/wait_stop.h"
+#include "io/volume/cropped_volume.h"
 #include "io/volume/open_volume.h"
 
 namespace mw::cli {
@@ -87,22 +88,35 @@ struct MeshFiles {
   std::optional<TraceFile> trace;
 };
 
+/// Opens an image beside the labels, by the form that --use-form chooses where it has that.
+std::unique_ptr<io::LabelVolume> open_image(const std::filesystem::path& file, io::FormChoice form,
+                                            io::OpenOptions options) {
+  options.form = form;
+  try {
+    return io::open_volume(file, options);
+  } catch (const Error& error) {
+    if (form == io::FormChoice::kFile || error.kind() != ErrorKind::kUsage) throw;
+  }
+  options.form = io::FormChoice::kFile;
+  return io::open_volume(file, options);
+}
+
 /// Returns null if there is no image of sizes.
 std::unique_ptr<io::LabelVolume> open_sizes(const MeshRequest& request) {
   const std::string& image = request.job.settings.sizes.rules.image;
   if (image.empty()) return nullptr;
   const io::OpenOptions labels = open_options(request.volume);
-  return io::open_volume(image, {.spacing = labels.spacing, .origin = labels.origin});
+  return open_image(image, labels.form, {.spacing = labels.spacing, .origin = labels.origin});
 }
 
 /// Opens the images that tets get values from.
 void open_samples(const MeshRequest& request, std::vector<engine::SampleImage>& samples) {
   if (!run_processes().speaks()) samples.clear();
   for (engine::SampleImage& sample : samples) {
-    sample.image = io::open_volume(
-        sample.file, {.dataset = sample.dataset,
-                      .trust_paths = request.volume.open.trust_paths,
-                      .cache_bytes = request.volume.open.cache_bytes / samples.size()});
+    sample.image = open_image(sample.file, request.volume.open.form,
+                              {.dataset = sample.dataset,
+                               .trust_paths = request.volume.open.trust_paths,
+                               .cache_bytes = request.volume.open.cache_bytes / samples.size()});
     if (sample.image->info().is_placed && request.volume.open.frame == io::FrameChoice::kVoxel) {
       io::fail_usage("--frame voxel: " + sample.file +
                      " lies in the world, which the mesh then is not in");
@@ -266,15 +280,37 @@ void deliver_rest(const MeshRequest& request, report::FinishedRun& run, MeshFile
   if (run.engine.work != nullptr) run.engine.work->discard();
 }
 
-/// Throws if a box of --changed is outside of a whole volume, where it can only be a mistake.
-void check_changed(const MeshRequest& request, Index3 shape) {
-  if (request.volume.open.crop) return;
-  for (const Box3& box : request.job.run.keep.changed) {
-    if (is_empty(box) || !is_empty(intersection(box, {{0, 0, 0}, shape}))) continue;
-    io::fail_usage("--changed: the box from ", box.lo.x, ",", box.lo.y, ",", box.lo.z,
-                   " is outside of the volume, which has ", shape.x, " x ", shape.y, " x ", shape.z,
-                   " voxels");
+/// Turns the boxes of --changed, which count as the data set does, to voxels of the volume.
+/// ERRORS: kUsage if one is outside of a whole volume, where it can only be a mistake.
+void settle_changed(MeshRequest& request, const io::VolumeInfo& volume) {
+  const Index3 first = io::first_number(volume);
+  const Box3 all{first, first + volume.shape};
+  for (Box3& box : request.job.run.keep.changed) {
+    if (!request.volume.open.crop && !is_empty(box) && is_empty(intersection(box, all))) {
+      io::fail_usage("--changed: the box ", io::box_text(box),
+                     " is outside of the volume, which has the voxels ", io::box_text(all));
+    }
+    box = {box.lo - first, box.hi - first};
   }
+}
+
+/// Says what the user should know of how the volume is read.
+void tell_volume(const MeshRequest& request, const io::VolumeInfo& volume) {
+  if (volume.is_far && !request.volume.open.cache) {
+    log_warning(
+        "chunks that memory no longer holds are fetched anew in each pass over the volume, two or "
+        "three times in all; with --cache DIR each is fetched once, for later runs, too");
+  }
+  if (!run_processes().speaks()) return;
+  if (!volume.space.is_sized) {
+    std::cout << "spacing     1, as the file does not say how large voxels are; see --spacing"
+              << std::endl;
+  }
+  if (!request.volume.open.crop || volume.offset == Index3{}) return;
+  std::cout << "crop        " << io::box_text(*request.volume.open.crop)
+            << " as the data set counts voxels, "
+            << io::box_text({volume.first, volume.first + volume.shape}) << " in its array"
+            << std::endl;
 }
 
 /// Returns what the user gave that has the effect of a flag, such as "--preset draft" for
@@ -288,7 +324,7 @@ std::string giver_of(const std::string& flag, const OptionSet& options) {
   return flag;
 }
 
-int mesh(const MeshRequest& request, const OptionSet& options) {
+int mesh(MeshRequest& request, const OptionSet& options) {
   watch_interrupts();
   const io::WaitStop::Stop stop = stop_if_interrupted;
   const io::WaitStop waits(&stop);
@@ -303,12 +339,8 @@ int mesh(const MeshRequest& request, const OptionSet& options) {
   MeshFiles files(request, open_shared_output(request, is_certified));
   log_info("reading " + request.volume.path.string());
   const std::unique_ptr<io::LabelVolume> volume = open(request.volume);
-  if (volume->info().is_far && !request.volume.open.cache) {
-    log_warning(
-        "chunks that memory no longer holds are fetched anew in each pass over the volume, two or "
-        "three times in all; with --cache DIR each is fetched once, for later runs, too");
-  }
-  check_changed(request, volume->info().shape);
+  tell_volume(request, volume->info());
+  settle_changed(request, volume->info());
   if (volume->scores() != nullptr) {
     log_warning(std::string(engine::kVolumesOfScores) + "; volumes are not promised (P8)");
   }

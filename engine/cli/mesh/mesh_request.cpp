@@ -318,8 +318,6 @@ void settle_keep(MeshRequest& request) {
     io::fail_usage("--changed: says nothing where --object finds the box anew, leave it out");
   }
   request.job.delta = request.delta.empty() ? engine::Delta::kNo : engine::Delta::kOn;
-  const Index3 first = request.volume.open.crop ? request.volume.open.crop->lo : Index3{};
-  for (Box3& box : keep.changed) box = {box.lo - first, box.hi - first};
   keep.folder = updates ? request.from : request.keep;
   keep.use = updates                        ? engine::KeepUse::kUpdate
              : request.job.run.store.resume ? engine::KeepUse::kGoOn

@@ -94,7 +94,7 @@ void add_resource_options(OptionSet& options, int& threads, std::optional<std::u
 void add_choice_options(OptionSet& options, engine::LabelChoice& choice) {
   options.add({.name = "labels",
                .value = "LIST",
-               .help = "labels of the mesh, as 1,2,Lesion; the others are left out of it",
+               .help = "labels of the mesh, as 1,5-9,Lesion; the others are left out",
                .group = kLabelGroup,
                .kind = ValueKind::kLabels,
                .assign = into(choice.labels, parse_labels)});

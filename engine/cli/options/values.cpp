@@ -5,6 +5,7 @@
 
 #include <algorithm>
 
+#include "io/volume/cropped_volume.h"
 #include "kernels/core/error.h"
 
 namespace mw::cli {
@@ -55,9 +56,27 @@ Box3 parse_box(std::string_view text) {
   return {{out[0], out[1], out[2]}, {out[3], out[4], out[5]}};
 }
 
+namespace {
+
+/// Adds a label, or all those of a range such as "1-3" or "-2-5".
+void add_labels(std::string_view part, std::vector<RawLabel>& labels) {
+  constexpr RawLabel kMost = 1U << 20U;
+  const std::size_t dash = part.find('-', 1);
+  if (dash == part.npos) return labels.push_back(parse_label(part));
+  const std::string_view first_text = part.substr(0, dash);
+  const RawLabel first = parse_label(first_text), last = parse_label(part.substr(dash + 1));
+  const bool crosses_zero = first_text.starts_with('-') && part[dash + 1] != '-';
+  if (last - first >= kMost || (last < first && !crosses_zero)) {
+    fail_expected("a label, or a range A-B from the smaller one on of at most 2^20", part);
+  }
+  for (RawLabel i = 0; i <= last - first; ++i) labels.push_back(first + i);
+}
+
+}  // namespace
+
 std::vector<RawLabel> parse_labels(std::string_view text) {
   std::vector<RawLabel> labels;
-  for (const std::string_view part : split(text)) labels.push_back(parse_label(part));
+  for (const std::string_view part : split(text)) add_labels(part, labels);
   return labels;
 }
 
@@ -85,12 +104,7 @@ std::string canonical_shape(const std::string& text) {
 }
 
 std::string canonical_box(const std::string& text) {
-  const Box3 box = parse_box(text);
-  std::string out;
-  for (const std::int64_t v : {box.lo.x, box.lo.y, box.lo.z, box.hi.x, box.hi.y, box.hi.z}) {
-    out += (out.empty() ? "" : ",") + std::to_string(v);
-  }
-  return out;
+  return io::box_text(parse_box(text));
 }
 
 std::optional<std::string> number_of_toml(const toml::node& node) {

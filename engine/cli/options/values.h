@@ -41,7 +41,7 @@ using report::format_volume;
 [[nodiscard]] std::array<double, 3> parse_numbers(std::string_view text);  ///< "X,Y,Z", or one
 [[nodiscard]] Index3 parse_shape(std::string_view text);                   ///< "X,Y,Z", each >= 1
 [[nodiscard]] Box3 parse_box(std::string_view text);  ///< "X0,Y0,Z0,X1,Y1,Z1", half-open
-[[nodiscard]] std::vector<RawLabel> parse_labels(std::string_view text);  ///< "1,2,5"
+[[nodiscard]] std::vector<RawLabel> parse_labels(std::string_view text);  ///< "1,2,5-9"
 
 /// Reads the switch --ascii.
 [[nodiscard]] inline io::Encoding parse_ascii(std::string_view text) {

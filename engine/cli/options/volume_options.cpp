@@ -117,6 +117,15 @@ void add_place_options(OptionSet& options, VolumeRequest& request) {
                .assign = into(request.open.frame, [](const std::string& text) {
                  return io::parse_frame_choice(text).value();
                })});
+  options.add({.name = "use-form",
+               .value = "FORM",
+               .help = "place of a NIfTI file that has two [sform, else qform]",
+               .group = kInputGroup,
+               .choices = {"sform", "qform"},
+               .listed = Listed::kInHelpAll,
+               .assign = into(request.open.form, [](const std::string& text) {
+                 return io::parse_form_choice(text).value();
+               })});
 }
 
 void add_array_options(OptionSet& options, VolumeRequest& request) {
@@ -263,17 +272,36 @@ std::uint64_t cache_bytes(std::uint64_t memory) {
   return std::min(memory / 4, kMax);
 }
 
+namespace {
+
+/// Opens the volume with its names; note says how these were read, if there is anything to say.
+std::unique_ptr<io::LabelVolume> open_named(const VolumeRequest& request, std::string* note) {
+  auto volume = io::open_volume(request.path, open_options(request));
+  if (request.names.empty()) return volume;
+  return std::make_unique<io::NamedVolume>(std::move(volume), io::read_names(request.names, note));
+}
+
+}  // namespace
+
 io::LabelNames names_of(const VolumeRequest& request) {
   VolumeRequest all = request;
   all.open.object.clear();
-  return open(all)->info().names;
+  return open_named(all, nullptr)->info().names;  // the volume is opened again, and told of then
+}
+
+io::LabelNames names_in(const std::filesystem::path& file) {
+  std::string note;
+  io::LabelNames names = io::read_names(file, &note);
+  if (!note.empty()) log_warning(note);
+  return names;
 }
 
 std::unique_ptr<io::LabelVolume> open(const VolumeRequest& request) {
-  auto volume = io::open_volume(request.path, open_options(request));
+  std::string note;
+  auto volume = open_named(request, &note);
   if (!volume->info().note.empty()) log_warning(volume->info().note);
-  if (request.names.empty()) return volume;
-  return std::make_unique<io::NamedVolume>(std::move(volume), io::read_names(request.names));
+  if (!note.empty()) log_warning(note);
+  return volume;
 }
 
 }  // namespace mw::cli

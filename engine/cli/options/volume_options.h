@@ -51,6 +51,9 @@ void refuse_idle_cache(const OptionSet& options, const VolumeRequest& request);
 /// Returns the names of the labels of the request's volume.
 [[nodiscard]] io::LabelNames names_of(const VolumeRequest& request);
 
+/// Returns the names in a file of --names, and logs what was taken for what it leaves open.
+[[nodiscard]] io::LabelNames names_in(const std::filesystem::path& file);
+
 /// Returns the bytes of its file that a chunked volume may keep while nothing but labels is read.
 [[nodiscard]] std::uint64_t cache_bytes(std::uint64_t memory);
 

@@ -249,15 +249,16 @@ def mesh(volume, *, progress=None, **arguments):
         files: the frame that they have); "mm", "um" and so on; {label: name}, a list of the names
         of labels 0, 1, 2 and so on, or a file of ``mwmesh mesh --names``, which may have colours.
         Labels are given by number or by name, wherever they are, except for object.
-    dataset, scale, crop, overlap, values, object, trust_paths, cache
+    dataset, scale, crop, overlap, values, object, trust_paths, cache, use_form
         for files: the array to read, the level of a pyramid, the box ((x0, y0, z0), (x1, y1, z1))
-        to keep, which label a voxel of several masks gets ("first", "last", or "all": one for each
+        to keep, as the data set counts voxels (io/README.md), which label a voxel of several masks gets ("first", "last", or "all": one for each
         set of masks), what the numbers are ("labels", or "probabilities" of classes or signed
         "distances" of labels, whose crossings then place the interfaces), labels that alone matter
         and that the mesh is to have (a number or a list of numbers; all others become 0; coarser scales tell
         where to read), whether files that headers name may be outside of their folder, and a folder
         that keeps what servers send for later runs ("DIR", or "DIR,SIZE" with the most bytes);
-        without it chunks are fetched two or three times, once in each pass over the volume.
+        without it chunks are fetched two or three times, once in each pass over the volume; and the
+        place of a NIfTI file that counts, "sform" or "qform".
     merge, drop_specks, weld
         {label: label that it becomes}; then components of fewer voxels than drop_specks take the
         label around them.  Voxels are joined by faces, with (voxels, 26) by corners too.  Then

@@ -23,6 +23,7 @@ _Progress: TypeAlias = bool | Callable[[int, int, float | None], object]
 _Certify: TypeAlias = Literal["auto", "on", "off"]
 _Axes: TypeAlias = Literal["zyx", "xyz"]
 _Overlap: TypeAlias = Literal["first", "last", "all"]
+_Form: TypeAlias = Literal["sform", "qform"]
 _Values: TypeAlias = Literal["labels", "probabilities", "distances"]
 _Element: TypeAlias = Literal["tet4", "tet10", "tet10-curved"]
 #: A label by its number or by its name.
@@ -170,6 +171,7 @@ def as_volume(
     object: int | Iterable[int] | None = None,
     trust_paths: bool | None = None,
     cache: _Path | None = None,
+    use_form: _Form | None = None,
 ) -> _Volume: ...
 def mesh(
     volume: _Source,
@@ -190,6 +192,7 @@ def mesh(
     object: int | Iterable[int] | None = ...,
     trust_paths: bool | None = ...,
     cache: _Path | None = ...,
+    use_form: _Form | None = ...,
     threads: int = ...,
     memory: int | str | None = ...,
     labels: _Label | Iterable[_Label] | None = ...,

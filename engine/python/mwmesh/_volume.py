@@ -17,7 +17,7 @@ AXES = ("zyx", "xyz")
 FRAMES = ("own", "ras", "lps", "voxel")
 #: The arguments that say which part of a source the volume is, and where it lies.
 PLACE = ("spacing", "origin", "affine", "frame", "unit", "axes", "dataset", "scale", "crop",
-         "overlap", "values", "object", "trust_paths", "cache")
+         "overlap", "values", "object", "trust_paths", "cache", "use_form")
 
 
 def _is_image(source):
@@ -135,7 +135,7 @@ def _array_volume(array, axes, space):
 
 
 def _file_volume(source, spacing, origin, frame, dataset, scale, crop, overlap, values, object,
-                 trust_paths, cache):
+                 trust_paths, cache, use_form):
     box = None
     if crop is not None:
         corners = [whole(v, "crop") for v in np.ravel(np.asarray(crop, dtype="O"))]
@@ -148,20 +148,21 @@ def _file_volume(source, spacing, origin, frame, dataset, scale, crop, overlap, 
         None if scale is None else whole(scale, "scale", 32), three(spacing, "spacing"),
         three(origin, "origin"), frame or "file", box, text(overlap, "overlap"),
         text(values, "values") or "labels", np.asarray(wanted).view(np.uint64).tolist(),
-        False if trust_paths is None else switch(trust_paths, "trust_paths"), "" if cache is None else path_bytes(cache, "cache"))
+        False if trust_paths is None else switch(trust_paths, "trust_paths"), "" if cache is None else path_bytes(cache, "cache"),
+        text(use_form, "use_form"))
 
 
 def _volume(source, spacing, origin, affine, frame, unit, axes, dataset, scale, crop,
-            overlap, values, object, trust_paths, cache):
+            overlap, values, object, trust_paths, cache, use_form):
     frame, unit_text = text(frame, "frame"), text(unit, "unit")
     if isinstance(source, (str, os.PathLike)):
         if affine is not None or unit is not None or axes is not None:
             raise UsageError("affine, unit and axes are for arrays: files tell their own")
         return _file_volume(source, spacing, origin, frame, dataset, scale, crop, overlap,
-                            values, object, trust_paths, cache)
+                            values, object, trust_paths, cache, use_form)
     for_files = {"dataset": dataset, "scale": scale, "crop": crop, "overlap": overlap,
                  "values": values, "object": object, "trust_paths": trust_paths or None,
-                 "cache": cache}
+                 "cache": cache, "use_form": use_form}
     given = [name for name, value in for_files.items() if value is not None]
     if given:
         raise UsageError(f"{', '.join(given)}: for files only, and this is an array"

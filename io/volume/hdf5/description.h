@@ -82,8 +82,10 @@ using Hdf5Axes = std::array<std::optional<std::size_t>, 3>;
 
 /// Returns the place by CREMI's `resolution` and `offset` (z, y, x; nm), Fiji's and ilastik's
 /// `element_size_um` (z, y, x; um) or the geometry of DREAM.3D (x, y, z); all place the first
-/// corner.  What is not three numbers is not looked at; without any of them voxels have edges of 1.
-/// ERRORS: mw::Error(kInput) when a geometry has another shape (x, y, z) than the array.
+/// corner.  Without these, axistags count whose `resolution` is known for x, y and z; they name no
+/// unit.  What is not three numbers is not looked at; without any of them voxels have edges of 1.
+/// ERRORS: mw::Error(kInput) when a geometry has another shape (x, y, z) than the array, and for
+/// tags that do not fit it.
 [[nodiscard]] FileSpace hdf5_space(const Hdf5Description& description, const Index3& shape,
                                    std::string_view file);
 

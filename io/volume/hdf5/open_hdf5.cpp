@@ -22,18 +22,26 @@ namespace {
              "write the one volume of it that is meant, as [z, y, x]");
 }
 
-/// Returns the keys of the axes, as "zyxc"; nothing without axistags.
-std::string keys_of(const Hdf5Description& description, std::string_view file) {
+/// What axistags say of each axis of the array.
+struct AxisTags {
+  std::string keys;                 ///< as "zyxc"
+  std::vector<double> resolutions;  ///< 0: unknown
+};
+
+/// Returns no keys without axistags.
+AxisTags tags_of(const Hdf5Description& description, std::string_view file) {
   if (description.axistags.empty()) return {};
   try {
-    std::string keys;
+    AxisTags out;
     const Json tags = parse_json(description.axistags, file);
     const JsonFields fields(tags, std::string(file));
     for (std::size_t i = 0; i < fields.count("axes"); ++i) {
-      const std::string key = fields.element("axes", i).text("key");
-      keys += key.size() == 1 ? key[0] : '?';
+      const JsonFields axis = fields.element("axes", i);
+      const std::string key = axis.text("key");
+      out.keys += key.size() == 1 ? key[0] : '?';
+      out.resolutions.push_back(axis.has("resolution") ? axis.number("resolution") : 0);
     }
-    return keys;
+    return out;
   } catch (const Error&) {
     fail(description, file, "its axistags are no list of axes");
   }
@@ -75,7 +83,7 @@ std::vector<std::size_t> three_of(const Hdf5Description& description, bool last_
 }  // namespace
 
 Hdf5Axes find_axes(const Hdf5Description& description, std::string_view file) {
-  const std::string keys = keys_of(description, file);
+  const std::string keys = tags_of(description, file).keys;
   if (!keys.empty()) return tagged_axes(description, keys, file);
   const bool of_dream3d = description.numbers.contains("SPACING");
   const std::vector<std::size_t> left = three_of(description, of_dream3d);
@@ -120,6 +128,24 @@ void check_dimensions(const Hdf5Description& description, const Index3& shape,
 
 }  // namespace
 
+namespace {
+
+/// Returns the edges that axistags give to x, y and z; nothing where they lack one.  A slice is as
+/// thick as its pixels are wide.
+std::optional<Vector3> tagged_edges(const Hdf5Description& description, std::string_view file) {
+  const AxisTags tags = tags_of(description, file);
+  if (tags.keys.empty()) return std::nullopt;
+  const Hdf5Axes axes = tagged_axes(description, tags.keys, file);
+  Vector3 out{};
+  for (std::size_t i = 0; i < 3; ++i) {
+    out[i] = axes[i] ? tags.resolutions[*axes[i]] : out[0];
+    if (!(out[i] > 0)) return std::nullopt;
+  }
+  return out;
+}
+
+}  // namespace
+
 FileSpace hdf5_space(const Hdf5Description& description, const Index3& shape,
                      std::string_view file) {
   FileSpace space;
@@ -143,6 +169,11 @@ FileSpace hdf5_space(const Hdf5Description& description, const Index3& shape,
   } else if (const auto edges = three(description, "spacing"); edges && is_cube(*edges)) {
     space.steps = steps_of(*edges);
     space.steps_field = "attribute spacing";
+  } else if (const auto tagged = tagged_edges(description, file)) {
+    space.steps = steps_of(*tagged);
+    space.steps_field = "axistags resolution";
+  } else {
+    space.is_sized = false;
   }
   return space;
 }

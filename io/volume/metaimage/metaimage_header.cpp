@@ -167,6 +167,7 @@ FileSpace parse_space(const FieldMap& fields, std::size_t rank, std::string_view
                   .frame = WorldFrame::kLps,
                   .steps_field = "MetaImage fields 'ElementSpacing' and 'TransformMatrix'",
                   .first_field = "MetaImage field 'Offset'"};
+  space.is_sized = find_any(fields, {"ElementSpacing", "ElementSize"}) != nullptr;
   const Vector3 spacing = parse_spacing(fields, rank, file);
   space.steps = parse_directions(fields, rank, file);
   for (std::size_t i = 0; i < 3; ++i) {

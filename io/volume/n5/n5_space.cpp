@@ -203,6 +203,14 @@ std::optional<JsonFields> transform_of_group(const N5Attributes& attributes) {
 
 }  // namespace
 
+Index3 n5_offset(const N5Attributes& attributes, const N5Array& array) {
+  return number_of_first_voxel([&] {
+    const bool has_transform =
+        attributes.own.fields().has("transform") || transform_of_group(attributes);
+    return OwnPlace{n5_space(attributes, array, {}), has_transform};
+  });
+}
+
 VolumeSpace n5_space(const N5Attributes& attributes, const N5Array& array,
                      const OpenOptions& options) {
   const JsonFields own = attributes.own.fields();
@@ -217,7 +225,8 @@ VolumeSpace n5_space(const N5Attributes& attributes, const N5Array& array,
                   .first_is_centre = false,
                   .unit = resolution.unit,
                   .steps_field = resolution.field.c_str(),
-                  .first_field = "offset"};
+                  .first_field = "offset",
+                  .is_sized = !resolution.field.empty()};
   if (!options.origin) space.first = wanted_offset(attributes, array);
   return placed(own.file(), space, options);
 }

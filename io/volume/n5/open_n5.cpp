@@ -139,19 +139,19 @@ Place find_n5_array(const Place& container, const OpenOptions& options) {
 
 namespace {
 
-/// The place of a level of a pyramid needs the metadata of the finest one and of the group.
-VolumeSpace space_of(const Place& folder, const N5Document& own, const N5Array& array,
-                     const OpenOptions& options) {
+/// Calls take for the attributes; the place of a level of a pyramid needs the metadata of the
+/// finest one and of the group.
+void with_attributes(const Place& folder, const N5Document& own,
+                     const std::function<void(const N5Attributes&)>& take) {
   const auto level = level_of(folder);
   const auto above = level ? folder.parent() : std::nullopt;
-  if (!above) return n5_space({.own = own}, array, options);
+  if (!above) return take({.own = own});
   const auto group = read_attributes(above->first);
   const auto finest = *level == 0 ? std::nullopt : read_attributes(above->first / "s0");
-  return n5_space({.own = own,
-                   .group = group ? &*group : nullptr,
-                   .finest = finest ? &*finest : nullptr,
-                   .level = *level},
-                  array, options);
+  take({.own = own,
+        .group = group ? &*group : nullptr,
+        .finest = finest ? &*finest : nullptr,
+        .level = *level});
 }
 
 }  // namespace
@@ -170,11 +170,14 @@ std::unique_ptr<LabelVolume> open_n5(const Place& container, const OpenOptions& 
   }
   N5Array array = parse_n5_array(document->fields());
   VolumeInfo info{.shape = shape_of(array),
-                  .space = space_of(folder, *document, array, options),
                   .type = array.type,
                   .format = "n5",
                   .chunk = block_of(array),
                   .is_far = !folder.is_near()};
+  with_attributes(folder, *document, [&](const N5Attributes& attributes) {
+    info.space = n5_space(attributes, array, options);
+    info.offset = n5_offset(attributes, array);
+  });
   const VoxelCoding coding{.type = array.type, .order = ByteOrder::kBig};
   return std::make_unique<ChunkedVolume>(std::move(info), coding, ChunkFill{},
                                          std::make_unique<N5Blocks>(folder, std::move(array)),

@@ -96,6 +96,8 @@ struct N5Attributes {
 /// ERRORS: mw::Error(kInput) naming file and field.  What the options replace is not looked at.
 [[nodiscard]] VolumeSpace n5_space(const N5Attributes& attributes, const N5Array& array,
                                    const OpenOptions& options);
+/// Returns the number of the first voxel by the same place (number_of_first_voxel()).
+[[nodiscard]] Index3 n5_offset(const N5Attributes& attributes, const N5Array& array);
 
 /// Returns the folder of the array: options.dataset in the container, or the only array or pyramid
 /// that there is; in a pyramid (a group with s0, s1, ...) the level options.scale.

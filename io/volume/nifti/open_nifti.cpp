@@ -7,6 +7,7 @@
 #include <array>
 #include <cmath>
 #include <cstring>
+#include <limits>
 
 #include "io/file/errors.h"
 #include "io/file/text_numbers.h"
@@ -210,6 +211,12 @@ FileSpace qform(const View& view) {
   return space;
 }
 
+/// Three numbers of a quaternion that are longer than 1 beyond rounding are no rotation.
+bool is_rotation(double quaternion) {
+  constexpr double kRounding = 1e-4;
+  return !(quaternion > 1 + kRounding);
+}
+
 /// Reads it by method 1: pixdim alone.
 FileSpace by_pixdim(const View& view) {
   FileSpace space{.first = Vector3{0, 0, 0}, .steps_field = "pixdim"};
@@ -241,20 +248,33 @@ bool spans_volume(const FileSpace& space) {
   return std::abs(dot(x, cross(y, z))) > kLeast * box;
 }
 
-void parse_space(const View& view, NiftiHeader& header) {
+void check_form(const View& view, FormChoice form, std::string_view file) {
+  if (form == FormChoice::kFile) return;
+  const bool is_sform = form == FormChoice::kSform;
+  const std::size_t field = is_sform ? view.fields().sform_code : view.fields().qform_code;
+  if (view.code(field) > 0) return;
+  const char* const name = is_sform ? "sform" : "qform";
+  fail_usage("--use-form ", name, ": ", file, " has no ", name, " (", name, "_code is ",
+             view.code(field), "); leave it out");
+}
+
+void parse_space(const View& view, NiftiHeader& header, FormChoice form) {
   const Fields& f = view.fields();
   FileSpace& space = header.space;
   const bool has_qform = view.code(f.qform_code) > 0;
-  bool by_sform = view.code(f.sform_code) > 0;
+  bool by_sform = form != FormChoice::kQform && view.code(f.sform_code) > 0;
   if (by_sform) space = sform(view);
-  header.skips_sform = by_sform && has_qform && !spans_volume(space);
+  header.skips_sform = form == FormChoice::kFile && by_sform && has_qform && !spans_volume(space);
   by_sform = by_sform && !header.skips_sform;
   if (!by_sform) space = has_qform ? qform(view) : by_pixdim(view);
-  if (by_sform || has_qform) space.frame = WorldFrame::kRas;
-  if (!by_sform && has_qform) {
-    header.quaternion =
-        std::hypot(view.real(f.quatern, 0), view.real(f.quatern, 1), view.real(f.quatern, 2));
+  const double quaternion =
+      std::hypot(view.real(f.quatern, 0), view.real(f.quatern, 1), view.real(f.quatern, 2));
+  if (by_sform && has_qform && is_rotation(quaternion)) {
+    header.qform = qform(view);
+    space.way_out = "take the qform, which is there, too, with --use-form qform, or ";
   }
+  if (by_sform || has_qform) space.frame = WorldFrame::kRas;
+  if (!by_sform && has_qform) header.quaternion = quaternion;
   space.lengths = Vector3{std::abs(view.real(f.pixdim, 1)), std::abs(view.real(f.pixdim, 2)),
                           std::abs(view.real(f.pixdim, 3))};
   space.unit = unit_name(view.units());
@@ -268,7 +288,8 @@ bool has_nifti_magic(std::span<const std::byte> bytes) {
   return view->magic().starts_with("n+") || view->magic().starts_with("ni");
 }
 
-NiftiHeader parse_nifti_header(std::span<const std::byte> bytes, std::string_view file) {
+NiftiHeader parse_nifti_header(std::span<const std::byte> bytes, std::string_view file,
+                               FormChoice form) {
   const std::optional<View> view = detect(bytes);
   if (!view) {
     fail_input(file, "sizeof_hdr", "neither 348 (NIfTI-1) nor 540 (NIfTI-2)",
@@ -286,7 +307,8 @@ NiftiHeader parse_nifti_header(std::span<const std::byte> bytes, std::string_vie
                      .shape = {},
                      .scaling = parse_scaling(*view, file),
                      .space = {}};
-  parse_space(*view, header);
+  check_form(*view, form, file);
+  parse_space(*view, header, form);
   header.type = parse_datatype(view->int16(view->fields().datatype), file);
   header.shape = parse_dim(*view, header.masks, file);
   header.data_offset = parse_vox_offset(*view, file);
@@ -379,10 +401,8 @@ std::unique_ptr<LabelVolume> open_masks(const std::shared_ptr<const ByteSource>&
 
 namespace {
 
-/// Three numbers of a quaternion that are longer than 1 beyond rounding are no rotation.
 void check_rotation(const NiftiHeader& header, std::string_view file) {
-  constexpr double kRounding = 1e-4;
-  if (!(header.quaternion > 1 + kRounding)) return;
+  if (is_rotation(header.quaternion)) return;
   fail_input(
       file, "quatern_b, quatern_c, quatern_d",
       text("their length is ", header.quaternion, ", and that of a rotation is at most 1"),
@@ -390,18 +410,60 @@ void check_rotation(const NiftiHeader& header, std::string_view file) {
       "without it");
 }
 
+Vector3 centre_of(const FileSpace& space, const Vector3& voxel) {
+  Vector3 out = *space.first;
+  for (std::size_t i = 0; i < 3; ++i) {
+    for (std::size_t k = 0; k < 3; ++k) out[k] += space.steps[i][k] * voxel[i];
+  }
+  return out;
+}
+
+/// Returns how far the two forms are apart at most, at a corner of the volume; 0 where a form makes
+/// no sense.
+double way_between(const FileSpace& a, const FileSpace& b, Index3 shape) {
+  double most = 0;
+  for_each_index({{0, 0, 0}, {2, 2, 2}}, [&](Index3 corner) {
+    const Vector3 voxel{static_cast<double>(corner.x * (shape.x - 1)),
+                        static_cast<double>(corner.y * (shape.y - 1)),
+                        static_cast<double>(corner.z * (shape.z - 1))};
+    const Vector3 one = centre_of(a, voxel), other = centre_of(b, voxel);
+    const double way = std::hypot(one[0] - other[0], one[1] - other[1], one[2] - other[2]);
+    if (std::isfinite(way)) most = std::max(most, way);
+  });
+  return most;
+}
+
+/// Returns what to say of an sform that places the volume elsewhere than the qform does; empty
+/// where they agree to a tenth of a voxel, as forms that tools convert to one another do.
+std::string note_of_forms(const NiftiHeader& header, std::string_view file) {
+  constexpr double kAgree = 0.1;
+  double edge = std::numeric_limits<double>::infinity();
+  for (const Vector3& step : header.space.steps) edge = std::min(edge, std::sqrt(dot(step, step)));
+  const double voxels = way_between(header.space, *header.qform, header.shape) / edge;
+  if (!(voxels > kAgree)) return {};
+  const Vector3 &sform = *header.space.first, &qform = *header.qform->first;
+  return text(file, ": sform and qform differ by up to ", std::round(10 * voxels) / 10,
+              " voxels: the first voxel is at ", sform[0], ",", sform[1], ",", sform[2],
+              " by the sform, which is taken, and at ", qform[0], ",", qform[1], ",", qform[2],
+              " by the qform, which --use-form qform takes");
+}
+
 }  // namespace
 
 std::unique_ptr<LabelVolume> open_nifti(std::unique_ptr<ByteSource> source,
                                         const OpenOptions& options) {
   const std::string& file = source->name();
-  const NiftiHeader header = parse_nifti_header(read_prefix(*source, kNiftiHeaderBytes), file);
+  const NiftiHeader header =
+      parse_nifti_header(read_prefix(*source, kNiftiHeaderBytes), file, options.form);
   VolumeInfo info{.shape = header.shape, .type = header.type, .format = "nifti"};
   if (options.frame != FrameChoice::kVoxel) check_rotation(header, file);
   info.space = placed(file, header.space, options);
   if (header.skips_sform) {
     info.note = text(file, ": the sform spans no volume, and the qform is taken in its place");
   }
+  const bool tells_forms =
+      options.form == FormChoice::kFile && options.frame != FrameChoice::kVoxel;
+  if (header.qform && tells_forms) info.note = note_of_forms(header, file);
   info.scaled = !header.scaling.is_identity();
   info.names = read_nifti_names(*source, header);
   const auto masks = static_cast<std::uint64_t>(header.masks);

@@ -5,6 +5,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <string_view>
 
@@ -30,9 +31,11 @@ struct NiftiHeader {
   VoxelScaling scaling{};
   /// The place by the sform, else the qform (NIfTI-1 methods 3 and 2), in RAS; else by pixdim alone
   /// (method 1), with an unknown orientation and the centre of the first voxel at 0.  The qform, if
-  /// there is one, counts in place of an sform whose steps span no volume.
+  /// there is one, counts in place of an sform whose steps span no volume.  Callers may choose the
+  /// form.
   FileSpace space;
-  bool skips_sform = false;  ///< the qform counts for this reason
+  std::optional<FileSpace> qform{};  ///< the other place, where the file has both
+  bool skips_sform = false;          ///< the qform counts for this reason
   /// The length of (b, c, d) where the qform counts; more than 1 is no rotation.
   double quaternion = 0;
 };
@@ -41,9 +44,10 @@ struct NiftiHeader {
 [[nodiscard]] bool has_nifti_magic(std::span<const std::byte> bytes);
 
 /// REQUIRES: bytes is the beginning of the file, kNiftiHeaderBytes or as much as there is.
-/// ERRORS: mw::Error(kInput) naming file and field.
+/// ERRORS: mw::Error(kInput) naming file and field; kUsage where the file lacks the form.
 [[nodiscard]] NiftiHeader parse_nifti_header(std::span<const std::byte> bytes,
-                                             std::string_view file);
+                                             std::string_view file,
+                                             FormChoice form = FormChoice::kFile);
 
 /// Returns the first label table (io/names/header_names.h) among the header extensions.  Extensions
 /// that are damaged or hold something else are no error, as the voxels do not need them.

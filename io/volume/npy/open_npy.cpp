@@ -199,7 +199,7 @@ std::unique_ptr<LabelVolume> open_npy(std::unique_ptr<ByteSource> source,
   const NpyHeader header = parse_npy_dict(dict, options.values, source->name());
   VolumeInfo info{.shape = header.shape, .type = header.type, .format = "npy", .is_placed = false};
   info.z_fastest = header.fortran_order;
-  info.space = placed(source->name(), {}, options);
+  info.space = placed(source->name(), {.is_sized = false}, options);
   if (header.components > 1 && options.values == VoxelValues::kLabels) {
     fail_axes(4, source->name());
   }

@@ -242,7 +242,10 @@ bool parse_encoding(const FieldMap& fields, std::string_view file) {
   const std::string value = lower_case(required(fields, "encoding", file));
   if (value == "gzip" || value == "gz") return true;
   if (value == "raw") return false;
-  fail_input(file, text("NRRD field 'encoding' = ", value), "unsupported", "save as raw or gzip");
+  const bool is_text = value == "ascii" || value == "text" || value == "txt" || value == "hex";
+  fail_input(file, text("NRRD field 'encoding' = ", value),
+             is_text ? "voxels written as text are not read" : "unsupported",
+             "save as raw or gzip");
 }
 
 void parse_skips(const FieldMap& fields, NrrdHeader& header, std::string_view file) {
@@ -277,6 +280,7 @@ Vector3 three_numbers(const std::string& value, std::string_view field, std::str
 }
 
 void parse_steps(const FieldMap& fields, FileSpace& space, std::string_view file) {
+  space.is_sized = fields.contains("spacedirections") || fields.contains("spacings");
   if (const auto found = fields.find("spacedirections"); found != fields.end()) {
     std::string vectors = found->second;
     // Blanks keep the length, so that a header of many "none" is gone through only once.
@@ -329,6 +333,7 @@ void parse_axis_ends(const FieldMap& fields, Index3 shape, FileSpace& space,
   const auto mins = numbers_of_axes(fields, "axismins", "axis mins", file);
   const auto maxs = numbers_of_axes(fields, "axismaxs", "axis maxs", file);
   if (!mins || !maxs) return;
+  space.is_sized = true;
   const std::array<bool, 3> cells = are_cells(fields);
   const std::array<std::int64_t, 3> voxels{shape.x, shape.y, shape.z};
   for (std::size_t i = 0; i < 3; ++i) {
@@ -441,8 +446,8 @@ NrrdHeader parse_nrrd_header(std::string_view head, std::string_view file) {
   header.type = parse_type(required(fields, "type", file), file);
   header.shape = parse_sizes(fields, header, file);
   check_layers(header, file);
+  header.gzip = parse_encoding(fields, file);  // text has no byte order
   header.order = parse_endian(fields, header.type, file);
-  header.gzip = parse_encoding(fields, file);
   parse_skips(fields, header, file);
   parse_data_file(fields, header, file);
   header.space = parse_space(fields, header.shape, file);

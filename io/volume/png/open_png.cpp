@@ -197,7 +197,7 @@ std::unique_ptr<LabelVolume> open_png_slices(std::vector<std::filesystem::path> 
                   .type = header.type,
                   .format = "png",
                   .chunk = {header.width, header.height, 1}};
-  info.space = placed(files.front().string(), {}, options);
+  info.space = placed(files.front().string(), {.is_sized = false}, options);
   const VoxelCoding coding{info.type, ByteOrder::kBig, {}};
   return std::make_unique<ChunkedVolume>(std::move(info), coding, ChunkFill{},
                                          std::make_unique<PngChunks>(std::move(files), header),

@@ -167,6 +167,7 @@ std::unique_ptr<LabelVolume> open_precomputed(const Place& folder, const OpenOpt
                   .type = scale.type,
                   .format = "precomputed",
                   .chunk = scale.chunk,
+                  .offset = scale.offset,
                   .is_far = !folder.is_near()};
   const VoxelCoding coding{.type = scale.type, .order = ByteOrder::kLittle};
   auto chunks = std::make_unique<PrecomputedChunks>(folder_of(folder, scale, options.trust_paths),

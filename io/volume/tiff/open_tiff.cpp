@@ -31,12 +31,20 @@ std::string plain_unit(std::string_view unit) {
 
 /// Returns how many metres a unit has; 0 where it is not known.
 double metres(std::string_view unit) {
-  constexpr std::pair<std::string_view, double> kUnits[]{{"m", 1},     {"cm", 1e-2}, {"mm", 1e-3},
-                                                         {"um", 1e-6}, {"nm", 1e-9}, {"pm", 1e-12}};
+  constexpr std::pair<std::string_view, double> kUnits[]{
+      {"m", 1},     {"cm", 1e-2},  {"mm", 1e-3},    {"um", 1e-6},
+      {"nm", 1e-9}, {"pm", 1e-12}, {"inch", 0.0254}};
   for (const auto& [name, length] : kUnits) {
     if (unit == name) return length;
   }
   return 0;
+}
+
+/// Returns how many `wanted` a unit has; NaN, which is refused as a spacing, where it is not known.
+double factor_between(std::string_view unit, std::string_view wanted) {
+  if (unit == wanted) return 1;
+  const double length = metres(unit), of_wanted = metres(wanted);
+  return length > 0 && of_wanted > 0 ? length / of_wanted : std::nan("");
 }
 
 std::int64_t line_number(std::string_view description, std::string_view key,
@@ -55,7 +63,7 @@ std::string_view line_text(std::string_view description, std::string_view key) {
 }
 
 /// Reads "ImageJ=1.53t\nimages=12\nslices=12\nunit=micron\nspacing=2.5".
-TiffDescription parse_imagej(std::string_view description, std::array<double, 2> resolution,
+TiffDescription parse_imagej(std::string_view description, const TiffResolution& resolution,
                              const std::string& file) {
   for (const char* axis : {"channels", "frames"}) {
     const std::int64_t extent = line_number(description, axis, 1);
@@ -64,16 +72,30 @@ TiffDescription parse_imagej(std::string_view description, std::array<double, 2>
                "save one of them as a stack of slices");
   }
   TiffDescription out{.unit = plain_unit(line_text(description, "unit")), .is_imagej = true};
+  if (out.unit.empty() && resolution.per_centimetre) out.unit = "cm";
   if (const auto images = line_number(description, "images", 0); images > 0) out.slices = images;
   for (std::size_t i = 0; i < 2; ++i) {
-    if (resolution[i] > 0) out.spacing[i] = 1 / resolution[i];
+    if (resolution.pixels[i] > 0) out.spacing[i] = 1 / resolution.pixels[i];
   }
   const std::string_view spacing = line_text(description, "spacing");
   if (!spacing.empty()) {
     // A negative spacing means a stack from top to bottom.
     out.spacing[2] = std::abs(parse_real(spacing).value_or(std::nan("")));
   }
+  out.is_sized = !spacing.empty() || resolution.pixels[0] > 0;
+  // These two lines are there where y and z have another unit than x.
+  for (const auto& [i, key] : {std::pair{1U, "yunit"}, std::pair{2U, "zunit"}}) {
+    const std::string unit = plain_unit(line_text(description, key));
+    if (!unit.empty()) out.spacing[i] *= factor_between(unit, out.unit);
+  }
   return out;
+}
+
+std::string note_of_resolution(const TiffResolution& resolution) {
+  return text("its resolution of ", resolution.pixels[0], " x ", resolution.pixels[1],
+              " pixels a centimetre is not read, as z has none: where it is that of voxels, give "
+              "their edges with --spacing (",
+              10 / resolution.pixels[0], " mm in x)");
 }
 
 void refuse_other_axes(pugi::xml_node pixels, const std::string& file) {
@@ -107,11 +129,12 @@ void read_sizes(pugi::xml_node pixels, TiffDescription& out) {
     const std::string unit =
         plain_unit(pixels.attribute((size + "Unit").c_str()).as_string("\xc2\xb5m"));
     if (out.unit.empty()) out.unit = unit;
-    const double factor = unit == out.unit ? 1 : metres(unit) / metres(out.unit);
-    out.spacing[i] = parse_real(value.as_string()).value_or(std::nan("")) * factor;
+    out.spacing[i] =
+        parse_real(value.as_string()).value_or(std::nan("")) * factor_between(unit, out.unit);
   }
   const auto unknown = [](double x) { return std::isnan(x); };
-  if (std::all_of(out.spacing.begin(), out.spacing.end(), unknown)) out.spacing = {1, 1, 1};
+  out.is_sized = !std::all_of(out.spacing.begin(), out.spacing.end(), unknown);
+  if (!out.is_sized) out.spacing = {1, 1, 1};
   if (!unknown(out.spacing[0]) && unknown(out.spacing[1]) && unknown(out.spacing[2])) {
     out.spacing = {out.spacing[0], out.spacing[0], out.spacing[0]};
     out.note = "OME-XML has PhysicalSizeX alone: voxels are taken to be as wide in y and z";
@@ -144,10 +167,10 @@ TiffDescription parse_ome(std::string_view description, const std::string& file)
 }  // namespace
 
 TiffDescription parse_tiff_description(std::string_view description,
-                                       std::array<double, 2> resolution, const std::string& file) {
+                                       const TiffResolution& resolution, const std::string& file) {
   if (description.starts_with("ImageJ=")) return parse_imagej(description, resolution, file);
   if (description.find("<OME") != std::string_view::npos) return parse_ome(description, file);
-  return {};
+  return {.note = resolution.per_centimetre ? note_of_resolution(resolution) : ""};
 }
 
 namespace {
@@ -157,7 +180,9 @@ VolumeInfo info_of(const TiffStack& stack, const TiffDescription& said,
   const TiffPage& page = stack.first();
   VolumeInfo info{
       .shape = {page.width, page.height, stack.slices()}, .type = page.type, .format = "tiff"};
-  FileSpace space{.unit = said.unit, .steps_field = "voxel size in ImageDescription"};
+  FileSpace space{.unit = said.unit,
+                  .steps_field = "voxel size in ImageDescription",
+                  .is_sized = said.is_sized};
   space.steps = steps_of(said.spacing);
   info.space = placed(stack.name(), space, options);
   if (!options.spacing && !said.note.empty()) info.note = text(stack.name(), ": ", said.note);
@@ -241,7 +266,8 @@ std::unique_ptr<LabelVolume> open_tiff(std::unique_ptr<ByteSource> source,
 std::unique_ptr<LabelVolume> open_tiff_slices(std::vector<std::filesystem::path> files,
                                               const OpenOptions& options) {
   auto stack = std::make_unique<TiffStack>(std::move(files));
-  VolumeInfo info = info_of(*stack, {}, options);
+  const TiffDescription said = parse_tiff_description({}, stack->resolution(), stack->name());
+  VolumeInfo info = info_of(*stack, said, options);
   return chunked(std::move(stack), std::move(info), options);
 }
 

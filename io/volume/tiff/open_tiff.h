@@ -13,6 +13,7 @@
 
 #include "io/file/source/byte_source.h"
 #include "io/volume/open_options.h"
+#include "io/volume/tiff/tiff_stack.h"
 #include "io/volume/volume_space.h"
 
 namespace mw::io {
@@ -22,16 +23,17 @@ struct TiffDescription {
   Vector3 spacing{1, 1, 1};
   std::string unit;                    ///< "um", "nm" and so on; empty: unknown
   std::optional<std::int64_t> slices;  ///< how many there are
+  bool is_sized = false;               ///< it says how large voxels are
   bool is_imagej = false;
   std::string note;  ///< what is assumed where it leaves something open
 };
 
-/// resolution is XResolution and YResolution, in pixels a unit, by which ImageJ tells the spacing
-/// of x and y.  That of other files counts dots on paper, and is not used.
+/// ImageJ tells the spacing of x and y by the resolution.  That of other files often counts dots on
+/// paper, and is not used; a note says so where it is in centimetres.
 /// ERRORS: mw::Error(kInput) naming file and field for several channels, times or images, and for
 /// OME-XML whose slices are in other files or another order.
 [[nodiscard]] TiffDescription parse_tiff_description(std::string_view description,
-                                                     std::array<double, 2> resolution,
+                                                     const TiffResolution& resolution,
                                                      const std::string& file);
 
 [[nodiscard]] bool has_tiff_magic(std::span<const std::byte> head);

@@ -30,9 +30,16 @@ std::string description_of(const TiffHandle& handle) {
   return found ? description : "";
 }
 
-double resolution_of(const TiffHandle& handle, std::uint32_t tag) {
-  float value = 0;
-  return TIFFGetField(handle.get(), tag, &value) == 1 ? decimal_of(value) : 0;
+TiffResolution resolution_of(const TiffHandle& handle) {
+  const auto pixels = [&](std::uint32_t tag) {
+    float value = 0;
+    return TIFFGetField(handle.get(), tag, &value) == 1 ? decimal_of(value) : 0;
+  };
+  std::uint16_t unit = RESUNIT_NONE;
+  const bool has_unit = TIFFGetField(handle.get(), TIFFTAG_RESOLUTIONUNIT, &unit) == 1;
+  TiffResolution out{.pixels = {pixels(TIFFTAG_XRESOLUTION), pixels(TIFFTAG_YRESOLUTION)}};
+  out.per_centimetre = has_unit && unit == RESUNIT_CENTIMETER && out.pixels[0] > 0;
+  return out;
 }
 
 }  // namespace
@@ -75,8 +82,7 @@ void TiffStack::add_page(const TiffHandle& handle, const std::string& position) 
   if (positions_.empty()) {
     first_ = page;
     description_ = description_of(handle);
-    resolution_ = {resolution_of(handle, TIFFTAG_XRESOLUTION),
-                   resolution_of(handle, TIFFTAG_YRESOLUTION)};
+    resolution_ = resolution_of(handle);
   }
   if (!page.is_like(first_)) {
     fail_input(handle.file(), position, text(page.words(), ", the first slice is ", first_.words()),

@@ -77,6 +77,12 @@ struct TiffPage {
 /// samples, of a type or compression that is not read, or of a depth.
 [[nodiscard]] TiffPage read_tiff_page(const TiffHandle& handle, const std::string& where);
 
+/// XResolution and YResolution of a page.
+struct TiffResolution {
+  std::array<double, 2> pixels{};  ///< in a unit; 0 where the page does not say it
+  bool per_centimetre = false;     ///< ResolutionUnit
+};
+
 /// Thread safety: const members may be called from many threads.
 class TiffStack {
  public:
@@ -96,8 +102,7 @@ class TiffStack {
   [[nodiscard]] std::uint64_t largest_block() const { return largest_block_; }
   /// Returns the ImageDescription of the first slice; empty when it has none.
   [[nodiscard]] const std::string& description() const { return description_; }
-  /// Returns XResolution and YResolution of the first slice, in pixels a unit; 0 when it has none.
-  [[nodiscard]] std::array<double, 2> resolution() const { return resolution_; }
+  [[nodiscard]] const TiffResolution& resolution() const { return resolution_; }  ///< first slice
   /// Returns the file, or the folder of the files.
   [[nodiscard]] const std::string& name() const { return name_; }
   /// Returns "FILE: slice 3", or the file of the slice.
@@ -136,7 +141,7 @@ class TiffStack {
   TiffPage first_;
   std::uint64_t largest_block_ = 0;
   std::string description_;
-  std::array<double, 2> resolution_{};
+  TiffResolution resolution_;
   mutable std::mutex mutex_;
   mutable std::vector<Idle> idle_;  ///< the one used last at the end
 };

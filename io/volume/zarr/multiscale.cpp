@@ -259,6 +259,7 @@ FileSpace space_of(const Multiscale& multiscale, const MultiscaleLevel& level, c
     return out;
   };
   space.steps = steps_of(along(level.transform.scale, 1));
+  space.is_sized = !level.transform.scale.empty();
   if (multiscale.has_position) space.first = along(level.transform.translation, 0);
   space.unit = common_unit(multiscale, axes, file);
   return space;

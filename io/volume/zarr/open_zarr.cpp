@@ -62,7 +62,7 @@ std::vector<std::string> axis_names(const ZarrNode& node, const ZarrArray& array
 
 VolumeSpace space_of_array(const ZarrNode& node, const AxisMap& axes, const Level* level,
                            const OpenOptions& options) {
-  if (level == nullptr) return placed(node.metadata_file, FileSpace{}, options);
+  if (level == nullptr) return placed(node.metadata_file, {.is_sized = false}, options);
   Multiscale multiscale = level->multiscale;
   if (options.spacing) multiscale.axis_units.clear();  // they do not matter then
   const FileSpace space = space_of(multiscale, multiscale.levels[level->number], axes, level->file);
@@ -88,6 +88,9 @@ std::unique_ptr<LabelVolume> open_array(const ZarrNode& node, const Level* level
   info.is_far = !node.folder.is_near();
   info.chunk = axes.pick(array.chunk.shape, 1);
   info.space = space_of_array(node, axes, level, options);
+  info.offset = number_of_first_voxel([&] {
+    return OwnPlace{space_of_array(node, axes, level, {}), true};
+  });
   const VoxelCoding coding{.type = array.type, .order = array.chunk.byte_order};
   return std::make_unique<ChunkedVolume>(std::move(info), coding, array.fill,
                                          zarr_chunks(node.folder, array, axes),

@@ -111,6 +111,11 @@ TEST_F(ChooseLabelsTest, WeldedBlocksAreOnePart) {
   EXPECT_EQ(json::parse(read("v.json"))["volume"]["per_label"][0]["voxels"], 136);
   EXPECT_EQ(info(in + "--weld 0")["welds"]["voxels"], 8);
   expect_failure(2, "info" + in + "--weld 9", "the volume has no label 9");
+  EXPECT_EQ(run("mesh" + in + "-o m.vtu --force --weld 0" + alone).out.find("nothing:"),
+            std::string::npos);
+  EXPECT_NE(
+      run("mesh" + in + "-o m.vtu --force --weld 0,1,2" + alone).out.find("welded      nothing:"),
+      std::string::npos);
 }
 
 TEST_F(ChooseLabelsTest, VerifyTakesMeshesOfSomeLabels) {
@@ -119,6 +124,11 @@ TEST_F(ChooseLabelsTest, VerifyTakesMeshesOfSomeLabels) {
   expect_done("mesh v.npy -o rest.vtkhdf --background 4 --window 8");
   const std::string judged = " --max-volume-error none --quality-floor 0.2 --max-distance 1.5 ";
   expect_done("verify v.npy some.vtkhdf --labels 2,3,7" + judged);
+  expect_done("mesh v.npy -o range.vtkhdf --labels 2-3,7 --window 8");
+  EXPECT_EQ(run("digest range.vtkhdf").out, run("digest some.vtkhdf").out);
+  expect_failure(2, "mesh v.npy -o a.vtu --labels 3-2", "a range A-B from the smaller one on");
+  expect_failure(2, "mesh v.npy -o a.vtu --labels 0-99999999", "at most 2^20");
+  expect_failure(2, "mesh v.npy -o a.vtu --labels 2-99", "no label");
   expect_done("verify v.npy rest.vtkhdf --background 4" + judged);
   const std::string judging = "verify v.npy" + judged;
   // The file tells.

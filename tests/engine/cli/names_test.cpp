@@ -95,6 +95,39 @@ TEST_F(NamesTest, OnlyWrittenLabelsAreNamedInTheMesh) {
             std::string::npos);
 }
 
+int times_in(const ProgramRun& run, const std::string& part) {
+  const std::string text = run.out + run.err;
+  int count = 0;
+  for (std::size_t at = 0; (at = text.find(part, at)) != text.npos; ++at) ++count;
+  return count;
+}
+
+/// Tables that Excel and others write in Latin-1; that is said once, though names are looked up.
+TEST_F(NamesTest, InLatin1AreReadAndTold) {
+  write("latin.csv",
+        "id,name\n2,Gr\xF6\xDF"
+        "e\n");
+  const ProgramRun meshed = run("mesh v.npy -o l.vtu --names latin.csv --labels Größe");
+  EXPECT_EQ(meshed.code, 0) << meshed.err;
+  EXPECT_EQ(times_in(meshed, "read as Latin-1"), 1) << meshed.err;
+  EXPECT_EQ(names_in_mesh("l.vtu"), (std::map<int, std::string>{{2, "Größe"}}));
+  EXPECT_EQ(times_in(run("info l.vtu --names latin.csv"), "read as Latin-1"), 1);
+}
+
+/// A file without a spacing; that is said once, too.
+TEST_F(NamesTest, ASpacingThatIsTakenIsTold) {
+  write("two.csv", "id,name\n2,two\n");
+  const std::string line = "does not say how large voxels are";
+  EXPECT_EQ(times_in(run("mesh v.npy -o s.vtu --names two.csv --labels two"), line), 1);
+  EXPECT_EQ(times_in(run("mesh v.npy -o s.vtu --force --spacing 1"), line), 0);
+  const std::string whole = read("v.npy"), voxels = whole.substr(whole.size() - 8000);
+  const std::string head = "NRRD0004\ntype: uchar\nencoding: raw\ndimension: 3\nsizes: 20 20 20\n";
+  write("none.nrrd", head + "\n" + voxels);
+  EXPECT_EQ(times_in(run("mesh none.nrrd -o s.vtu --force"), line), 1);
+  write("one.nrrd", head + "spacings: 1 1 1\n\n" + voxels);
+  EXPECT_EQ(times_in(run("mesh one.nrrd -o s.vtu --force"), line), 0);
+}
+
 TEST_F(NamesTest, ComeFromConfigEnvironmentAndVolume) {
   write("run.toml", "names = \"names.csv\"\n");
   expect_done("mesh v.npy -o a.vtu --config run.toml");
@@ -167,7 +200,7 @@ TEST_F(NamesTest, StandForLabelsInOptions) {
     }
   }
   same("--size '\"a,b=c\"=4'", "--size 3=4");
-  expect_failure(2, mesh + "c.vtu --labels 1-3", "expected a label of at most 64 bits, got '1-3'");
+  expect_failure(2, mesh + "c.vtu --labels 1x3", "expected a label of at most 64 bits, got '1x3'");
   expect_failure(2, "mesh v.npy -o c.vtu --labels liver", "give labels names (--names)");
 }
 

@@ -10,7 +10,7 @@ import itertools
 import sys
 import unittest
 
-from program import enter_folder, run
+from program import enter_folder, run, start
 
 try:
     import nibabel
@@ -108,6 +108,37 @@ class Places(unittest.TestCase):
             image.set_qform(affine(rotation), code=1)
             image.set_sform(None, code=0)
             self.check(image)
+
+    def test_two_forms(self):
+        scanner, shear = affine(turn(2, 23)), numpy.eye(4)
+        shear[0, 1] = 0.06
+        moved = scanner + [[0, 0, 0, 12], [0] * 4, [0] * 4, [0] * 4]
+        for name, sform in (("moved", moved), ("sheared", shear @ scanner)):
+            image = nibabel.Nifti1Image(self.labels, None)
+            image.header.set_qform(scanner, 1)
+            image.header.set_sform(sform, 4)
+            nibabel.save(nibabel.Nifti1Image(self.labels, None, image.header), f"{name}.nii")
+            run("mesh", f"{name}.nii", "-o", f"{name}.mesh", "--use-form", "qform")
+        image = nibabel.Nifti1Image(self.labels, None)
+        image.header.set_qform(scanner, 1)
+        nibabel.save(nibabel.Nifti1Image(self.labels, None, image.header), "scanner.nii")
+        run("mesh", "scanner.nii", "-o", "scanner.mesh")
+        for name in ("moved", "sheared"):
+            self.assertEqual(run("digest", f"{name}.mesh"), run("digest", "scanner.mesh"))
+        told = start("mesh", "moved.nii", "-o", "sform.mesh")
+        self.assertEqual(told.returncode, 0)
+        self.assertIn("sform and qform differ by up to 12 voxels", told.stderr)
+        self.assertNotEqual(run("digest", "sform.mesh"), run("digest", "scanner.mesh"))
+        told = start("mesh", "sheared.nii", "-o", "a.mesh")
+        self.assertEqual(told.returncode, 3)
+        self.assertIn("--use-form qform", told.stderr)
+        # An image beside the labels lies by the same form.
+        run("mesh", "sheared.nii", "-o", "s.vtu", "--use-form", "qform", "--sample",
+            "own=sheared.nii:mode")
+        run("mesh", "sheared.nii", "-o", "s.vtu", "--force", "--use-form", "qform", "--sample",
+            "own=scanner.nii:mode")
+        told = start("mesh", "scanner.nii", "-o", "t.vtu", "--sample", "own=sheared.nii:mode")
+        self.assertEqual(told.returncode, 3)
 
     def test_another_place_is_told(self):
         nibabel.save(nibabel.Nifti1Image(self.labels, affine(turn(2, 23))), "a.nii")

@@ -1061,6 +1061,7 @@ class Errors(InFolder):
                          mwmesh.mesh(labels, labels=[1, 2], count=500).digest)
         np.save(self.path("v.npy"), labels)
         values = {"spacing": (-1, nan, (1, 1)), "origin": (inf,), "scale": (-1, 2**40, 0.5, 0),
+                  "use_form": ("pixdim", 1, "qform"),
                   "dataset": (3, "a"), "frame": ("mni",),
                   "crop": (((0, 0), (1, 1)), ((0, 0, 0), (1, 1, 1.5)), ((-1, 0, 0), (4, 4, 4)), 3,
                            ((0, 0, 0), (2**70, 4, 4)))}

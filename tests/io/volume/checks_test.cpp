@@ -265,6 +265,61 @@ TEST(NiftiSpace, AnSformWithoutVolumeGivesWayToTheQform) {
   EXPECT_EQ(volume->info().space.frame, WorldFrame::kOwn) << "nothing says where right is";
 }
 
+TEST(NiftiSpace, FormsThatDifferAreTold) {
+  const TempDir dir;
+  for (const int version : {1, 2}) {
+    NiftiSample sample{.version = version, .qform_code = 1, .sform_code = 2, .magic = {}};
+    sample.pixdim = {1, 0.5, 2, 3};
+    sample.qoffset = sample.translation;
+    const auto open = [&](const OpenOptions& options = {}) {
+      return open_volume(dir.file("a.nii", sample.header() + std::string(60, 'a')), options);
+    };
+    const auto first_x = [&](const OpenOptions& options) {
+      return to_world(open(options)->info().space, {0.5, 0.5, 0.5})[0];
+    };
+    EXPECT_EQ(open()->info().note, "");
+    sample.qoffset[0] += 0.02;  // below a tenth of a voxel
+    EXPECT_EQ(open()->info().note, "");
+    sample.qoffset[0] = -2;
+    const std::string note = open()->info().note;
+    EXPECT_NE(note.find("10,20,30 by the sform"), std::string::npos) << note;
+    EXPECT_NE(note.find("-2,20,30 by the qform"), std::string::npos) << note;
+    EXPECT_NE(note.find("24 voxels"), std::string::npos) << note;
+    for (const OpenOptions& options :
+         {OpenOptions{.frame = FrameChoice::kVoxel}, OpenOptions{.form = FormChoice::kSform},
+          OpenOptions{.form = FormChoice::kQform}}) {
+      EXPECT_EQ(open(options)->info().note, "");
+    }
+    EXPECT_NEAR(first_x({}), 10, 1e-5);
+    EXPECT_NEAR(first_x({.form = FormChoice::kSform}), 10, 1e-5);
+    EXPECT_NEAR(first_x({.form = FormChoice::kQform}), -2, 1e-5);
+    // A turn about the first voxel moves the last ones alone.
+    sample.qoffset = sample.translation;
+    sample.quaternion = {0, 0, 0.05};
+    EXPECT_NE(open()->info().note.find("differ"), std::string::npos);
+    sample.quaternion = {2, 0, 0};  // no rotation
+    EXPECT_EQ(open()->info().note, "");
+  }
+}
+
+TEST(NiftiSpace, TheFormMayBeChosen) {
+  const TempDir dir;
+  NiftiSample sample{.qform_code = 1, .sform_code = 4, .magic = {}};
+  sample.pixdim = {1, 0.5, 2, 3};
+  sample.matrix = {{{0.5, 0.2, 0}, {0, 2, 0}, {0, 0, 3}}};  // sheared
+  const auto write = [&] { return dir.file("a.nii", sample.header() + std::string(60, 'a')); };
+  expect_not_opened(write(), {"sform", "right angles", "qform", "--use-form qform"});
+  EXPECT_EQ(open_volume(write(), {.form = FormChoice::kQform})->info().space.frame,
+            WorldFrame::kRas);
+  sample.qform_code = 0;
+  expect_not_opened(write(), {"sform", "right angles", "resample"});
+  expect_misused(write(), {.form = FormChoice::kQform}, {"--use-form qform", "no qform"});
+  sample.qform_code = 1, sample.sform_code = 0;
+  expect_misused(write(), {.form = FormChoice::kSform}, {"--use-form sform", "no sform"});
+  expect_misused(dir.file("a.mha", "ObjectType = Image\n"), {.form = FormChoice::kSform},
+                 {"--use-form", "MetaImage", "NIfTI"});
+}
+
 TEST(NiftiSpace, AQuaternionLongerThanOneIsNoRotation) {
   const TempDir dir;
   NiftiSample sample{.qform_code = 1, .magic = {}};

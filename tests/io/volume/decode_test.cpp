@@ -234,6 +234,34 @@ TEST(CroppedVolume, LiesWhereItLayInTheWhole) {
   EXPECT_EQ(placed->info().space.origin, (Vector3{1, 2, 3}));
 }
 
+/// A box counts as the data set does, which gives its first voxel a number.
+TEST(CroppedVolume, CountsFromTheOffset) {
+  const std::vector<RawLabel> labels = sample_labels(kWhole, VoxelType::kU16);
+  const MemoryVolume whole(kWhole, VoxelType::kU16, labels);
+  std::mt19937 random(9);
+  const Index3 offset{26, -30, 14};
+  for (int i = 0; i < 50 && !testing::Test::HasFailure(); ++i) {
+    auto volume = std::make_unique<MemoryVolume>(kWhole, VoxelType::kU16, labels);
+    volume->info().offset = offset;
+    const Box3 box = random_box(random, kWhole);
+    OpenOptions options;
+    options.crop = Box3{box.lo + offset, box.hi + offset};
+    const auto part = cropped(std::move(volume), "v", options);
+    std::vector<RawLabel> wanted(static_cast<std::size_t>(box.voxels()));
+    whole.read(box, wanted);
+    EXPECT_EQ(read_all(*part), wanted);
+    EXPECT_EQ(part->info().first, box.lo);
+    EXPECT_EQ(first_number(part->info()), options.crop->lo);
+  }
+  auto volume = std::make_unique<MemoryVolume>(kWhole, VoxelType::kU16, labels);
+  volume->info().offset = offset;
+  OpenOptions options;
+  options.crop = Box3{{0, 0, 0}, {2, 2, 2}};
+  expect_error(ErrorKind::kUsage,
+               {"--crop 0,0,0,2,2,2", "26,-30,14,33,-25,20", "0,0,0,7,5,6 in its array"},
+               [&] { (void)cropped(std::move(volume), "v", options); });
+}
+
 TEST(CroppedVolume, RefusesWhatIsNoBoxOfTheVolume) {
   const TempDir dir;
   const auto path = dir.file("v.npy", npy());

@@ -350,7 +350,11 @@ TEST(VolumeErrors, Nrrd) {
   refuse("encoding: raw\n" + sizes, {"type", "missing"});
   refuse("type: block\nencoding: raw\n" + sizes, {"block", "integers"});
   refuse("type: short\nencoding: raw\n" + sizes, {"endian", "missing"});
-  refuse("type: uchar\nencoding: ascii\n" + sizes, {"encoding", "ascii"});
+  for (const std::string encoding : {"ascii", "text", "hex"}) {  // also where endian is missing
+    refuse("type: short\nencoding: " + encoding + "\n" + sizes,
+           {"encoding", encoding, "written as text are not read", "raw or gzip"});
+  }
+  refuse("type: uchar\nencoding: bzip2\n" + sizes, {"encoding", "bzip2", "raw or gzip"});
   refuse("type: uchar\nencoding: gzip\n" + sizes, {"gzip"});
   refuse("type: uchar\nencoding: raw\ndimension: 2\nsizes: 4 2\n", {"2 axes"});
   refuse("type: uchar\nencoding: raw\ndimension: 3\nsizes: 2 2 x\n", {"sizes", "2 2 x"});

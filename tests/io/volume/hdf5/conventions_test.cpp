@@ -110,6 +110,30 @@ TEST_F(Hdf5Conventions, IlastikAxes) {
   }
 }
 
+TEST_F(Hdf5Conventions, IlastikResolution) {
+  const auto space_of = [&](double z, double y, double x, bool has_size) {
+    {
+      const Hdf5Handle file = create();
+      add(file, "/exported_data", {.shape = {3, 4, 5, 1}});
+      const auto axis = [](char key, double resolution) {
+        return std::string(R"({"key": ")") + key + R"(", "resolution": )" +
+               std::to_string(resolution) + "}";
+      };
+      write_text_attribute(file, "/exported_data", "axistags",
+                           R"({"axes": [)" + axis('z', z) + ", " + axis('y', y) + ", " +
+                               axis('x', x) + R"(, {"key": "c"}]})",
+                           false);
+      if (has_size) write_attribute(file, "/exported_data", "element_size_um", {4, 2, 1});
+    }
+    return open_volume(path_)->info().space;
+  };
+  EXPECT_EQ(space_of(0.5, 0.25, 0.125, false).spacing, (Vector{0.125, 0.25, 0.5}));
+  EXPECT_TRUE(space_of(0.5, 0.25, 0.125, false).is_sized);
+  EXPECT_EQ(space_of(0.5, 0.25, 0.125, true).spacing, (Vector{1, 2, 4}));  // which has a unit
+  EXPECT_EQ(space_of(0, 0.25, 0.125, false).spacing, (Vector{1, 1, 1}));
+  EXPECT_FALSE(space_of(0, 0.25, 0.125, false).is_sized);
+}
+
 TEST_F(Hdf5Conventions, SpacingThatIsTheSameInEveryOrder) {
   const auto spacing_of = [&](const std::vector<double>& told) {
     {

@@ -86,11 +86,15 @@ TEST(N5, SlicesAndOldAttributes) {
   EXPECT_EQ(read_all(*volume), (std::vector<RawLabel>{'a', 'b', 'c', 'd', 'e', 'f'}));
 }
 
-VolumeSpace space_with(const std::string& extra, const OpenOptions& options = {}) {
+VolumeInfo info_with(const std::string& extra, const OpenOptions& options = {}) {
   const TempDir dir;
   const N5Sample sample{.extra = extra};
   write_file(dir.path() / "attributes.json", sample.attributes());
-  return open_volume(dir.path(), options)->info().space;
+  return open_volume(dir.path(), options)->info();
+}
+
+VolumeSpace space_with(const std::string& extra, const OpenOptions& options = {}) {
+  return info_with(extra, options).space;
 }
 
 TEST(N5Space, ByAttributes) {
@@ -129,6 +133,22 @@ TEST(N5Space, OptionsReplaceWhatIsNotLookedAt) {
     EXPECT_EQ(space.spacing, *options.spacing);
     EXPECT_EQ(space.origin, *options.origin);
   }
+}
+
+/// An offset of whole voxels is a number of the first voxel, whatever the options replace.
+TEST(N5Space, OffsetsOfWholeVoxelsCount) {
+  const OpenOptions given{.spacing = Vector3{1, 2, 3}, .origin = Vector3{7, 8, 9}};
+  const auto offset_with = [&](const std::string& extra) { return info_with(extra, given).offset; };
+  EXPECT_EQ(offset_with(""), (Index3{0, 0, 0}));
+  EXPECT_EQ(offset_with(R"(, "resolution": [4, 5, 40], "offset": [8, 0, -120])"),
+            (Index3{2, 0, -3}));
+  EXPECT_EQ(offset_with(R"(, "resolution": [4, 5, 40], "offset": [8, 0, -100])"),
+            (Index3{0, 0, 0}));
+  const std::string cosem = R"(, "transform": {"axes": ["z", "y", "x"], "scale": [40, 5, 4], )";
+  EXPECT_EQ(offset_with(cosem + R"("translate": [80, 100, -4]})"), (Index3{-1, 20, 2}));
+  EXPECT_EQ(offset_with(cosem + R"("translate": [80, 102.5, -4]})"), (Index3{0, 0, 0}));
+  EXPECT_EQ(offset_with(R"(, "resolution": "?", "offset": [])"), (Index3{0, 0, 0}));
+  EXPECT_EQ(info_with(R"(, "offset": [8, 0, -3])").offset, (Index3{8, 0, -3}));
 }
 
 TEST(N5Space, DamageIsNamed) {

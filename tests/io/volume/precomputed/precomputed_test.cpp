@@ -55,6 +55,7 @@ TEST(Precomputed, RandomStoresGiveBackEveryRegion) {
     const auto volume = open_volume(dir.path(), options);
     EXPECT_EQ(volume->info().type, sample.type);
     EXPECT_EQ(volume->info().format, "precomputed");
+    EXPECT_EQ(volume->info().offset, sample.offset);
     expect_regions(random, *volume, sample.shape, labels);
     if (HasFatalFailure()) return;
   }

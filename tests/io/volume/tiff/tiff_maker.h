@@ -21,6 +21,7 @@ struct TiffSample {
   TiffPacking packing = TiffPacking::kNone;
   std::string description{};
   std::array<std::uint32_t, 4> resolution{};  ///< x and y as fractions; 0: none
+  int resolution_unit = 0;                    ///< 3: centimetres; 0: the file does not say it
   int samples = 1;
   int photometric = 1;
   std::int64_t thumbnail_at = -1;  ///< a smaller copy in front of that page
@@ -88,6 +89,7 @@ class TiffWriter {
       add(282, kRational, {r[0], r[1]});
       add(283, kRational, {r[2], r[3]});
     }
+    if (sample_.resolution_unit > 0) add(296, kShort, {u(sample_.resolution_unit)});
     if (tiled) {
       add(322, kLong, {u(width)});
       add(323, kLong, {u(height)});

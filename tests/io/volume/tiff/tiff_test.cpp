@@ -115,12 +115,65 @@ TEST(Tiff, ImageJSpacingAndUnit) {
   const auto space = open_volume(dir.file("a.tif", sample.file(labels)))->info().space;
   EXPECT_EQ(space.spacing, (Vector3{0.25, static_cast<double>(1 / 2.5), 2.5}));
   EXPECT_EQ(space.unit, "um");
+  EXPECT_TRUE(space.is_sized);
   // Dots per inch of other files are no size of a voxel.
   sample.description = "a scan";
-  EXPECT_EQ(open_volume(dir.file("b.tif", sample.file(labels)))->info().space.spacing,
-            (Vector3{1, 1, 1}));
+  const auto scan = open_volume(dir.file("b.tif", sample.file(labels)));
+  EXPECT_EQ(scan->info().space.spacing, (Vector3{1, 1, 1}));
+  EXPECT_FALSE(scan->info().space.is_sized);
+  EXPECT_EQ(scan->info().note, "");
   sample.description = "ImageJ=1.53t\nimages=6\nchannels=2\nslices=3\n";
   expect_not_opened(dir.file("c.tif", sample.file(labels)), {"ImageJ channels", "2"});
+}
+
+TEST(Tiff, ImageJUnitsOfYAndZ) {
+  const TempDir dir;
+  TiffSample sample{.resolution = {125, 1, 125, 1}};  // 0.008 of the unit
+  const auto labels = sample_labels(sample.shape, sample.type);
+  const auto path_of = [&](const std::string& lines) {
+    sample.description = "ImageJ=1.53t\nimages=3\nslices=3\n" + lines;
+    return dir.file("a.tif", sample.file(labels));
+  };
+  const auto expect = [&](const std::string& lines, const Vector3& spacing,
+                          const std::string& unit) {
+    SCOPED_TRACE(lines);
+    const auto volume = open_volume(path_of(lines));
+    for (std::size_t i = 0; i < 3; ++i) {
+      EXPECT_DOUBLE_EQ(volume->info().space.spacing[i], spacing[i]) << i;
+    }
+    EXPECT_EQ(volume->info().space.unit, unit);
+  };
+  expect("unit=micron\nspacing=40\nzunit=nm\n", {0.008, 0.008, 0.04}, "um");
+  expect("unit=nm\nspacing=0.04\nzunit=micron\n", {0.008, 0.008, 40}, "nm");
+  expect("unit=mm\nspacing=2\nyunit=mm\nzunit=cm\n", {0.008, 0.008, 20}, "mm");
+  expect("unit=mm\nspacing=2\nyunit=cm\n", {0.008, 0.08, 2}, "mm");
+  expect("unit=\\u00B5m\nspacing=2\nyunit=\xc2\xb5m\nzunit=inch\n", {0.008, 0.008, 50800}, "um");
+  // What cannot be turned is refused, unless the caller gives all three in one unit.
+  expect_not_opened(path_of("unit=pixel\nspacing=2\nzunit=nm\n"), {"(z)", "--spacing"});
+  const auto path = path_of("unit=mm\nspacing=2\nyunit=furlong\n");
+  expect_not_opened(path, {"(y)", "--spacing"});
+  EXPECT_EQ(open_volume(path, {.spacing = Vector3{3, 2, 1}})->info().space.spacing,
+            (Vector3{3, 2, 1}));
+}
+
+TEST(Tiff, ResolutionInCentimetres) {
+  const TempDir dir;
+  TiffSample sample{.resolution = {2000, 1, 2500, 1}, .resolution_unit = 3};
+  const auto labels = sample_labels(sample.shape, sample.type);
+  const auto path = dir.file("a.tif", sample.file(labels));
+  const auto volume = open_volume(path);
+  EXPECT_EQ(volume->info().space.spacing, (Vector3{1, 1, 1}));
+  EXPECT_FALSE(volume->info().space.is_sized);
+  EXPECT_NE(volume->info().note.find("2000 x 2500 pixels a centimetre"), std::string::npos)
+      << volume->info().note;
+  EXPECT_NE(volume->info().note.find("0.005 mm in x"), std::string::npos) << volume->info().note;
+  EXPECT_EQ(open_volume(path, {.spacing = Vector3{1, 1, 1}})->info().note, "");
+  // ImageJ means it, and says the step in z.
+  sample.description = "ImageJ=1.53t\nimages=3\nslices=3\nspacing=0.001\n";
+  const auto stack = open_volume(dir.file("b.tif", sample.file(labels)));
+  EXPECT_EQ(stack->info().space.spacing, (Vector3{0.0005, 0.0004, 0.001}));
+  EXPECT_EQ(stack->info().space.unit, "cm");
+  EXPECT_EQ(stack->info().note, "");
 }
 
 /// ImageJ's way above 4 GiB: one directory, all slices behind each other.

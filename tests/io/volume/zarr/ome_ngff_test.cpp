@@ -97,14 +97,18 @@ TEST(OmeNgff, TranslationsPlaceCentres) {
   const auto fine = open_volume(dir.path())->info().space;
   EXPECT_EQ(fine.spacing, (Vector3{60, 4, 2}));
   EXPECT_EQ(fine.origin, (Vector3{300 - 30, 200 - 2, 100 - 1}));
+  EXPECT_EQ(open_volume(dir.path())->info().offset, (Index3{5, 50, 50}));
   const auto coarse = open_volume(dir.path(), {.scale = 1})->info().space;
   EXPECT_EQ(coarse.spacing, (Vector3{120, 8, 4}));
   EXPECT_EQ(coarse.origin, (Vector3{300 + 30 - 60, 200 + 2 - 4, 100 + 1 - 2}));
   EXPECT_EQ(coarse.origin, fine.origin);
+  // This centre is 25.25 voxels from 0, which is no number of a voxel.
+  EXPECT_EQ(open_volume(dir.path(), {.scale = 1})->info().offset, (Index3{0, 0, 0}));
   const OpenOptions options{.spacing = Vector3{1, 2, 3}, .origin = Vector3{7, 8, 9}};
   const auto given = open_volume(dir.path(), options)->info().space;
   EXPECT_EQ(given.spacing, (Vector3{1, 2, 3}));
   EXPECT_EQ(given.origin, (Vector3{7, 8, 9}));
+  EXPECT_EQ(open_volume(dir.path(), options)->info().offset, (Index3{5, 50, 50}));
 }
 
 TEST(OmeNgff, AxesByNameAndByType) {
