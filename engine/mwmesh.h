@@ -327,7 +327,7 @@ struct Mesh {
   std::string report{};
   std::string record{};  ///< one line of JSON about the run that made it, which files keep
   /// Whether each eight tets in turn are the straight parts of a curved tet, as from read_mesh().
-  /// A mesh of such parts cannot be written as "tet10-curved".
+  /// Written as "tet10-curved" such a mesh has these curved tets again.
   bool in_parts = false;
 };
 

@@ -19,11 +19,6 @@ Mesh read_mesh(const std::filesystem::path& path) {
 
 void write_mesh(const Mesh& mesh, const std::filesystem::path& path, const FileOptions& file) {
   mw::api::guarded([&] {
-    if (mesh.in_parts && mw::io::parse_element(file.element) == mw::io::Element::kCurvedTet10) {
-      throw mw::Error(mw::ErrorKind::kUsage,
-                      "element: the tets of this mesh are parts of curved ones, which are not "
-                      "curved again; write them as tet4 or tet10");
-    }
     const bool has_values = file.values && !mesh.values.empty();
     // Materials are made of values, also in a file that has no place for these.
     const bool needs_values = file.values || !file.materials.empty();

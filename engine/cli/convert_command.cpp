@@ -19,25 +19,10 @@ namespace {
 struct ConvertJob {
   std::filesystem::path from;
   std::filesystem::path to;
-  io::Element element = io::Element::kTet4;
-  std::uint64_t pieces = 0;  ///< 0: not asked for
-  bool force = false;        ///< whether it may replace files of others
+  std::optional<io::Element> element;  ///< empty: that of the file
+  std::uint64_t pieces = 0;            ///< 0: not asked for
+  bool force = false;                  ///< whether it may replace files of others
   io::MeshExtras extras;
-};
-
-/// Remembers what a mesh has that not every file can have.
-class SourceFacts : public io::NoSink {
- public:
-  void begin(const io::MeshHeader& header) override {
-    values_ = header.values;
-    is_curved_ = header.in_parts;
-  }
-  [[nodiscard]] const std::vector<std::string>& values() const { return values_; }
-  [[nodiscard]] bool is_curved() const { return is_curved_; }
-
- private:
-  std::vector<std::string> values_;
-  bool is_curved_ = false;
 };
 
 void check_files(const ConvertJob& job) {
@@ -49,14 +34,14 @@ void check_files(const ConvertJob& job) {
   if (!job.force) files.require_own();
 }
 
-std::unique_ptr<io::MeshSink> open_output(const ConvertJob& job) {
+std::unique_ptr<io::MeshSink> open_output(const ConvertJob& job, io::Element element) {
   const bool in_pieces = job.to.extension() == io::kPiecesExtension;
-  if (!in_pieces && job.pieces == 0) return io::open_mesh_sink(job.to, job.element, job.extras);
+  if (!in_pieces && job.pieces == 0) return io::open_mesh_sink(job.to, element, job.extras);
   if (in_pieces && job.pieces == 0) {
     io::fail_usage(job.to.string() + ": a mesh in pieces; say how many with --pieces N");
   }
   if (job.extras.encoding == io::Encoding::kText || job.extras.materials || job.extras.deck ||
-      job.element != io::Element::kTet4 || !job.extras.pairs.empty()) {
+      element != io::Element::kTet4 || !job.extras.pairs.empty()) {
     io::fail_usage(job.to.string() +
                    ": pieces are written with tet4 only, in one way, without "
                    "--materials, --deck and --pairs");
@@ -64,23 +49,71 @@ std::unique_ptr<io::MeshSink> open_output(const ConvertJob& job) {
   return io::open_mesh_pieces(job.to, job.pieces);
 }
 
-/// Says what the new file does not have, or not as the mesh had it.
-void tell_left_out(const ConvertJob& job, const SourceFacts& source) {
-  if (source.is_curved()) {
-    std::cout << "each curved tet is written as eight of its parts" << std::endl;
-  }
-  const std::string why = io::why_no_values(job.to);
-  if (source.values().empty() || why.empty() || job.extras.materials) return;
-  std::cout << "left out: values " << joined(source.values(), ", ") << "; " << why << std::endl;
+io::Element element_of(const io::MeshHeader& file) {
+  if (file.in_parts) return io::Element::kCurvedTet10;
+  return file.ten_nodes ? io::Element::kTet10 : io::Element::kTet4;
 }
+
+/// Opens the output when it is known which nodes the file's tets have; tells what it has not.
+class ConvertSink : public io::MeshSink {
+ public:
+  explicit ConvertSink(const ConvertJob& job)
+      : job_(job), below_(open_output(job, job.element.value_or(io::Element::kTet4))) {}
+
+  void begin(const io::MeshHeader& header) override {
+    values_ = header.values;
+    of_file_ = element_of(header);
+    const bool has_wedges = header.record.cohesive.any();
+    if (!job_.element && io::has_middles(of_file_)) {
+      no_middles_ = io::why_no_middles(job_.to, has_wedges);
+    }
+    written_ = job_.element.value_or(no_middles_.empty() ? of_file_ : io::Element::kTet4);
+    if (!job_.element && io::has_middles(written_)) {
+      below_.reset();
+      below_ = open_output(job_, written_);
+    }
+    below_->begin(header);
+  }
+  void write_vertices(std::span<const io::Position> positions) override {
+    below_->write_vertices(positions);
+  }
+  void write_tets(std::span<const io::TetRows> tets, std::span<const RawLabel> labels) override {
+    below_->write_tets(tets, labels);
+  }
+  void write_values(std::span<const double> rows) override { below_->write_values(rows); }
+  void finish() override { below_->finish(); }
+
+  /// Says what the new file does not have, or not as the mesh had it.
+  void tell() const {
+    if (!no_middles_.empty()) {
+      std::cout << "left out: middles of edges; " << no_middles_ << std::endl;
+    } else if (!job_.element && written_ == io::Element::kTet10) {
+      std::cout << "tets keep ten nodes, those of edges in their middles; --element tet4 leaves "
+                   "these out"
+                << std::endl;
+    }
+    if (of_file_ == io::Element::kCurvedTet10 && written_ != of_file_) {
+      std::cout << "each curved tet is written as eight of its parts" << std::endl;
+    }
+    const std::string why = io::why_no_values(job_.to);
+    if (values_.empty() || why.empty() || job_.extras.materials) return;
+    std::cout << "left out: values " << joined(values_, ", ") << "; " << why << std::endl;
+  }
+
+ private:
+  const ConvertJob& job_;
+  std::unique_ptr<io::MeshSink> below_;
+  io::Element of_file_ = io::Element::kTet4;
+  io::Element written_ = io::Element::kTet4;
+  std::vector<std::string> values_;
+  std::string no_middles_;  ///< why the file's middles are not written; empty if they are
+};
 
 int run_convert(const ConvertJob& job) {
   check_files(job);
-  const std::unique_ptr<io::MeshSink> sink = open_output(job);
-  SourceFacts source;
-  io::TeeSink both(*sink, source);
-  io::copy_mesh(job.from, both);
-  tell_left_out(job, source);
+  ConvertSink sink(job);
+  io::copy_mesh(job.from, sink);
+  sink.tell();
   return kExitDone;
 }
 
@@ -101,9 +134,8 @@ void add_output_options(OptionSet& options, ConvertJob& job) {
                .assign = into(job.to)});
   options.add({.name = "element",
                .value = "NAME",
-               .help = "tet4; tet10: also nodes on edges; tet10-curved: on curves",
+               .help = "tet4; tet10: also nodes on edges; tet10-curved: on curves [MESH's]",
                .group = kOutputGroup,
-               .fallback = "tet4",
                .choices = {"tet4", "tet10", "tet10-curved"},
                .assign = into(job.element, parse_element)});
   options.add({.name = "ascii",

@@ -24,6 +24,7 @@ struct Head {
   std::uint64_t count = 0;  ///< rows of the batch; with kBegin, tets of the mesh
   std::uint64_t labels_signed = 0;
   std::uint64_t in_parts = 0;
+  std::uint64_t ten_nodes = 0;
   std::uint64_t names = 0;         ///< with kBegin: how many follow
   std::uint64_t record_bytes = 0;  ///< with kBegin: of the record's text, ahead of the names
   std::uint64_t value_bytes = 0;   ///< with kBegin: of names of values, each with ';' behind it
@@ -54,7 +55,8 @@ class SendingSink : public MeshSink {
     for (const std::string& name : header.values) values += name + ";";
     columns_ = header.values.size();
     send_(bytes_of(Head{Message::kBegin, header.tets, header.labels_signed ? 1U : 0U,
-                        header.in_parts ? 1U : 0U, names.size(), record.size(), values.size()}));
+                        header.in_parts ? 1U : 0U, header.ten_nodes ? 1U : 0U, names.size(),
+                        record.size(), values.size()}));
     send_(std::as_bytes(std::span(record)));
     send_(std::as_bytes(std::span(values)));
     for (const LabelName& row : names) {
@@ -114,7 +116,8 @@ class Receiver {
                  .names = LabelNames(std::move(rows)),
                  .record = parse_record(record, "the mesh's record"),
                  .values = std::move(values),
-                 .in_parts = head.in_parts != 0});
+                 .in_parts = head.in_parts != 0,
+                 .ten_nodes = head.ten_nodes != 0});
     while (next(head)) {
       if (head.message == Message::kFinish) return true;
       if (head.count > kMaxApartRows) return false;

@@ -25,7 +25,8 @@ struct MeshData {
   LabelNames names;
   MeshRecord record;
   std::vector<TetValues> values;
-  bool in_parts = false;  ///< see MeshHeader
+  bool in_parts = false;   ///< see MeshHeader
+  bool ten_nodes = false;  ///< see MeshHeader
 };
 
 /// Writes the tets of a mesh, in batches with their values where they have some.
@@ -51,7 +52,8 @@ inline void write_mesh(const MeshData& mesh, MeshSink& sink) {
                     .labels_signed = mesh.labels_signed,
                     .names = mesh.names,
                     .record = mesh.record,
-                    .in_parts = mesh.in_parts};
+                    .in_parts = mesh.in_parts,
+                    .ten_nodes = mesh.ten_nodes};
   for (const TetValues& column : mesh.values) header.values.push_back(column.name);
   sink.begin(header);
   sink.write_vertices(mesh.vertices);
@@ -67,6 +69,7 @@ class MeshDataSink : public MeshSink {
     mesh_.names = header.names;
     mesh_.record = header.record;
     mesh_.in_parts = header.in_parts;
+    mesh_.ten_nodes = header.ten_nodes;
     for (const std::string& name : header.values) mesh_.values.push_back({name, {}});
     mesh_.tets.reserve(header.tets);
     mesh_.labels.reserve(header.tets);

@@ -44,6 +44,8 @@ struct MeshHeader {
   /// Set by readers alone: the file's tets are curved, and come as kTetParts
   /// (kernels/core/tet_nodes.h), the eight of each tet one after the other.
   bool in_parts = false;
+  /// Set by readers alone: tets of the file have nodes on straight edges, which are not passed on.
+  bool ten_nodes = false;
   /// Set by runs of volumes that tell more than labels; may be called until finish() returns.
   InterfacePlace interface_place{};
 };

@@ -46,7 +46,8 @@ struct MeshFormat {
                                          const MeshExtras&) = nullptr;
   /// Opens a sink for a mesh that is known to have wedges; null where the other sinks take them.
   std::unique_ptr<MeshSink> (*open_wedges)(const std::filesystem::path&, Element) = nullptr;
-  bool has_text = false;  ///< numbers are written in two ways
+  bool corners_alone = false;  ///< tets have four nodes
+  bool has_text = false;       ///< numbers are written in two ways
   bool takes_materials = false;
   bool takes_deck = false;
 
@@ -76,7 +77,7 @@ struct MeshFormat {
 template <class Sink>
 std::unique_ptr<MeshSink> open_corners(const std::filesystem::path& path, Element element) {
   if (element == Element::kTet4) return std::make_unique<Sink>(path);
-  fail_usage(path.string(), ": ", path.extension().string(), " is written with tet4 only");
+  fail_usage(why_no_middles(path, false));
 }
 
 /// Opens a sink that groups the mesh and then writes its cells.
@@ -86,19 +87,12 @@ std::unique_ptr<MeshSink> open_cells(const std::filesystem::path& path, Element 
   return std::make_unique<GroupedSink>(path.parent_path(), std::move(writer), element);
 }
 
-/// Passes a mesh on as it comes.  Where begin() tells of wedges, another sink takes the place of
-/// the one below; what opens that one may refuse them.
-class UnlessWedges : public MeshSink {
+/// Passes a mesh on as it comes.
+class PassingSink : public MeshSink {
  public:
-  using Open = std::function<std::unique_ptr<MeshSink>()>;
+  explicit PassingSink(std::unique_ptr<MeshSink> below) : below_(std::move(below)) {}
 
-  UnlessWedges(std::unique_ptr<MeshSink> below, Open open_for_wedges)
-      : below_(std::move(below)), open_for_wedges_(std::move(open_for_wedges)) {}
-
-  void begin(const MeshHeader& header) override {
-    if (header.record.cohesive.any()) below_ = open_for_wedges_();
-    below_->begin(header);
-  }
+  void begin(const MeshHeader& header) override { below_->begin(header); }
   void write_vertices(std::span<const Position> positions) override {
     below_->write_vertices(positions);
   }
@@ -109,9 +103,38 @@ class UnlessWedges : public MeshSink {
   void finish() override { below_->finish(); }
   [[nodiscard]] std::uint64_t buffer_bytes() const override { return below_->buffer_bytes(); }
 
- private:
+ protected:
   std::unique_ptr<MeshSink> below_;
+};
+
+/// Where begin() tells of wedges, another sink takes the place of the one below; what opens that
+/// one may refuse them.
+class UnlessWedges : public PassingSink {
+ public:
+  using Open = std::function<std::unique_ptr<MeshSink>()>;
+
+  UnlessWedges(std::unique_ptr<MeshSink> below, Open open_for_wedges)
+      : PassingSink(std::move(below)), open_for_wedges_(std::move(open_for_wedges)) {}
+
+  void begin(const MeshHeader& header) override {
+    if (header.record.cohesive.any()) below_ = open_for_wedges_();
+    below_->begin(header);
+  }
+
+ private:
   Open open_for_wedges_;
+};
+
+/// Takes the floor out of the record where the tets are parts of curved ones, whose floor it is.
+class StraightSink : public PassingSink {
+ public:
+  using PassingSink::PassingSink;
+
+  void begin(const MeshHeader& header) override {
+    MeshHeader straight = header;
+    if (header.in_parts && straight.record.promises) straight.record.promises->quality_floor = 0;
+    below_->begin(straight);
+  }
 };
 
 /// Opens a sink of a format that has tets of four and of ten nodes.
@@ -147,7 +170,8 @@ const std::array kFormats{
                .open_wedges = &open_cells<VtuSink>},
     MeshFormat{.extension = ".mesh",
                .read = [](const auto& path) { return read_medit(*open_bytes(path)); },
-               .open = &open_corners<MeditSink>},
+               .open = &open_corners<MeditSink>,
+               .corners_alone = true},
     MeshFormat{.extension = ".msh",
                .read = &read_msh,
                .open = &open_grouped<MshWriter>,
@@ -266,6 +290,16 @@ class PairedSink : public TeeSink {
   std::unique_ptr<MeshSink> pairs_;
 };
 
+/// Opens a sink that writes tets as they come.
+std::unique_ptr<MeshSink> open_tets(const MeshFormat& format, const std::filesystem::path& path,
+                                    Element element, const MeshExtras& extras) {
+  if (extras.wedges && format.open_wedges != nullptr) return format.open_wedges(path, element);
+  auto sink = format.open_with != nullptr ? format.open_with(path, element, extras)
+                                          : format.open(path, element);
+  if (format.has_wedges(element) && !extras.deck) return sink;
+  return without_wedges(path, element, std::move(sink));
+}
+
 }  // namespace
 
 std::string mesh_extensions() {
@@ -298,6 +332,16 @@ std::string why_no_values(const std::filesystem::path& path) {
   return text(path.string(), ": ", format->extension, " has no place for values of tets; ",
               extensions_where(&MeshFormat::has_values), " have, and ",
               extensions_where(&MeshFormat::takes_materials), " take sets by --materials");
+}
+
+std::string why_no_middles(const std::filesystem::path& path, bool has_wedges) {
+  const MeshFormat* const format = find_format(path);
+  if (format == nullptr) return {};
+  if (format->corners_alone || !format->is_written()) {
+    return text(path.string(), ": ", format->extension, " is written with tet4 only");
+  }
+  if (!has_wedges || format->has_wedges12()) return {};
+  return text(path.string(), ": ", format->extension, " has wedges of six nodes only");
 }
 
 void require_place_for_wedges(const std::filesystem::path& path, Element element) {
@@ -374,11 +418,9 @@ std::unique_ptr<MeshSink> open_mesh_sink(const std::filesystem::path& path, Elem
                extensions_where(&MeshFormat::takes_deck));
   }
   if (extras.deck && extras.wedges) refuse_wedges_in_deck(path);
-  if (extras.wedges && format.open_wedges != nullptr) return format.open_wedges(path, element);
-  auto sink = format.open_with != nullptr ? format.open_with(path, element, extras)
-                                          : format.open(path, element);
-  if (format.has_wedges(element) && !extras.deck) return sink;
-  return without_wedges(path, element, std::move(sink));
+  auto sink = open_tets(format, path, element, extras);
+  if (element == Element::kCurvedTet10) return sink;
+  return std::make_unique<StraightSink>(std::move(sink));
 }
 
 std::unique_ptr<MeshSink> open_mesh_pieces(const std::filesystem::path& path,
@@ -387,7 +429,8 @@ std::unique_ptr<MeshSink> open_mesh_pieces(const std::filesystem::path& path,
     fail_usage(path.string(), ": pieces are written as ", kPiecesExtension, " and files beside it");
   }
   if (pieces == 0) fail_usage(path.string(), ": no pieces are no mesh");
-  return without_wedges(path, Element::kTet4, std::make_unique<PvtuSink>(path, pieces));
+  return std::make_unique<StraightSink>(
+      without_wedges(path, Element::kTet4, std::make_unique<PvtuSink>(path, pieces)));
 }
 
 std::unique_ptr<SharedMesh> open_shared_mesh(const std::filesystem::path& path, Element element) {

@@ -30,6 +30,10 @@ void require_place_for_values(const std::filesystem::path& path);
 /// Returns what that error says; empty where there is a place, which meshes in pieces have, too.
 [[nodiscard]] std::string why_no_values(const std::filesystem::path& path);
 
+/// Returns why the middles of edges have no place in a mesh of that name, with wedges or without;
+/// empty where they have one.
+[[nodiscard]] std::string why_no_middles(const std::filesystem::path& path, bool has_wedges);
+
 /// ERRORS: mw::Error(kUsage) for a format that has no place for wedges between tets of that kind.
 void require_place_for_wedges(const std::filesystem::path& path, Element element);
 
@@ -51,7 +55,9 @@ void copy_mesh(const std::filesystem::path& path, MeshSink& sink);
 /// ERRORS: mw::Error(kUsage) for an unknown extension, an element that the format does not have, an
 /// extra that it has no room for, or a path that cannot be written; begin() throws it for a mesh
 /// with wedges that the format has no place for.  With materials it writes material_table_path()
-/// beside the mesh, too.
+/// beside the mesh, too.  ENSURES: a mesh that comes in the parts of curved tets has these tets
+/// again with kCurvedTet10, and no quality floor in its record otherwise, as it was not that of
+/// parts.
 [[nodiscard]] std::unique_ptr<MeshSink> open_mesh_sink(const std::filesystem::path& path,
                                                        Element element = Element::kTet4,
                                                        const MeshExtras& extras = {});

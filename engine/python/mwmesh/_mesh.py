@@ -398,8 +398,8 @@ class Mesh:
     def save(self, path, element="tet4", values=True, materials=None, deck=False,
              pairs=None):
         """Writes a file of any format of ``mwmesh convert``, which appears under its name only once
-        it is whole.  element: "tet4", "tet10" or "tet10-curved", which a mesh that was read from
-        curved tets cannot be again.  values: False leaves out the values of tets, for which some
+        it is whole.  element: "tet4", "tet10" or "tet10-curved", which gives a mesh that was
+        read from curved tets its nodes again.  values: False leaves out the values of tets, for which some
         formats have no place.  materials: "NAME=N" or "NAME=N:LO:HI" makes N sets of elements by
         ranges of a value, which a format with a place for values then has to have, too.  deck: with
         a job for CalculiX (.inp) or FEBio (.feb).  pairs: a file (.csv, or .inp with equations) for

@@ -171,6 +171,7 @@ MeshData TaggedMesh::finish() {
   mesh_.vertices.reserve(nodes_.size());
   for (const Node& node : nodes_) mesh_.vertices.push_back(node.position);
   nodes_ = {};
+  mesh_.ten_nodes = middles.any();
   drop_middles(mesh_, middles);
   return std::move(mesh_);
 }

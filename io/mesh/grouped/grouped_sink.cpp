@@ -46,6 +46,13 @@ void GroupedSink::begin(const MeshHeader& header) {
   }
   mesh_.header_ = header;
   mesh_.header_.record.curved = mesh_.element_ == Element::kCurvedTet10;
+  if (header.in_parts && mesh_.header_.record.curved) {
+    parts_.emplace(folder_, header.values.size());
+    given_middles_.emplace(folder_);
+    mesh_.header_.in_parts = false;
+    mesh_.header_.tets /= kTetParts.size();
+    return;
+  }
   auto& promises = mesh_.header_.record.promises;
   if (mesh_.header_.record.curved && promises) {
     promises->quality_floor *= kCurvedFloor;
@@ -55,6 +62,7 @@ void GroupedSink::begin(const MeshHeader& header) {
 }
 
 void GroupedSink::write_vertices(std::span<const Position> positions) {
+  if (parts_ && !parts_->is_joined()) return parts_->add_vertices(positions);
   for (const Position& p : positions) {
     if (mesh_.vertices_.size() == 0) lo_ = hi_ = p;
     for (std::size_t k = 0; k < 3; ++k) {
@@ -69,15 +77,18 @@ void GroupedSink::write_vertices(std::span<const Position> positions) {
 
 void GroupedSink::write_tets(std::span<const TetRows> tets, std::span<const RawLabel> labels) {
   MW_ASSERT(tets.size() == labels.size());
+  if (parts_ && !parts_->is_joined()) return parts_->add(tets, labels);
   append_tets(tets_, tets, labels);
   labels_.insert(labels);
 }
 
 void GroupedSink::write_values(std::span<const double> rows) {
+  if (parts_ && !parts_->is_joined()) return parts_->add_values(rows);
   for (const double value : rows) values_.append(value);
 }
 
 void GroupedSink::finish() {
+  if (parts_) parts_->join(*this);
   group();
   if (writer_) writer_->write(mesh_);
 }
@@ -103,7 +114,26 @@ void GroupedSink::group() {
   number_facets(facets);
   find_wedges();
   if (has_middles(mesh_.element_)) find_middles();
-  if (curves_) mesh_.curved_.emplace(curve_nodes(mesh_, folder_, *curves_));
+  if (parts_) {
+    mesh_.curved_.emplace(given_nodes());
+  } else if (curves_) {
+    mesh_.curved_.emplace(curve_nodes(mesh_, folder_, *curves_));
+  }
+}
+
+/// Returns the places of all nodes as they came.
+PagedArray<Position> GroupedSink::given_nodes() {
+  PagedArray<Position> out(folder_, mesh_.node_count());
+  const auto put = [&out](std::uint64_t row, const Position& at) {
+    out.change(row, [&at](Position& place) { place = at; });
+  };
+  for (std::uint64_t v = 0; v < mesh_.vertices_.size(); ++v) put(v, mesh_.vertices_[v]);
+  for (std::uint64_t tet = 0; tet < mesh_.tets_.size(); ++tet) {
+    const std::array<std::uint64_t, 6> rows = mesh_.middles_[tet];
+    const SixPlaces places = (*given_middles_)[tet];
+    for (std::size_t e = 0; e < rows.size(); ++e) put(rows[e], places[e]);
+  }
+  return out;
 }
 
 void GroupedSink::find_box() {
@@ -132,6 +162,7 @@ void GroupedSink::sort_tets(Faces& faces) {
     ++range.end;
     place_tet({record[2], record[3], record[4], record[5]}, faces);
     place_values(record[1]);
+    if (parts_) given_middles_->append(parts_->middles(record[1]));
   });
 }
 

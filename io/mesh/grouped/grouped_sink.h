@@ -6,6 +6,7 @@
 #include "io/file/scratch/external_sort.h"
 #include "io/labels/label_table.h"
 #include "io/mesh/grouped/curved_nodes.h"
+#include "io/mesh/grouped/curved_parts.h"
 #include "io/mesh/grouped/grouped_mesh.h"
 #include "io/mesh/merged_vertices.h"
 
@@ -17,7 +18,8 @@ namespace mw::io {
 /// ones).
 /// ERRORS: see MeshSink; kInput when a tet names a vertex that never came, or three tets share a
 /// triangle, which then bounds nothing; begin() throws kUsage where kCurvedTet10 is asked of a mesh
-/// with doubled vertices.
+/// with doubled vertices.  ENSURES: with kCurvedTet10 a mesh that comes in the parts of curved tets
+/// has these again, each node where it was.
 class GroupedSink : public MeshSink {
  public:
   /// writer may be empty where the caller takes the mesh.  With curves, nodes lie where
@@ -59,6 +61,7 @@ class GroupedSink : public MeshSink {
   void find_wedges();
   void add_wedges(const FacetGroup& group, bool is_first_bottom);
   void find_middles();
+  [[nodiscard]] PagedArray<Position> given_nodes();
 
   std::filesystem::path folder_;
   GroupedMesh mesh_;
@@ -70,6 +73,8 @@ class GroupedSink : public MeshSink {
   Position hi_{};
   std::unique_ptr<GroupedWriter> writer_;
   std::optional<CurveRule> curves_;
+  std::optional<CurvedParts> parts_;                   ///< of a mesh that is curved as it comes
+  std::optional<PagedFile<SixPlaces>> given_middles_;  ///< of parts_, by tet
 };
 
 }  // namespace mw::io

@@ -58,6 +58,7 @@ class Reader {
     for (const Hdf5Array& array : values_) check_rows(array, cells);
     header_.tets = (cells - wedges_) * parts();
     header_.labels_signed = labels_ && labels_->is_signed();
+    header_.ten_nodes = drops_middles();
     sink_.begin(header_);
     if (drops_middles()) find_middles();
     for (std::size_t part = 0; part < cell_counts_.size(); ++part) {

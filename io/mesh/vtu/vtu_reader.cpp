@@ -212,6 +212,7 @@ MeshData read_vtu(const ByteSource& source) {
   mesh.record = read_vtu_record(document);
   read_grid(document, mesh, middles);
   drop_middles(mesh, middles);
+  mesh.ten_nodes = middles.any();
   mesh.in_parts = mesh.record.curved;
   mesh.record.curved = false;
   mesh.names = read_vtu_names(document);

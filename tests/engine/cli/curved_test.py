@@ -147,6 +147,51 @@ class Ball(unittest.TestCase):
         self.assertNotIn("curved_tets", run("info", "straight.vtu", "--json"))
         run("surface", "c.vtu", "--label", 1, "-o", "s.stl")
 
+    def test_convert_keeps_every_node(self):
+        run("convert", "c.vtu", "kept.vtkhdf")
+        run("convert", "kept.vtkhdf", "kept.vtu")
+        run("convert", "c.vtu", "asked.vtu", "--element", "tet10-curved")
+        expected = pathlib.Path("c.vtu").read_bytes()
+        for name in ("kept.vtu", "asked.vtu"):
+            self.assertEqual(pathlib.Path(name).read_bytes(), expected)
+        self.assertIn("C3D10", self.written("c.vtu", "c.inp"))
+        self.assertIn("C3D10", self.written("straight.vtu", "straight.inp"))
+        self.assertIn("C3D4", self.written("m.vtkhdf", "m.inp"))
+        for name in ("s.vtkhdf", "s.msh2", "s.vtu", "s.msh"):
+            self.assertIn("ten nodes", run("convert", "straight.vtu", name))
+            run("convert", name, "back.vtu")
+            self.assertEqual(Mesh("back.vtu").tets.shape, self.straight.tets.shape)
+
+    def written(self, mesh, name):
+        run("convert", mesh, name)
+        return next(line for line in pathlib.Path(name).read_text().splitlines() if line.startswith("*ELEMENT"))
+
+    def test_convert_tells_which_nodes_it_leaves_out(self):
+        self.assertIn("left out: middles of edges; four.mesh: .mesh is written with tet4 only",
+                      run("convert", "straight.vtu", "four.mesh"))
+        self.assertIn("left out: middles of edges", run("convert", "straight.vtu", "p.pvtu", "--pieces", 2))
+        self.assertEqual(run("convert", "straight.vtu", "four.inp", "--element", "tet4"), "")
+        self.assertEqual(run("convert", "m.vtkhdf", "four.vtu"), "")
+        said = run("convert", "c.vtu", "parts.mesh")
+        self.assertIn("left out: middles of edges", said)
+        self.assertIn("each curved tet is written as eight of its parts", said)
+
+    def test_wedges_of_six_nodes_stay(self):
+        v = np.zeros((8, 8, 8), np.uint8)
+        v[:, :, 4:] = 1
+        np.save("w.npy", v)
+        run("mesh", "w.npy", "-o", "w.vtu", "--element", "tet10", "--cohesive", "0|1")
+        self.assertIn("wedges of six nodes only", run("convert", "w.vtu", "w.msh"))
+        self.assertIn("ten nodes", run("convert", "w.vtu", "w.vtkhdf"))
+
+    def test_parts_do_not_promise_the_floor_of_curved_tets(self):
+        for name in ("s4.vtu", "s10.vtkhdf", "s4.mesh", "s10.msh"):
+            run("convert", "c.vtu", name, "--element", "tet" + name.split(".")[0][1:])
+            said = run("verify", "v.npy", name, *(["--quality-floor", 0] if name.endswith("msh") else []))
+            self.assertIn("all checks hold", said)
+        self.assertIn("recorded promise: no distance bound, no floor", run("verify", "v.npy", "s4.vtu"))
+        self.assertIn("radius ratio 0.1", run("verify", "v.npy", "c.vtu"))
+
     def test_refusals_name_the_way_out(self):
         for flag in ("--split=0|1", "--cohesive=0|1", "--open-hinges"):
             done = start("mesh", "v.npy", "-o", "no.vtu", "--element", "tet10-curved", flag)
