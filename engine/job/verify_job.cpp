@@ -4,6 +4,8 @@
 #include "engine/job/verify_job.h"
 
 #include <algorithm>
+#include <optional>
+#include <string_view>
 
 #include "engine/labels/label_scan.h"
 #include "engine/labels/reading_tiles.h"
@@ -125,6 +127,44 @@ void tell_doubles(const io::MeshRecord& record, std::uint64_t merged, ChosenLabe
   add_words(kept.told, std::to_string(merged) + " doubled vertices are merged by position here");
 }
 
+/// Returns whether a file has a name as it is, or as the formats of Gmsh spell it: without quotes,
+/// and with the label behind it where another label has the same name.
+bool is_name_in_file(std::string_view found, std::string name, const std::string& label) {
+  if (found == name) return true;
+  std::replace(name.begin(), name.end(), '"', '\'');
+  const std::string behind = " (" + label + ")";
+  while (found.size() > name.size() && found.ends_with(behind)) {
+    found.remove_suffix(behind.size());
+  }
+  return found == name;
+}
+
+/// Returns the check "names": labels that the mesh names have these names in the volume.  Nothing
+/// where one of them has none.
+std::optional<audit::Check> names_check(const MeshTiles& mesh, const io::LabelTable& table,
+                                        const io::LabelNames& wanted) {
+  audit::Offenders others("labels under another name");
+  std::uint64_t named = 0;
+  bool is_known = false;
+  for (Label l = 0; l < table.size(); ++l) {
+    const std::string label = io::label_text(table.raw(l), table.is_signed());
+    const std::string &name = wanted.name(table.raw(l)),
+                      &found = mesh.header().names.name(table.raw(l));
+    is_known = is_known || !name.empty();
+    if (!mesh.labels()[l] || found.empty()) continue;
+    ++named;
+    if (is_name_in_file(found, name, label)) continue;
+    others.add([&] {
+      return label + " is \"" + found + "\", " + (name.empty() ? "nothing" : "\"" + name + "\"") +
+             " in the volume";
+    });
+  }
+  if (!is_known || named == 0) return std::nullopt;
+  std::string detail = std::to_string(named) + " labels with a name; " + others.text();
+  if (others.count() > 0) detail += "; give verify the --names of the run";
+  return audit::Check{"names", others.count() == 0, detail};
+}
+
 report::Bounds bounds_of(const AskedBounds& asked, const io::MeshRecord& record,
                          const ChosenLabels& kept) {
   report::Bounds out{.promises = record.promises.value_or(report::kOtherPromises),
@@ -204,6 +244,8 @@ report::Verdict verify(const VerifyJob& job, const std::function<void(io::MeshSi
   task.options.label_text = report::label_texts(verdict.table, verdict.names);
   verdict.layers = task.options.layers;
   verdict.audit = verify_mesh(io::DenseVolume(volume, verdict.table), mesh, task);
+  const auto names = names_check(mesh, verdict.table, verdict.names);
+  if (names) verdict.audit.checks.push_back(*names);
   return verdict;
 }
 

@@ -34,7 +34,7 @@ struct TileFindings {
   audit::QualityMeter quality;
   audit::ShapeMeter shape;
   audit::VolumeTally volumes;
-  audit::PlaceTally places;
+  std::vector<audit::CentreRun> centres;
   audit::FaceTally faces;
   std::vector<audit::InterfaceTriangle> triangles;
   std::vector<audit::LineCrossing> crossings;
@@ -52,10 +52,11 @@ double of_ordered_bits(std::uint64_t bits) {
 class MeshStage {
  public:
   MeshStage(const MeshTiles& mesh, std::size_t label_count, const audit::ValidityTask& validity,
-            const VerifyTask& task, const InterfaceSinks& sinks)
+            const VerifyTask& task, const MeshSinks& sinks)
       : mesh_(mesh),
         validity_(validity),
         task_(task),
+        centres_(*sinks.centres),
         pieces_(sinks.pieces),
         junctions_(sinks.junctions),
         lattice_(audit::layered_frame(validity.frame, task.options.layers)),
@@ -67,7 +68,6 @@ class MeshStage {
     found_.validity.in_mesh.resize(label_count + 1);
     found_.volumes = {std::vector<Int128>(label_count),
                       std::vector<audit::CompensatedSum>(label_count)};
-    found_.places = audit::PlaceTally(label_count);
   }
 
   MeshFindings run() {
@@ -112,7 +112,9 @@ class MeshStage {
     out.shape = audit::measure_shape(stars);
     task_.between();
     out.volumes = audit::tally_volumes(view, loaded.names.size(), lattice_);
-    out.places = audit::places_of_mesh(view, loaded.names.size(), validity_.frame, validity_.shape);
+    out.centres = audit::centre_runs(view, loaded.names.size(), validity_.frame, validity_.shape,
+                                     task_.options.layers);
+    for (audit::CentreRun& run : out.centres) run.label = loaded.names.of_whole(run.label);
     out.faces = audit::tally_faces(view, validity_.frame, validity_.shape, task_.options.periodic);
     task_.between();
     if (pieces_ != nullptr) take_triangles(stars, out);
@@ -155,7 +157,7 @@ class MeshStage {
     found_.quality.add(found.quality);
     found_.shape.add(found.shape);
     found_.volumes.add(found.volumes, found.names.whole());
-    found_.places.add(found.places, found.names.whole());
+    for (const audit::CentreRun& run : found.centres) add(run);
     found_.faces.add(found.faces);
     const std::uint32_t first = parts_.add(std::move(found.parts));
     for (const SharedTet& tet : found.shared) links_.add(tet.id, 1, first + tet.part);
@@ -166,6 +168,12 @@ class MeshStage {
       crossings_.add({c.column, ordered_bits(c.z), ordered_bits(c.enters)});
     }
     task_.between();
+  }
+
+  void add(const audit::CentreRun& run) {
+    const Box3 voxels = audit::voxels_of(run, validity_.shape);
+    for_each_index(mesh_.grid().meeting(voxels),
+                   [&](Index3 tile) { centres_.add(mesh_.grid().number(tile), run); });
   }
 
   void judge_lines() {
@@ -179,6 +187,7 @@ class MeshStage {
   const MeshTiles& mesh_;
   const audit::ValidityTask& validity_;
   const VerifyTask& task_;
+  CentreBuckets& centres_;
   PieceBuckets* pieces_;
   JunctionLedger* junctions_;
   audit::Frame lattice_;
@@ -194,7 +203,7 @@ class MeshStage {
 
 MeshFindings look_at_mesh(const MeshTiles& mesh, std::size_t label_count,
                           const audit::ValidityTask& validity, const VerifyTask& task,
-                          const InterfaceSinks& sinks) {
+                          const MeshSinks& sinks) {
   return MeshStage(mesh, label_count, validity, task, sinks).run();
 }
 

@@ -20,12 +20,12 @@ struct MeshFindings {
   audit::QualityMeter quality;
   audit::ShapeMeter shape;
   audit::VolumeTally volumes;
-  audit::PlaceTally places;
   audit::FaceTally faces;  ///< of sides that are to be alike
 };
 
-/// Where interfaces go, if they are asked for.
-struct InterfaceSinks {
+/// Where centres of voxels go, by the tiles of these, and interfaces, if they are asked for.
+struct MeshSinks {
+  CentreBuckets* centres = nullptr;     ///< never null
   PieceBuckets* pieces = nullptr;       ///< for distances
   JunctionLedger* junctions = nullptr;  ///< null for a mesh with gaps
 };
@@ -34,6 +34,6 @@ struct InterfaceSinks {
 /// sinks.junctions is closed.  REQUIRES: mesh.input_check() passed.
 [[nodiscard]] MeshFindings look_at_mesh(const MeshTiles& mesh, std::size_t label_count,
                                         const audit::ValidityTask& validity, const VerifyTask& task,
-                                        const InterfaceSinks& sinks);
+                                        const MeshSinks& sinks);
 
 }  // namespace mw::engine

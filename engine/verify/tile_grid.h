@@ -14,6 +14,7 @@
 
 #include "io/file/scratch/scratch_file.h"
 #include "kernels/audit/distance/mesh.h"
+#include "kernels/audit/partition/centres.h"
 #include "kernels/core/index.h"
 
 namespace mw::engine {
@@ -139,5 +140,8 @@ class PieceBuckets {
   audit::PieceEstimates estimates_{};
   double radius_ = audit::kPieceRadius;
 };
+
+/// Runs of centres with dense labels of the whole volume, by the tiles of their voxels.
+using CentreBuckets = TileBuckets<audit::CentreRun>;
 
 }  // namespace mw::engine

@@ -34,15 +34,16 @@ audit::AuditReport verify_mesh(const io::DenseVolume& volume, const MeshTiles& m
     return audit::judge(std::move(findings), task.options);
   }
   PieceBuckets pieces(task.folder, mesh.grid(), task.options.layers, task.memory_bytes / 8);
+  CentreBuckets centres(task.folder, mesh.grid().size(), task.memory_bytes / 16);
   std::optional<JunctionLedger> junctions;
   if (task.options.count_junctions) junctions.emplace(task.folder, task.memory_bytes / 8);
   JunctionLedger* const ledger = junctions ? &*junctions : nullptr;
   const audit::ValidityTask validity = validity_task(volume, mesh, task);
   MeshFindings found = look_at_mesh(mesh, volume.table().size(), validity, task,
-                                    {with_distance ? &pieces : nullptr, ledger});
+                                    {&centres, with_distance ? &pieces : nullptr, ledger});
   pieces.make_pieces();
-  VolumeFindings voxels =
-      look_at_volume(volume, mesh.grid(), task, {with_distance ? &pieces : nullptr, ledger});
+  VolumeFindings voxels = look_at_volume(volume, mesh.grid(), task,
+                                         {&centres, with_distance ? &pieces : nullptr, ledger});
   findings.validity = audit::judge_validity(found.validity, validity);
   findings.validity.checks.insert(findings.validity.checks.begin(), input);
   if (mesh.curved()) findings.validity.checks.push_back(mesh.curved()->jacobians());
@@ -53,10 +54,7 @@ audit::AuditReport verify_mesh(const io::DenseVolume& volume, const MeshTiles& m
   findings.voxels = std::move(voxels.betti);
   findings.mesh = std::move(found.betti);
   if (junctions) findings.junctions = junctions->compare();
-  for (Label label = 0; label < volume.table().size(); ++label) {
-    if (audit::is_partial(task.options.partial, label)) voxels.places.volumes[label] = 0;
-  }
-  findings.place = audit::judge_places(voxels.places, found.places, volume.info().shape);
+  findings.place = std::move(voxels.place);
   findings.quality = (mesh.curved() ? mesh.curved()->corners() : found.quality).report();
   findings.distance = std::move(voxels.distance);
   if (mesh.curved()) {

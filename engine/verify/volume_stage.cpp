@@ -64,6 +64,7 @@ class VolumeStage {
       : volume_(volume),
         grid_(grid),
         task_(task),
+        centres_(mesh.centres),
         pieces_(mesh.pieces),
         junctions_(mesh.junctions),
         label_count_(volume.table().size()),
@@ -72,9 +73,12 @@ class VolumeStage {
         limit_(audit::distance_limit(task.options.max_distance)),
         parts_(label_count_),
         links_(task.folder, task.memory_bytes / 8),
+        missed_(task.folder, task.memory_bytes / 16),
         rows_(label_count_ + 2) {
     found_.voxels.resize(label_count_);
-    found_.places = audit::PlaceTally(label_count_);
+    if (centres_ == nullptr) return;
+    samples_.emplace(grid.shape());
+    wanted_ = audit::wanted_centres(label_count_, task.options.kept, task.options.partial);
   }
 
   VolumeFindings run() {
@@ -84,6 +88,7 @@ class VolumeStage {
     links_.unite(parts_);
     found_.betti = parts_.betti_of_volume();
     if (junctions_ != nullptr) junctions_->close(JunctionLedger::Side::kVolume, parts_.cavities());
+    if (centres_ != nullptr) judge_places();
     if (pieces_ != nullptr) conclude_distances();
     return std::move(found_);
   }
@@ -129,8 +134,19 @@ class VolumeStage {
     task_.between();
     take_parts(box, loaded, out);
     task_.between();
+    if (centres_ != nullptr) out.places = places(tile, loaded.part(box));
+    task_.between();
     if (pieces_ != nullptr) out.distances = measure(box, reach, std::move(loaded));
     return out;
+  }
+
+  /// Compares a tile with the tets at its voxels' centres.
+  [[nodiscard]] audit::PlaceTally places(std::uint32_t tile, const LoadedVoxels& voxels) const {
+    std::vector<audit::CentreRun> runs;
+    centres_->load(tile, runs);
+    const std::vector<Label> centres = audit::centre_labels(runs, voxels.box, grid_.shape());
+    samples_->put(voxels.box, voxels.labels, centres, wanted_);
+    return audit::tally_places(voxels.labels, centres, wanted_);
   }
 
   void take_parts(const Box3& box, const LoadedVoxels& loaded, VoxelFindings& out) const {
@@ -161,7 +177,6 @@ class VolumeStage {
     out.labels = names.whole();
     out.voxels = audit::count_voxels({voxels.box.shape(), voxels.labels}, voxels.box, box,
                                      names.size(), layers_);
-    out.places = audit::places_of_voxels(box, voxels.part(box).labels, names.size(), grid_.shape());
   }
 
   /// Measures the distances of a tile.  Consumes what was loaded.
@@ -251,7 +266,10 @@ class VolumeStage {
       all.voxels += found.voxels[i].voxels;
       all.faces += found.voxels[i].faces;
     }
-    found_.places.add(found.places, found.labels);
+    places_.add(found.places);
+    for (const auto& [label, in, voxels_missed] : found.places.missed) {
+      missed_.add({std::min(label, in), std::max(label, in), voxels_missed});
+    }
     if (junctions_ != nullptr) junctions_->add(JunctionLedger::Side::kVolume, found.junctions);
     if (has_far(found.distances)) {
       far_.push_back(tile);
@@ -261,6 +279,25 @@ class VolumeStage {
       add(found.distances);
     }
     task_.between();
+  }
+
+  void judge_places() {
+    audit::ExchangedLabels exchanged(task_.options.label_text);
+    std::array<std::uint64_t, 3> sum{};  // two labels, and voxels of each in tets of the other
+    const auto close = [&] {
+      if (sum[2] == 0) return;
+      exchanged.add(static_cast<Label>(sum[0]), static_cast<Label>(sum[1]),
+                    found_.voxels[sum[0]].voxels + found_.voxels[sum[1]].voxels, sum[2]);
+    };
+    missed_.each([&](const std::array<std::uint64_t, 3>& record) {
+      if (record[0] != sum[0] || record[1] != sum[1]) {
+        close();
+        sum = {record[0], record[1], 0};
+      }
+      sum[2] += record[2];
+    });
+    close();
+    found_.place = audit::judge_places(places_, *samples_, exchanged);
   }
 
   static bool has_far(const TileDistances& distances) {
@@ -323,6 +360,7 @@ class VolumeStage {
   const io::DenseVolume& volume_;
   const TileGrid& grid_;
   const VerifyTask& task_;
+  const CentreBuckets* centres_;
   const PieceBuckets* pieces_;
   JunctionLedger* junctions_;
   std::size_t label_count_;
@@ -332,6 +370,10 @@ class VolumeStage {
   VolumeFindings found_;
   audit::PartsUnion parts_;
   PartLinks links_;
+  mutable std::optional<audit::PlaceSamples> samples_;  ///< each tile puts its own
+  audit::WantedCentres wanted_;
+  audit::PlaceTally places_;
+  io::ExternalSort<3> missed_;
   std::vector<audit::LabelDistances> rows_;
   std::vector<std::uint32_t> far_;
   std::vector<TileDistances> far_distances_;

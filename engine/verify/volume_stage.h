@@ -14,14 +14,15 @@ namespace mw::engine {
 struct VolumeFindings {
   std::vector<audit::RegionBetti> betti;
   std::vector<audit::VoxelCount> voxels;  ///< by dense label
-  audit::PlaceTally places;
+  audit::Check place;  ///< see audit::judge_places(); only with MeshInterface::centres
   std::optional<audit::DistanceReport> distance;
 };
 
 /// What the volume is compared with, and where what it tells goes.
 struct MeshInterface {
-  const PieceBuckets* pieces = nullptr;  ///< null if no distances are asked for
-  JunctionLedger* junctions = nullptr;   ///< takes the volume's; null if not asked for
+  const CentreBuckets* centres = nullptr;  ///< null if there is no mesh
+  const PieceBuckets* pieces = nullptr;    ///< null if no distances are asked for
+  JunctionLedger* junctions = nullptr;     ///< takes the volume's; null if not asked for
 };
 
 /// Looks at each tile of the volume.  ENSURES: the volume's side of mesh.junctions is closed.

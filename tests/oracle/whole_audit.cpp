@@ -10,6 +10,7 @@
 
 #include "kernels/audit/distance/mesh.h"
 #include "kernels/audit/distance/tile.h"
+#include "kernels/audit/partition/centres.h"
 #include "kernels/audit/partition/overlap.h"
 #include "kernels/audit/regions/regions.h"
 #include "kernels/audit/topology/parts_union.h"
@@ -52,6 +53,33 @@ std::optional<MeshStars> check_input(const AuditMesh& mesh, Check& check) {
   }
   check = input_check(mesh.vertices.size(), mesh.tets.size(), endless);
   return check.passed ? std::move(stars) : std::nullopt;
+}
+
+/// Whole numbers of voxels by pairs of labels, instead of sorts.
+Check check_places(const VoxelLabels& volume, std::size_t label_count, const AuditMesh& mesh,
+                   const Frame& frame, const AuditOptions& options) {
+  const Box3 all{{0, 0, 0}, volume.shape};
+  const auto centres =
+      centre_labels(centre_runs({.mesh = mesh}, label_count, frame, volume.shape, options.layers),
+                    all, volume.shape);
+  const WantedCentres wanted = wanted_centres(label_count, options.kept, options.partial);
+  PlaceSamples samples(volume.shape);
+  samples.put(all, volume.labels, centres, wanted);
+  ExchangedLabels exchanged(options.label_text);
+  const auto voxels = [&](Label l) {
+    return std::count(volume.labels.begin(), volume.labels.end(), l);
+  };
+  for (Label a = 0; a < label_count; ++a) {
+    for (Label b = a + 1; b < label_count; ++b) {
+      std::uint64_t swapped = 0;
+      for (std::size_t i = 0; i < centres.size(); ++i) {
+        const Label l = volume.labels[i], m = centres[i];
+        if (wanted[l] == l && ((l == a && m == b) || (l == b && m == a))) ++swapped;
+      }
+      exchanged.add(a, b, static_cast<std::uint64_t>(voxels(a) + voxels(b)), swapped);
+    }
+  }
+  return judge_places(tally_places(volume.labels, centres, wanted), samples, exchanged);
 }
 
 Check check_overlap(const MeshStars& stars, const Frame& frame, Index3 shape) {
@@ -143,10 +171,7 @@ AuditReport audit(const VoxelLabels& volume, std::size_t label_count, const Audi
     found.junctions = compare_junctions(junctions_of_volume(volume, label_count),
                                         junctions_of_mesh(mesh, label_count));
   }
-  const Box3 all{{0, 0, 0}, volume.shape};
-  found.place =
-      judge_places(places_of_voxels(all, volume.labels, label_count, volume.shape),
-                   places_of_mesh({.mesh = mesh}, label_count, frame, volume.shape), volume.shape);
+  found.place = check_places(volume, label_count, mesh, frame, options);
   found.quality = measure_quality(mesh);
   if (options.measure_distance || options.max_distance) {
     found.distance = measure_in_lattice(volume, label_count, mesh, frame, options);

@@ -318,5 +318,41 @@ TEST_F(RecordedPromises, AreNotBelievedWhenTheyAreWeak) {
   EXPECT_GT(refused, 100);
 }
 
+/// What is alike everywhere has its centre in the middle, in the mirror, too.  Without a bound of
+/// distances nothing but the whole tells one from the other.
+TEST_F(RecordedPromises, TellAFoamFromItsMirror) {
+  const auto edge = static_cast<std::int64_t>(kEdge);
+  const audit::test::SmallVolume foam =
+      audit::test::volume_from({edge, edge, edge}, 2, [](auto x, auto y, auto z) {
+        const auto wave = [](double at) { return std::sin(0.9 * at); };
+        const double dx = static_cast<double>(x), dy = static_cast<double>(y),
+                     dz = static_cast<double>(z);
+        return wave(dx + 0.3 * dy) + wave(dy) + wave(dz + 0.4 * dx) > 0 ? 1 : 0;
+      });
+  const MemoryVolume volume(foam, {});
+  MeshJob job{.folder = folder_.path()};
+  job.run.threads = 1;
+  job.run.store.memory = kMemory;
+  job.run.settings.surface = Surface::kVoxel;
+  job.run.settings.max_distance.reset();
+  io::MeshDataSink sink;
+  static_cast<void>(mesh(volume, job, sink));
+  const VerifyJob verified{
+      .volume = volume, .steps = {}, .threads = 1, .memory = kMemory, .folder = folder_.path()};
+  const auto passes = [&](const Damage& damage) {
+    MeshData damaged = sink.mesh();
+    damage.change(damaged);
+    return verify(verified, [&](io::MeshSink& out) { io::write_mesh(damaged, out); })
+        .audit.passed();
+  };
+  EXPECT_TRUE(passes({"", [](MeshData&) {}}));
+  for (const Damage& damage : mirrors()) EXPECT_FALSE(passes(damage)) << damage.name;
+  EXPECT_FALSE(passes({"swap labels", [](MeshData& m) {
+                         relabel(m, 1, 7);
+                         relabel(m, 0, 1);
+                         relabel(m, 7, 0);
+                       }}));
+}
+
 }  // namespace
 }  // namespace mw::engine

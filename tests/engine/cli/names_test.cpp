@@ -267,5 +267,32 @@ TEST_F(NamesTest, InfoListsAThousandLabelsAsText) {
   EXPECT_EQ(json::parse(run(volume + "--json").out)["labels"]["per_label"].size(), 1100U);
 }
 
+/// Names that are exchanged in the file, or that the volume does not have, are told.
+TEST_F(NamesTest, OfTheMeshAreThoseOfTheVolume) {
+  for (const std::string mesh : {"v.vtkhdf", "v.vtu", "v.mesh", "v.msh"}) {
+    SCOPED_TRACE(mesh);
+    expect_done("mesh v.npy -o " + mesh + " --names names.csv");
+    EXPECT_THAT(run("verify v.npy " + mesh + " --names names.csv").out,
+                testing::HasSubstr("ok    names            2 labels with a name"));
+    EXPECT_THAT(run("verify v.npy " + mesh).out, testing::Not(testing::HasSubstr("names")));
+  }
+  write("others.csv", "id,name\n1,spleen\n2,\"a \"\"b\"\" & Größe\"\n");
+  const ProgramRun failed = run("verify v.npy v.vtu --names others.csv");
+  EXPECT_EQ(failed.code, 5);
+  EXPECT_THAT(failed.out, testing::HasSubstr("FAIL  names"));
+  EXPECT_THAT(failed.out, testing::HasSubstr("1 is \"liver, <left>\", \"spleen\" in the volume"));
+  EXPECT_THAT(failed.out, testing::HasSubstr("1 checks fail"));
+  write("fewer.csv", "id,name\n2,\"a \"\"b\"\" & Größe\"\n");
+  EXPECT_THAT(run("verify v.npy v.vtu --names fewer.csv").out,
+              testing::HasSubstr("1 is \"liver, <left>\", nothing in the volume"));
+}
+
+/// Formats put the label behind a name that another label has, too.
+TEST_F(NamesTest, ThatTwoLabelsShareAreThoseOfTheVolume) {
+  write("same.csv", "id,name\n1,vein\n2,vein\n3,vein (1)\n");
+  expect_done("mesh v.npy -o v.msh2 --names same.csv");
+  EXPECT_THAT(run("verify v.npy v.msh2 --names same.csv").out, testing::HasSubstr("ok    names"));
+}
+
 }  // namespace
 }  // namespace mw::cli

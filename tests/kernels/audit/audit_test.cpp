@@ -79,7 +79,7 @@ TEST(Audit, ChangeOfTheOpenRegionAloneIsAChange) {
       volume_from({2, 2, 1}, 2, [](auto x, auto y, auto) { return (x + y) % 2; });
   const SmallVolume halves = volume_from({2, 2, 1}, 2, [](auto x, auto, auto) { return x; });
   const AuditReport report = audit(pinched.view(), 2, five_tet_mesh(halves).view(), {});
-  EXPECT_EQ(failures(report), Names{"P1 topology"});
+  EXPECT_EQ(failures(report), (Names{"P4 place", "P1 topology"}));
   EXPECT_EQ(report.labels_changed, (std::vector<Label>{0, 1}));
   EXPECT_EQ(report.voxels[0].closed, report.mesh[0].closed);
 }
@@ -113,9 +113,9 @@ TEST(Audit, ChangeOfAnInterfaceAloneFailsOnlyWhenAskedFor) {
   const SmallMesh mesh = five_tet_mesh(other);
   const AuditOptions labels{.measure_distance = false};
   const AuditOptions junctions{.count_junctions = true, .measure_distance = false};
-  EXPECT_EQ(failures(audit(volume.view(), 3, mesh.view(), {}, labels)), Names{});
+  EXPECT_EQ(failures(audit(volume.view(), 3, mesh.view(), {}, labels)), Names{"P4 place"});
   const AuditReport report = audit(volume.view(), 3, mesh.view(), {}, junctions);
-  EXPECT_EQ(failures(report), (Names{"P1 interfaces", "P1 meetings"}));
+  EXPECT_EQ(failures(report), (Names{"P4 place", "P1 interfaces", "P1 meetings"}));
   EXPECT_EQ(report.junctions->interfaces, 5U);
   EXPECT_EQ(report.junctions->interfaces_changed.size(), 4U);
   const std::string& detail = check(report, "P1 interfaces").detail;
