@@ -1,6 +1,9 @@
 // SPDX-FileCopyrightText: The mwmesh authors
 // SPDX-License-Identifier: Apache-2.0
 // Volumes to meshes, and meshes held against volumes.
+#include <array>
+#include <span>
+
 #include "engine/api/guarded.h"
 #include "engine/api/jobs.h"
 #include "engine/api/types.h"
@@ -38,31 +41,6 @@ class WriterSink : public io::MeshSink {
   MeshWriter& writer_;
 };
 
-/// Passes a mesh on without the values of its tets.
-class SinkWithoutValues : public io::MeshSink {
- public:
-  explicit SinkWithoutValues(io::MeshSink& below) : below_(below) {}
-
-  void begin(const io::MeshHeader& header) override {
-    io::MeshHeader without = header;
-    without.values.clear();
-    below_.begin(without);
-  }
-  void write_vertices(std::span<const io::Position> positions) override {
-    below_.write_vertices(positions);
-  }
-  void write_tets(std::span<const io::TetRows> tets,
-                  std::span<const mw::RawLabel> labels) override {
-    below_.write_tets(tets, labels);
-  }
-  void write_values(std::span<const double> /*rows*/) override {}
-  void finish() override { below_.finish(); }
-  [[nodiscard]] std::uint64_t buffer_bytes() const override { return below_.buffer_bytes(); }
-
- private:
-  io::MeshSink& below_;
-};
-
 /// Returns a job with its images opened.
 engine::MeshJob job_of(const Volume& volume, const Settings& settings, const Options& options,
                        const Hooks& hooks) {
@@ -88,11 +66,11 @@ std::string report_text(const mw::report::FinishedRun& run, const std::filesyste
 /// Does the job.  Where a run that is cancelled leaves work, the error says so: the engine says it
 /// of its own errors alone.
 mw::report::FinishedRun run(const io::LabelVolume& labels, engine::MeshJob job,
-                            io::MeshSink& sink) {
+                            std::span<io::MeshSink* const> sinks) {
   bool is_kept = false;
   job.run.store.kept = [&] { is_kept = true; };
   try {
-    return engine::mesh(labels, job, sink);
+    return engine::mesh(labels, job, sinks);
   } catch (const Error& error) {
     if (!is_kept || error.kind() != ErrorKind::kCancelled) throw;
     throw Error(error.kind(),
@@ -105,12 +83,11 @@ std::string run_into(io::MeshSink& sink, const std::filesystem::path& path, cons
                      const engine::MeshJob& job) {
   const io::LabelVolume& labels = VolumeAccess::labels(volume);
   if (!job.is_measured) {
-    (void)run(labels, job, sink);
+    (void)run(labels, job, std::array{&sink});
     return {};
   }
   io::DigestSink digest(job.folder);
-  io::TeeSink both(sink, digest);
-  mw::report::FinishedRun done = run(labels, job, both);
+  mw::report::FinishedRun done = run(labels, job, std::array<io::MeshSink*, 2>{&digest, &sink});
   done.digest = digest.digest();
   return report_text(done, path, job);
 }
@@ -168,10 +145,9 @@ std::string mesh_to_file(const std::filesystem::path& path, const Volume& volume
     bool is_delivered = false;
     job.delivered = [&] { is_delivered = true; };
     const auto sink = mw::api::open_file(path, file, has_values, has_wedges);
-    SinkWithoutValues without(*sink);
-    const bool passes_values = file.values || !file.materials.empty();
+    job.leaves_values_out = !file.values && file.materials.empty();
     try {
-      return run_into(passes_values ? *sink : without, path, volume, job);
+      return run_into(*sink, path, volume, job);
     } catch (const Error& error) {
       if (!is_delivered || error.kind() != ErrorKind::kCancelled) throw;
       throw Error(error.kind(), error.what() + ("; " + path.string() + " is complete"));

@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <utility>
 
 #include "engine/labels/voxel_lattice.h"
 #include "io/file/errors.h"
@@ -16,20 +15,6 @@ namespace {
 
 /// The share of the bound on the distance that the marches keep to where tets are cut afterwards.
 constexpr double kMarchesShare = 0.8;
-
-/// Returns how interfaces move; each of the cuts may use its part of what the marches left.
-std::optional<io::HalvedCurves> curves_of(int times, const MeshSettings& asked,
-                                          const io::DenseVolume& volume) {
-  if (times == 0 || asked.surface != Surface::kSmooth) return std::nullopt;
-  io::HalvedCurves out{.most_move = std::numeric_limits<double>::infinity(),
-                       .max_distance = asked.max_distance};
-  if (asked.max_distance) {
-    const auto voxel = VoxelLattice(volume).info().space.spacing;
-    const double left = *asked.max_distance - *before_halvings(asked, times).max_distance;
-    out.most_move = left / times * *std::min_element(voxel.begin(), voxel.end());
-  }
-  return out;
-}
 
 }  // namespace
 
@@ -66,37 +51,20 @@ MeshSettings before_halvings(MeshSettings settings, int times) {
   return settings;
 }
 
-Halving::Halving(int times, io::MeshSink& below, const MeshJob& job, const io::DenseVolume& volume,
-                 std::vector<double> sizes)
-    : below_(below), table_(volume.table()), stop_(job.stop) {
-  if (times > 0 && job.is_measured) quality_.emplace();
-  if (times > 0 && !sizes.empty()) edges_.emplace(table_.size(), std::move(sizes));
-  const std::optional<io::HalvedCurves> curves = curves_of(times, job.settings, volume);
-  for (int i = 0; i < times; ++i) {
-    const auto see_last = [this](const auto& corners, RawLabel label) { see(corners, label); };
-    cuts_.push_back(std::make_unique<io::HalvedSink>(sink(), job.folder.empty() ? "." : job.folder,
-                                                     i == 0 ? io::SeeTet(see_last) : nullptr,
-                                                     curves));
+CutTask cut_task(int times, const MeshJob& job, const io::VolumeInfo& volume) {
+  CutTask out{.times = times};
+  const MeshSettings& asked = job.settings;
+  if (times == 0 || asked.surface != Surface::kSmooth) return out;
+  out.curves = {.most_move = std::numeric_limits<double>::infinity(),
+                .max_distance = asked.max_distance};
+  if (asked.max_distance) {
+    // Each of the cuts may use its part of what the marches left.
+    const double left = *asked.max_distance - *before_halvings(asked, times).max_distance;
+    const auto& spacing = volume.space.spacing;
+    const auto voxel = layered_spacing(spacing, layers_of(spacing));
+    out.curves->most_move = left / times * *std::min_element(voxel.begin(), voxel.end());
   }
-}
-
-void Halving::see(const std::array<io::Position, 4>& corners, RawLabel label) {
-  constexpr std::uint64_t kTetsBetween = 4096;
-  if (tets_ % kTetsBetween == 0) stop_();
-  if (quality_) quality_->add(tets_, corners);
-  if (edges_) edges_->add(table_.dense(label), corners);
-  ++tets_;
-}
-
-void Halving::report(RunReport& out) {
-  out.halvings = static_cast<int>(cuts_.size());
-  if (cuts_.empty()) return;
-  out.vertices = cuts_.front()->mesh().node_count();
-  out.tets = tets_;
-  if (quality_) out.quality = quality_->report();
-  if (!edges_) return;
-  out.longest_edges = edges_->lengths();
-  out.edge_ratios = edges_->ratios();
+  return out;
 }
 
 }  // namespace mw::engine

@@ -4,14 +4,8 @@
 // has each tet cut into eight, with interfaces that are smoother than those of the marches.
 #pragma once
 
-#include <functional>
-#include <memory>
-#include <optional>
-#include <vector>
-
+#include "engine/finish/cut.h"
 #include "engine/job/mesh_job.h"
-#include "engine/output/written_block.h"
-#include "io/mesh/grouped/halved_sink.h"
 
 namespace mw::engine {
 
@@ -27,32 +21,7 @@ namespace mw::engine {
 /// smaller bound on the distance, as interfaces move when they become smoother.
 [[nodiscard]] MeshSettings before_halvings(MeshSettings settings, int times);
 
-/// The sinks that cut, one behind the other, and the figures of what they write.
-class Halving {
- public:
-  /// With times 0 the mesh is passed on as it is.  The job has the settings that were asked for;
-  /// its stop() is called often while tets are cut.  sizes are by dense label, 0 where none is
-  /// asked; if empty, edges are not measured.  REQUIRES: below and volume outlive it.
-  Halving(int times, io::MeshSink& below, const MeshJob& job, const io::DenseVolume& volume,
-          std::vector<double> sizes);
-
-  /// Returns where the mesh of the marches goes.
-  [[nodiscard]] io::MeshSink& sink() { return cuts_.empty() ? below_ : *cuts_.back(); }
-  /// Puts the figures of what was written in the place of those of the marches' mesh; those of
-  /// surfaces stay, and are of surfaces before they became smoother.
-  /// REQUIRES: the sink is finished.
-  void report(RunReport& out);
-
- private:
-  void see(const std::array<io::Position, 4>& corners, RawLabel label);
-
-  io::MeshSink& below_;
-  const io::LabelTable& table_;
-  std::function<void()> stop_;
-  std::vector<std::unique_ptr<io::HalvedSink>> cuts_;  ///< the last one that cuts comes first
-  std::optional<audit::QualityMeter> quality_;
-  std::optional<LongestEdges> edges_;
-  std::uint64_t tets_ = 0;
-};
+/// Returns how the mesh is cut.  The job has the settings that were asked for.
+[[nodiscard]] CutTask cut_task(int times, const MeshJob& job, const io::VolumeInfo& volume);
 
 }  // namespace mw::engine

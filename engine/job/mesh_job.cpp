@@ -9,8 +9,8 @@
 #include <limits>
 #include <sstream>
 
-#include "engine/connect/connected_sink.h"
-#include "engine/job/certificate.h"
+#include "engine/finish/passes.h"
+#include "engine/job/certificate_plan.h"
 #include "engine/job/count_pilot.h"
 #include "engine/job/earlier_run.h"
 #include "engine/job/halving.h"
@@ -245,7 +245,7 @@ class KeptInput {
   std::unique_ptr<io::AtomicFile> after_;
 };
 
-/// Returns sizes by dense label, as OutputOptions has them.
+/// Returns sizes by dense label, as FiguresTask has them.
 std::vector<double> edge_sizes(const SizeRules& rules, const io::LabelTable& table) {
   std::vector<double> out(rules.any() ? table.size() : 0);
   for (Label label = 0; label < out.size(); ++label) {
@@ -315,11 +315,7 @@ RunHooks run_hooks(const MeshJob& job, const report::FinishedRun& run, std::uint
     job.stop();
     if (job.run.progress) job.run.progress(at);
   };
-  out.output = {.wanted = wanted_labels(job.choice, table),
-                .measure_quality = job.is_measured,
-                .measure_shape = job.is_measured,
-                .measure_edges = job.is_measured && job.settings.sizes.rules.any(),
-                .edge_sizes = edge_sizes(job.settings.sizes.rules, table)};
+  out.output = {.wanted = wanted_labels(job.choice, table)};
   return out;
 }
 
@@ -385,14 +381,6 @@ void check_scored(const MeshJob& job) {
   }
 }
 
-ConnectTask connect_task(const MeshJob& job, const io::LabelTable& table) {
-  ConnectTask out{.options = job.connect,
-                  .folder = job.folder.empty() ? "." : job.folder,
-                  .memory_bytes = ConnectTask::memory_of(job.run.store.memory)};
-  out.options.watched = sized_interfaces(job, table);
-  return out;
-}
-
 /// Says how to go on after an error of usage that was found once work had been saved: what is
 /// written was refused, and the same command would be refused again.
 std::string way_after_refusal(const RunHooks& hooks) {
@@ -444,10 +432,33 @@ std::vector<LabelPair> sized_interfaces(const MeshJob& job, const io::LabelTable
   return out;
 }
 
+FinishTask looking_task(const MeshJob& job, const report::FinishedRun& run) {
+  const std::size_t sort_bytes = ConnectTask::memory_of(job.run.store.memory);
+  FinishTask out{.connect = {.options = {.watched = sized_interfaces(job, run.labels)},
+                             .memory_bytes = sort_bytes},
+                 .finds_parts = job.finds_parts,
+                 .between = job.stop};
+  if (!job.is_measured) return out;
+  const io::VolumeSpace& space = run.volume.space;
+  out.figures.emplace(FiguresTask{.table = run.labels,
+                                  .space = space,
+                                  .layers = layers_of(space.spacing),
+                                  .edge_sizes = edge_sizes(run.sizes.rules, run.labels),
+                                  .sort_bytes = sort_bytes});
+  return out;
+}
+
 namespace {
 
+/// Returns what the run promises, whose tets are cut that often.
+io::MeshPromises promises_of(const MeshSettings& asked, int halvings) {
+  io::MeshPromises out = promises_of(asked);
+  out.halvings = halvings;
+  return out;
+}
+
 report::FinishedRun mesh_and_keep(const io::LabelVolume& opened, const MeshJob& asked,
-                                  io::MeshSink& sink) {
+                                  std::span<io::MeshSink* const> sinks) {
   MeshJob job = asked;
   CertificatePlan plan = plan_certificate(job, reader_bytes(opened));
   const engine::ResourceMeter meter;
@@ -507,44 +518,39 @@ report::FinishedRun mesh_and_keep(const io::LabelVolume& opened, const MeshJob& 
     check(opened.info(), job.settings);
   }
   check_interfaces(job.connect, run.labels);
-  std::optional<ConnectedSink> connected;
-  if (job.finds_parts || job.connect.change_mesh()) {
-    connected.emplace(sink, connect_task(job, run.labels));
-  }
-  io::MeshSink& target = connected ? static_cast<io::MeshSink&>(*connected) : sink;
   const std::uint64_t standing = standing_bytes(labels, job.settings, job.run);
-  plan = beside_others(plan, job, beside + standing + target.buffer_bytes());
+  plan = beside_others(plan, job, beside + standing + io::ScratchMesh::kBufferBytes);
   job.run.store.buffers_grow = kSortsShare + (plan.why_not.empty() ? kCertificateShare : 0);
-  std::optional<Certifier> certifier;
-  if (plan.why_not.empty()) certifier.emplace(plan, job, labels, target, job.stop);
-  const bool has_edges = job.is_measured && run.sizes.rules.any();
-  Halving halving(halvings, certifier ? certifier->sink() : target, asked, labels,
-                  has_edges ? edge_sizes(run.sizes.rules, run.labels) : std::vector<double>{});
+  const io::MeshPromises promises = promises_of(asked.settings, halvings);
+  FinishTask task = looking_task(job, run);
+  task.leaves_values_out = job.leaves_values_out;
+  task.cut = cut_task(halvings, asked, labels.info());
+  task.connect.options = job.connect;
+  task.connect.options.watched = sized_interfaces(job, run.labels);
+  if (plan.why_not.empty()) {
+    task.certificate.emplace(certificate_task(plan, job, labels, promises));
+  }
   std::optional<ImageSampler> sampler;
   if (!job.samples.empty()) {
     sampler.emplace(job.samples, opened.info(), thread_count(job.run.threads));
+    task.samples = &*sampler;
   }
+  io::ScratchMesh mesh(job.folder.empty() ? "." : job.folder);
+  FinishSink sink(mesh, task, {sinks.begin(), sinks.end()});
   try {
     RunHooks hooks = run_hooks(job, run, memory);
-    hooks.output.values = sampler ? &*sampler : nullptr;
     hooks.sizes = sizes ? &*sizes : nullptr;
     hooks.keep.opened = kept.folder();
     hooks.keep.begin = [&kept] { kept.begin(); };
-    // The figures of tets that are cut are those of what is written.
-    if (halvings > 0) hooks.output.measure_quality = hooks.output.measure_edges = false;
-    run.engine = march(labels, job, halving.sink(), std::move(hooks));
-    halving.report(run.engine);
+    run.engine = march(labels, job, sink, std::move(hooks));
   } catch (const Error& error) {
     if (error.kind() == ErrorKind::kCheckFailed) {
       refuse_changed_input(input.volume(), volume.sum(), job.run.threads);
     }
     throw;
   }
-  if (connected) run.connected = connected->facts();
-  if (run.connected) {
-    run.engine.vertices = run.connected->vertices;
-    run.engine.tets = run.connected->tets;
-  }
+  run.engine.halvings = halvings;
+  if (sink.facts()) run.take(*sink.facts());
   const MeshSize size{run.engine.vertices, run.engine.tets};
   if (job.delivered) job.delivered();
   if (job.delta != Delta::kNo && kept.knows_delta()) {
@@ -554,25 +560,23 @@ report::FinishedRun mesh_and_keep(const io::LabelVolume& opened, const MeshJob& 
   kept.finish(job.steps, size);
   if (run.engine.keep) run.engine.keep->voxels_read = kept.voxels_read();
   if (sampler) run.samples = sampler->facts();
-  io::MeshPromises promises = promises_of(asked.settings);
-  promises.halvings = halvings;
   run.radius_ratio_floor = floor_of(promises);
   run.why_no_certificate = plan.why_not;
   run.why_no_volumes = scores != nullptr ? kVolumesOfScores : why_no_volumes(promises);
-  if (certifier) run.certificate = certifier->report();
   run.resources = meter.read();
   return run;
 }
 
 }  // namespace
 
-report::FinishedRun mesh(const io::LabelVolume& opened, const MeshJob& job, io::MeshSink& sink) {
+report::FinishedRun mesh(const io::LabelVolume& opened, const MeshJob& job,
+                         std::span<io::MeshSink* const> sinks) {
   const io::WaitStop waits(&job.stop);
   const KeepOptions& keep = job.run.keep;
   try {
-    if (keep.use != KeepUse::kUpdate) return mesh_and_keep(opened, job, sink);
+    if (keep.use != KeepUse::kUpdate) return mesh_and_keep(opened, job, sinks);
     const PlacedVolume placed(opened, settled_space(keep.folder, opened.info().space));
-    return mesh_and_keep(placed, job, sink);
+    return mesh_and_keep(placed, job, sinks);
   } catch (const DamagedWork& damage) {
     fail_damaged(damage, job.run);
   }

@@ -6,9 +6,11 @@
 #include <filesystem>
 #include <functional>
 #include <memory>
+#include <span>
 #include <vector>
 
 #include "engine/connect/connect_options.h"
+#include "engine/finish/finish_task.h"
 #include "engine/output/label_selection.h"
 #include "engine/report/run_report.h"
 #include "engine/run/run.h"
@@ -35,6 +37,7 @@ struct MeshJob {
   MeshSettings settings;
   std::shared_ptr<const io::LabelVolume> size_image;  ///< SizeRules::image, opened
   std::vector<SampleImage> samples;                   ///< opened; their values go with the mesh
+  bool leaves_values_out = false;  ///< whether they are looked for, and not written
   LabelChoice choice;
   /// Whether the volume ends around an object (io::OpenOptions::object), so that an edit may change
   /// its box.
@@ -51,7 +54,7 @@ struct MeshJob {
   /// These four do not change the result.
   std::function<void()> stop = [] {};                    ///< called often, by any thread; may throw
   std::function<void(std::size_t labels)> labels_known;  ///< optional; called before marches
-  std::function<void()> delivered;  ///< optional; called when all of the mesh is in the sink
+  std::function<void()> delivered;  ///< optional; called when all of the mesh is in the sinks
   /// Optional; given FinishedRun::delta while the folder still has the labels before, so that the
   /// same job tells it again where this throws.
   std::function<void(const io::Json& delta)> tell;
@@ -75,14 +78,19 @@ struct CertificatePlan {
 [[nodiscard]] std::vector<LabelPair> sized_interfaces(const MeshJob& job,
                                                       const io::LabelTable& table);
 
-/// Meshes a volume into `sink`, from begin to finish.  A certificate is made before finish(), of
-/// the mesh before parts are left out and vertices doubled.
+/// Returns the passes that only look at a mesh of that run, for one that several processes have
+/// written.  The run outlives the task.
+[[nodiscard]] FinishTask looking_task(const MeshJob& job, const report::FinishedRun& run);
+
+/// Meshes a volume; once the mesh is finished, each sink gets it from begin to finish, one after
+/// the other.  A certificate is made before, of the mesh before parts are left out and vertices
+/// doubled.
 /// ENSURES: promises P1 to P3 and P5 of the README.  The digest is the caller's to add.
-/// ERRORS: those of the volume, its steps, mesh_volume() and the sink; kCheckFailed when the
+/// ERRORS: those of the volume, its steps, mesh_volume() and the sinks; kCheckFailed when the
 ///         certificate does not hold; io::fail_input_changed() when that is because the labels
 ///         changed, or when a later reading finds labels that the first did not; what the job's
 ///         functions throw.
 [[nodiscard]] report::FinishedRun mesh(const io::LabelVolume& opened, const MeshJob& job,
-                                       io::MeshSink& sink);
+                                       std::span<io::MeshSink* const> sinks);
 
 }  // namespace mw::engine

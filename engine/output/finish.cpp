@@ -3,8 +3,6 @@
 // Two passes over the final blocks: count, then write.
 #include "engine/output/finish.h"
 
-#include "engine/output/block_triangles.h"
-#include "engine/output/interface_shape.h"
 #include "engine/output/remembered.h"
 #include "engine/output/score_surface.h"
 #include "engine/output/vertex_rows.h"
@@ -32,17 +30,6 @@ std::uint64_t tets_within(const BlockMesh& block, const Box3& box) {
     out += is_within ? 1 : 0;
   }
   return out;
-}
-
-io::VolumeInfo lattice_info(io::VolumeInfo info, Index3 layers) {
-  const auto cut = [&](std::size_t axis, std::int64_t& voxels, std::int64_t parts) {
-    voxels *= parts;
-    info.space.spacing[axis] /= static_cast<double>(parts);
-  };
-  cut(0, info.shape.x, layers.x);
-  cut(1, info.shape.y, layers.y);
-  cut(2, info.shape.z, layers.z);
-  return info;
 }
 
 /// What the first pass counts in a block.
@@ -73,13 +60,6 @@ VertexUses count(const FinalMesh& mesh, const LabelSelection& selection,
   return uses;
 }
 
-/// What can be made from a block before those in front of it are written.
-struct MadeBlock {
-  WrittenBlock written;
-  audit::QualityMeter quality;              ///< with measure_quality
-  std::optional<BlockTriangles> triangles;  ///< with measure_shape
-};
-
 /// Makes the second pass.
 class Writer {
  public:
@@ -90,55 +70,29 @@ class Writer {
         rows_(std::move(uses)),
         sink_(sink),
         options_(options),
-        remembered_(options.hold),
-        figures_(options, mesh.volume.table().size()) {
-    if (!options.measure_shape) return;
-    shape_.emplace(mesh.grid, lattice_info(mesh.volume.info(), options.layers), selection,
-                   [this](std::uint64_t bytes) { remembered_.shape(bytes); });
-  }
+        remembered_(options.hold) {}
 
   /// Thread safety: may be called while write() runs.
-  [[nodiscard]] MadeBlock make(Index3 where) const {
-    MadeBlock out;
+  [[nodiscard]] WrittenBlock make(Index3 where) const {
     BlockMesh block = mesh_.blocks.load(where);
     block.samples = {};  // frees memory for what is made next
-    if (shape_) out.triangles = shape_->look_at(block);
     selection_.apply(block);
-    out.written = written_block(std::move(block), mesh_.volume, options_.layers);
-    if (options_.measure_quality) out.quality = quality_of(out.written);
-    return out;
+    return written_block(std::move(block), mesh_.volume, options_.layers);
   }
 
-  void write(Index3 where, MadeBlock&& made) {
-    if (shape_) shape_->add(std::move(*made.triangles));
-    made.triangles.reset();
-    auto& [block, positions, tets, labels] = made.written;
-    figures_.add(made.written, made.quality, tets_);
-    tets_ += tets.size();
-    const std::vector<double> values = values_of(positions, tets);
+  void write(Index3 where, WrittenBlock&& made) {
+    auto& [block, positions, tets, labels] = made;
     const std::vector<std::uint64_t> rows = write_vertices(where, block, positions);
     give_rows(tets, rows);
     sink_.write_tets(tets, labels);
-    if (options_.values != nullptr) sink_.write_values(values);
   }
 
   void report(FinishedMesh& out) {
     out.vertices = rows_.count();
     out.max_remembered = rows_.max_remembered();
-    figures_.report(out);
-    if (!shape_) return;
-    out.shape = shape_->report();
-    out.max_shape_bytes = shape_->max_remembered();
   }
 
  private:
-  std::vector<double> values_of(std::span<const io::Position> positions,
-                                std::span<const io::TetRows> tets) {
-    if (options_.values == nullptr) return {};
-    const auto hold = [&](std::uint64_t bytes) { remembered_.values(bytes); };
-    return options_.values->of(positions, tets, hold);
-  }
-
   std::vector<std::uint64_t> write_vertices(Index3 where, const BlockMesh& block,
                                             const std::vector<io::Position>& positions) {
     remembered_.rows(Remembered::kBytesPerRow * (rows_.remembered() + block.vertices.size()));
@@ -158,9 +112,6 @@ class Writer {
   io::MeshSink& sink_;
   const OutputOptions& options_;
   Remembered remembered_;
-  BlockFigures figures_;
-  std::optional<InterfaceShape> shape_;
-  std::uint64_t tets_ = 0;  ///< tets written so far
 };
 
 }  // namespace
@@ -170,7 +121,6 @@ FinishedMesh finish(const FinalMesh& mesh, io::MeshSink& sink, const OutputOptio
   FinishedMesh out;
   VertexUses uses = count(mesh, selection, options, out);
   io::MeshHeader header = header_of(mesh.volume, selection, out.tets, options.promises);
-  if (options.values != nullptr) header.values = options.values->names();
   std::optional<ScoreSurface> surface;
   if (mesh.volume.raw().scores() != nullptr) {
     surface.emplace(mesh.volume);
@@ -181,10 +131,12 @@ FinishedMesh finish(const FinalMesh& mesh, io::MeshSink& sink, const OutputOptio
   sink.begin(header);
   Writer writer(mesh, selection, std::move(uses), sink, options);
   const Index3 blocks = mesh.grid.blocks();
-  each_in_order<MadeBlock>(
+  each_in_order<WrittenBlock>(
       options.work, static_cast<std::size_t>(blocks.product()),
       [&](std::size_t i) { return writer.make(index_at(i, blocks)); },
-      [&](std::size_t i, MadeBlock&& made) { writer.write(index_at(i, blocks), std::move(made)); });
+      [&](std::size_t i, WrittenBlock&& made) {
+        writer.write(index_at(i, blocks), std::move(made));
+      });
   sink.finish();
   writer.report(out);
   return out;

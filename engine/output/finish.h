@@ -3,20 +3,15 @@
 // The end of a run: final blocks become one mesh with global rows, in bounded memory (promise P6).
 #pragma once
 
-#include <algorithm>
-#include <array>
 #include <cstdint>
 #include <optional>
 #include <vector>
 
-#include "engine/output/cell_values.h"
 #include "engine/output/label_selection.h"
 #include "engine/output/remembered.h"
 #include "engine/system/in_order.h"
 #include "engine/window/window_grid.h"
 #include "io/mesh/mesh_sink.h"
-#include "kernels/audit/shape/quality.h"
-#include "kernels/audit/shape/shape.h"
 #include "kernels/core/index.h"
 #include "kernels/core/lattice.h"
 #include "kernels/mesh/block_mesh.h"
@@ -40,50 +35,23 @@ struct FinalMesh {
   const io::DenseVolume& volume;
 };
 
-/// What is written of the mesh, and what is measured.
+/// What is written of the mesh.
 struct OutputOptions {
   WantedLabel wanted;  ///< if empty, every label is written
   /// Optional; tets whose barycentres are in this box of the lattice are also counted apart.
   std::optional<Box3> within;
-  bool measure_quality = false;    ///< about 0.1 us a tet
-  bool measure_shape = false;      ///< volumes, area and bends; about 1 us a tet
-  bool measure_edges = false;      ///< the longest of each label, and their ratios
-  std::vector<double> edge_sizes;  ///< by dense label; 0 where none was asked for
-  HoldMemory hold;                 ///< optional
-  CellValues* values = nullptr;    ///< optional; what tets have beside labels; outlives the run
+  HoldMemory hold;                           ///< optional
   std::optional<io::MeshPromises> promises;  ///< written into the file; set by mesh_volume()
   Index3 layers{1, 1, 1};  ///< what the volume's voxels were cut into; set by mesh_volume()
   WorkInOrder work;        ///< how blocks are worked on; set by mesh_volume()
 };
 
-/// Counts edges of tets by length, as a share of the size that is asked for their label.  An edge
-/// counts for each tet that has it.
-struct EdgeRatios {
-  static constexpr std::array<double, 7> kBounds{0.2, 0.4, 0.6, 0.8, 1.0, 1.25, 1.5};
-  std::vector<std::uint64_t> counts = std::vector<std::uint64_t>(kBounds.size() + 1);
-
-  /// A ratio that equals a bound counts below that bound.
-  void add(double ratio) {
-    const auto bound = std::lower_bound(kBounds.begin(), kBounds.end(), ratio);
-    ++counts[static_cast<std::size_t>(bound - kBounds.begin())];
-  }
-};
-
-/// The finished mesh.
+/// What is known of a mesh that was written.
 struct FinishedMesh {
   std::uint64_t vertices = 0;
   std::uint64_t tets = 0;
-  std::uint64_t tets_within = 0;  ///< see OutputOptions::within
-  std::optional<audit::QualityReport> quality;
-  std::optional<audit::ShapeReport> shape;
-  /// By dense label with measure_shape, else empty: exactly six times the volume that is written,
-  /// in cubic units of the lattice.
-  std::vector<Int128> label_volumes6;
-  /// By dense label with measure_edges: in physical units, 0 where nothing is written.
-  std::vector<double> longest_edges;
-  EdgeRatios edge_ratios;             ///< with measure_edges
-  std::size_t max_remembered = 0;     ///< see VertexRows; 16 bytes each
-  std::uint64_t max_shape_bytes = 0;  ///< see InterfaceShape
+  std::uint64_t tets_within = 0;   ///< see OutputOptions::within
+  std::size_t max_remembered = 0;  ///< see VertexRows; 16 bytes each
 };
 
 /// Reads every block twice, first for counts and uses of vertices, then to write them in raster
@@ -91,8 +59,7 @@ struct FinishedMesh {
 /// Vertices ascend by the first block that references them, then by id; tets ascend by block and
 /// canonical order inside it.  Coordinates are those of the volume's space (to_world); layers do
 /// not move corners of the volume's voxels.  Tets are positive in these coordinates.  Memory: the
-/// blocks of `work`, what VertexRows and InterfaceShape remember, 16 bytes a label and the sink's
-/// buffers.
+/// blocks of `work`, what VertexRows remembers, 16 bytes a label and the sink's buffers.
 FinishedMesh finish(const FinalMesh& mesh, io::MeshSink& sink, const OutputOptions& options = {});
 
 }  // namespace mw::engine

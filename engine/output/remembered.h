@@ -26,15 +26,6 @@ class Remembered {
     rows_ = bytes;
     tell();
   }
-  void shape(std::uint64_t bytes) {
-    shape_ = bytes;
-    tell();
-  }
-  /// What CellValues holds for a block.
-  void values(std::uint64_t bytes) {
-    values_ = bytes;
-    tell();
-  }
   /// The lists that several processes send one another.
   void shared(std::uint64_t bytes) {
     shared_ = bytes;
@@ -46,7 +37,7 @@ class Remembered {
   static constexpr std::uint64_t kMaxStepBytes = 1 << 20;
 
   void tell() {
-    const std::uint64_t sum = rows_ + shape_ + shared_ + values_;
+    const std::uint64_t sum = rows_ + shared_;
     if (!hold_ || sum <= held_) return;
     held_ = sum + std::min(sum / 8 + kMinStepBytes, kMaxStepBytes);
     hold_(held_);
@@ -54,9 +45,7 @@ class Remembered {
 
   HoldMemory hold_;
   std::uint64_t rows_ = 0;
-  std::uint64_t shape_ = 0;
   std::uint64_t shared_ = 0;
-  std::uint64_t values_ = 0;
   std::uint64_t held_ = 0;
 };
 

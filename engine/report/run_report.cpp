@@ -139,27 +139,18 @@ Json engine_json(const FinishedRun& run) {
   return out;
 }
 
-Json all_interfaces_json(const std::optional<audit::ShapeReport>& shape) {
-  const audit::ShapeReport figures = shape.value_or(audit::ShapeReport{});
-  Json out = interfaces_json(figures);
-  out["bend_histogram"] = figures.bend_histogram;
-  for (Json::Field& field : out.items()) {
-    if (!shape) field.value = nullptr;
-  }
-  return out;
-}
-
 Json shape_json(const FinishedRun& run) {
   audit::VolumeMeter volumes;
   for_each_volume(run, [&](const audit::VolumeRow& row) { volumes.add(row); });
   Json out = volume_summary_json(volumes.summary(), run.labels);
-  out.update(all_interfaces_json(run.engine.shape));
+  out.update(interfaces_json(run.figures->shape));
+  out["bend_histogram"] = run.figures->shape.bend_histogram;
   out["per_label"] = kRows;
   return out;
 }
 
 Json run_quality_json(const FinishedRun& run) {
-  Json out = quality_json(run.engine.quality.value());
+  Json out = quality_json(run.figures->quality);
   out["radius_ratio_floor"] = run.radius_ratio_floor;
   return out;
 }
@@ -210,7 +201,7 @@ Json size_json(const FinishedRun& run) {
            {"labels_that_do_not_meet", unmet_json(run)}};
   // Edges are compared with the sizes of labels only.
   if (run.sizes.rules.labels.empty() && !run.sizes.rules.others) return out;
-  const engine::EdgeRatios& ratios = run.engine.edge_ratios;
+  const engine::EdgeRatios& ratios = run.figures->edge_ratios;
   out["edges_over_size"] = {{"bounds", ratios.kBounds}, {"counts", ratios.counts}};
   return out;
 }
@@ -220,7 +211,7 @@ void add_size(Label label, const FinishedRun& run, Json& row) {
   const std::optional<double> size = run.sizes.rules.of_label(run.labels.raw(label));
   if (!size) return;
   row["size"] = *size;
-  row["longest_edge"] = run.engine.longest_edges[label];
+  row["longest_edge"] = run.figures->longest_edges[label];
 }
 
 /// Returns the distances over all labels; there are none of single labels.
@@ -253,6 +244,14 @@ Json certificate_json(const FinishedRun& run) {
 
 }  // namespace
 
+void FinishedRun::take(const engine::FinishFacts& facts) {
+  engine.vertices = facts.vertices;
+  engine.tets = facts.tets;
+  certificate = facts.certificate;
+  connected = facts.connected;
+  figures = facts.figures;
+}
+
 double vertex_fraction(std::uint64_t vertices, Index3 shape) {
   const Index3 corners = shape + Index3{1, 1, 1};
   return static_cast<double>(vertices) / static_cast<double>(corners.product());
@@ -264,7 +263,8 @@ void for_each_volume(const FinishedRun& run,
   const std::int64_t parts = engine.lattice.layers.product();
   for (Label label = 0; label < engine.label_voxels.size(); ++label) {
     const std::uint64_t voxels = engine.label_voxels[label] / static_cast<std::uint64_t>(parts);
-    if (voxels > 0) visit(audit::volume_row(label, voxels, engine.label_volumes6[label], parts));
+    if (voxels > 0)
+      visit(audit::volume_row(label, voxels, run.figures->label_volumes6[label], parts));
   }
 }
 

@@ -7,6 +7,7 @@
 #include <functional>
 
 #include "engine/connect/connect_options.h"
+#include "engine/finish/finish_task.h"
 #include "engine/report/mesh_facts.h"
 #include "engine/run/run.h"
 #include "engine/sample/sample_text.h"
@@ -57,18 +58,22 @@ struct FinishedRun {
   std::string digest;           ///< empty if it was not made
   std::string fingerprint;      ///< of the labels
   std::optional<audit::AuditReport> certificate;  ///< empty if none was made
+  std::optional<engine::MeshFigures> figures;     ///< empty if not measured
   std::optional<io::Json> delta;                  ///< delta_json() (engine/job/volume_delta.h)
   std::optional<engine::ConnectFacts> connected;  ///< empty if not counted
   double radius_ratio_floor = 0;                  ///< of the tets that were written
   std::string why_no_certificate;
   std::string why_no_volumes;  ///< empty if the run promises volumes of labels (P8)
+
+  /// Takes what passes found over to where it belongs.
+  void take(const engine::FinishFacts& facts);
 };
 
 /// Returns the vertices of a mesh per corner of the volume's voxels.
 [[nodiscard]] double vertex_fraction(std::uint64_t vertices, Index3 shape);
 
 /// Returns the report without its rows of labels (kRows stands for them).
-/// REQUIRES: run.engine.quality and volumes.
+/// REQUIRES: run.figures.
 [[nodiscard]] io::Json run_report(const FinishedRun& run, const std::filesystem::path& mesh,
                                   io::Json settings);
 
@@ -77,7 +82,7 @@ void for_each_volume(const FinishedRun& run,
                      const std::function<void(const audit::VolumeRow&)>& visit);
 
 /// Appends the report; figures that were not measured are null.  Memory does not grow with labels.
-/// REQUIRES: run.engine.quality and volumes.
+/// REQUIRES: run.figures.
 void append_run_report(const FinishedRun& run, const std::filesystem::path& mesh, io::Json settings,
                        const AppendText& append);
 

@@ -139,17 +139,11 @@ OutputRoom reserve_output(RunContext& run, const BlockStore& blocks, const Windo
   return out;
 }
 
-void report_mesh(RunContext& run, FinishedMesh& finished, const LabelCounts& labels) {
+void report_mesh(RunContext& run, const FinishedMesh& finished, const LabelCounts& labels) {
   RunReport& report = run.report;
   report.vertices = finished.vertices;
   report.tets = finished.tets;
   report.tets_within = finished.tets_within;
-  report.quality = finished.quality;
-  report.shape = finished.shape;
-  if (finished.label_volumes6.empty()) return;
-  report.label_volumes6 = std::move(finished.label_volumes6);
-  report.longest_edges = std::move(finished.longest_edges);
-  report.edge_ratios = std::move(finished.edge_ratios);
   report.label_voxels = labels.voxels;
   const LabelSelection kept(run.hooks.output.wanted, run.lattice.volume().table());
   for (Label label = 0; label < report.label_voxels.size(); ++label) {
@@ -176,7 +170,8 @@ void write(RunContext& run, const LabelCounts& labels, RunForecast& forecast) {
   };
   forecast.begin_output();
   FinishedBlocks blocks(stored, run, forecast);
-  FinishedMesh finished = run.part->write({blocks, grid, run.lattice.volume()}, run.sink, options);
+  const FinishedMesh finished =
+      run.part->write({blocks, grid, run.lattice.volume()}, run.sink, options);
   watch.lap(run.report.output_seconds);
   report_mesh(run, finished, labels);
 }

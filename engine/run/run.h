@@ -43,12 +43,7 @@ struct RunReport : VisitStats {
   double inner_quality = 0.0;    ///< the value that was used, see MeshSettings
   double prepare_seconds = 0.0;  ///< labels: reading, coarsening, large cells
   double output_seconds = 0.0;
-  std::optional<audit::QualityReport> quality;  ///< when the hooks ask for it
-  std::optional<audit::ShapeReport> shape;      ///< like quality; empty if written together
-  std::vector<std::uint64_t> label_voxels;      ///< like quality; by dense label; 0 if not written
-  std::vector<Int128> label_volumes6;           ///< see FinishedMesh
-  std::vector<double> longest_edges;            ///< see FinishedMesh; with sizes only
-  EdgeRatios edge_ratios;                       ///< see FinishedMesh; with sizes only
+  std::vector<std::uint64_t> label_voxels;  ///< by dense label; 0 if it is not written
   std::uint64_t memory_budget_bytes = 0;
   std::uint64_t peak_accounted_bytes = 0;
   std::array<std::uint64_t, kPurposes> peak_bytes_by_purpose{};  ///< not at the same time

@@ -223,9 +223,7 @@ RunContext::RunContext(const io::DenseVolume& volume, const MeshSettings& wanted
 
 std::uint64_t RunContext::output_buffer_bytes() const {
   const std::uint64_t together = hooks.together == nullptr ? 0 : hooks.together->buffer_bytes();
-  const std::uint64_t values =
-      hooks.output.values == nullptr ? 0 : hooks.output.values->buffer_bytes();
-  return std::max(sink.buffer_bytes(), together) + values;
+  return std::max(sink.buffer_bytes(), together);
 }
 
 }  // namespace mw::engine

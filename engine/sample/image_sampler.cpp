@@ -22,8 +22,9 @@ namespace {
 constexpr double kLeastShare = 1e-6;
 /// Tiles begin at multiples of this, so that sums do not depend on what is read at once.
 constexpr std::int64_t kTile = 64;
-/// How many tets are looked at before memory is reported.
-constexpr std::size_t kBatch = 1024;
+/// How many tets are looked at together; for Statistic::kMode, whose tets hold lists of values,
+/// fewer.
+constexpr std::size_t kMostTets = 4096, kMostTetsOfMode = 128;
 /// The most different values of one tet for Statistic::kMode.
 constexpr std::size_t kMostValues = 4096;
 
@@ -117,7 +118,7 @@ void read_numbers(const io::LabelVolume& image, const Box3& box, std::vector<dou
 
 }  // namespace
 
-/// The tets of one block in one image.
+/// Some tets in one image.
 class ImageSampler::Sampling {
  public:
   Sampling(const SampleImage& sample, const io::VolumeSpace& space,
@@ -131,7 +132,7 @@ class ImageSampler::Sampling {
     }
   }
 
-  void run(Crew& crew, const HoldMemory& hold) {
+  void run(Crew& crew) {
     if (is_empty(all_)) return;
     const Index3 edge{kTile, kTile, kTile};
     std::vector<double> numbers;
@@ -139,7 +140,10 @@ class ImageSampler::Sampling {
       const Index3 lo{cell.x * kTile, cell.y * kTile, cell.z * kTile};
       const Box3 tile = intersection(all_, {lo, lo + edge});
       read_numbers(*sample_.image, tile, numbers);
-      look_at_all(tile, numbers, crew, hold);
+      crew.run([&] {
+        tbb::parallel_for(std::size_t{0}, tets_.size(),
+                          [&](std::size_t t) { look_at(t, tile, numbers); });
+      });
     });
   }
 
@@ -167,30 +171,10 @@ class ImageSampler::Sampling {
     }
   }
 
-  [[nodiscard]] std::uint64_t bytes() const {
-    std::uint64_t out =
-        points_.size() * sizeof points_[0] + tets_.size() * (sizeof(Tally) + sizeof(Box3));
-    for (const Tally& tally : tallies_) out += tally.shares.capacity() * sizeof tally.shares[0];
-    return out;
-  }
-
  private:
   [[nodiscard]] TetOverlap overlap(std::size_t t) const {
     const auto [a, b, c, d] = tets_[t];
     return TetOverlap({points_[a], points_[b], points_[c], points_[d]});
-  }
-
-  /// Looks at all tets in batches, and reports memory after each, since shares grow.
-  void look_at_all(const Box3& tile, const std::vector<double>& numbers, Crew& crew,
-                   const HoldMemory& hold) {
-    const std::size_t batch = sample_.statistic == Statistic::kMode ? kBatch : tets_.size();
-    for (std::size_t first = 0; first < tets_.size(); first += batch) {
-      const std::size_t last = std::min(first + batch, tets_.size());
-      crew.run([&] {
-        tbb::parallel_for(first, last, [&](std::size_t t) { look_at(t, tile, numbers); });
-      });
-      if (hold) hold(bytes());
-    }
   }
 
   void look_at(std::size_t t, const Box3& tile, const std::vector<double>& numbers) {
@@ -241,14 +225,35 @@ ImageSampler::ImageSampler(std::vector<SampleImage> images, const io::VolumeInfo
   }
 }
 
+std::uint64_t ImageSampler::cell_of(const std::array<io::Position, 4>& corners) const {
+  io::Position middle{};
+  for (const io::Position& corner : corners) {
+    for (std::size_t k = 0; k < 3; ++k) middle[k] += corner[k] / 4;
+  }
+  const io::Vector3 at = to_corner(spaces_.front(), middle);
+  constexpr double kMost = 1 << 20;
+  std::uint64_t out = 0;
+  for (std::size_t k = 3; k-- > 0;) {
+    const double tile = std::clamp(std::floor(at[k] / kTile), -kMost, kMost - 1);
+    out = out << 21U | static_cast<std::uint64_t>(tile + kMost);
+  }
+  return out;
+}
+
+std::size_t ImageSampler::most_tets() const {
+  const bool any_mode = std::any_of(images_.begin(), images_.end(), [](const SampleImage& image) {
+    return image.statistic == Statistic::kMode;
+  });
+  return any_mode ? kMostTetsOfMode : kMostTets;
+}
+
 std::vector<double> ImageSampler::of(std::span<const io::Position> positions,
-                                     std::span<const io::TetRows> tets, const HoldMemory& hold) {
+                                     std::span<const io::TetRows> tets) {
   if (!crew_) crew_.emplace(threads_);
   std::vector<double> out(tets.size() * images_.size());
   for (std::size_t i = 0; i < images_.size(); ++i) {
     Sampling sampling(images_[i], spaces_[i], positions, tets);
-    if (hold) hold(sampling.bytes() + out.size() * sizeof out[0]);
-    sampling.run(*crew_, hold);
+    sampling.run(*crew_);
     sampling.put(out, i, facts_[i]);
   }
   return out;
@@ -257,12 +262,16 @@ std::vector<double> ImageSampler::of(std::span<const io::Position> positions,
 std::uint64_t ImageSampler::buffer_bytes() const {
   constexpr std::uint64_t kTileBytes = kTile * kTile * kTile * (sizeof(double) + sizeof(RawLabel));
   constexpr std::uint64_t kPerThread = std::uint64_t{64} << 10U;
-  constexpr std::uint64_t kPerColumn = std::uint64_t{1} << 20U;  // half of it in a sink
+  constexpr std::uint64_t kPerColumn = std::uint64_t{1} << 19U;
+  constexpr std::uint64_t kPerTet = sizeof(Tally) + sizeof(Box3) + 4 * sizeof(ImagePoint);
+  // A list grows to twice what is in it.
+  constexpr std::uint64_t kLists = 2 * kMostTetsOfMode * kMostValues * sizeof(Shares::value_type);
+  const std::uint64_t lists = most_tets() == kMostTetsOfMode ? kLists : 0;
   std::uint64_t largest = 0;
   for (const SampleImage& image : images_) {
-    largest += image.image->buffer_bytes(1);  // chunks are kept from block to block
+    largest += image.image->buffer_bytes(1);  // chunks are kept from tile to tile
   }
-  return largest + kTileBytes + kPerColumn * (1 + images_.size()) +
+  return largest + kTileBytes + lists + kMostTets * kPerTet + kPerColumn * (1 + images_.size()) +
          static_cast<std::uint64_t>(threads_) * kPerThread;
 }
 

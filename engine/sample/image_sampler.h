@@ -3,13 +3,16 @@
 // Values of tets from images beside the labels.
 #pragma once
 
+#include <array>
+#include <cstdint>
 #include <memory>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
-#include "engine/output/cell_values.h"
 #include "engine/system/crew.h"
+#include "io/mesh/mesh_sink.h"
 #include "io/volume/label_volume.h"
 #include "io/volume/number_volume.h"
 
@@ -48,18 +51,26 @@ struct SampleFacts {
 /// inside counts; a tet of which less than a millionth is inside has no value.
 /// For kMin and kMax a voxel counts if a millionth of the tet, or of the voxel, is in both.
 /// Thread safety: none; it has threads of its own.
-class ImageSampler : public CellValues {
+class ImageSampler {
  public:
   /// labels describes the volume that is meshed, and so the world that positions are in.
   /// ERRORS: mw::Error(kUsage) when an image has other units of length.
   ImageSampler(std::vector<SampleImage> images, const io::VolumeInfo& labels, int threads);
 
-  [[nodiscard]] const std::vector<std::string>& names() const override { return names_; }
+  /// Returns the names of the images.
+  [[nodiscard]] const std::vector<std::string>& names() const { return names_; }
+  /// Returns a number that tets share whose middles lie in one tile of the first image.
+  [[nodiscard]] std::uint64_t cell_of(const std::array<io::Position, 4>& corners) const;
+  /// Returns how many tets of() may be asked for at once.
+  [[nodiscard]] std::size_t most_tets() const;
+  /// Returns a row for each tet and a column for each name; NaN stands for unknown.  tets are rows
+  /// of `positions`.
+  /// ENSURES: the values of a tet depend on its corners alone.
   /// ERRORS: those of the images; kInput when a tet has too many values of an image for kMode.
   [[nodiscard]] std::vector<double> of(std::span<const io::Position> positions,
-                                       std::span<const io::TetRows> tets,
-                                       const HoldMemory& hold) override;
-  [[nodiscard]] std::uint64_t buffer_bytes() const override;
+                                       std::span<const io::TetRows> tets);
+  /// Returns the most bytes that it holds from the first tet to the last.
+  [[nodiscard]] std::uint64_t buffer_bytes() const;
   [[nodiscard]] std::vector<SampleFacts> facts() const { return facts_; }
 
  private:

@@ -14,12 +14,19 @@
 
 namespace mw::io {
 
-/// Drops a row when it is the middle of an edge and no tet's corner; rows that no tet names stay.
-/// All middles are given first, then all corners.  Memory: a quarter of a byte for each row.
-/// REQUIRES (all members): row < rows.
+/// Which rows of vertices stay, and what their numbers are when the others are gone.
+/// Where middles of edges are dropped, all of them are given first, then all corners of tets.
+/// Memory: a quarter of a byte for each row.  REQUIRES (all members): row < rows.
 class KeptRows {
  public:
+  /// All rows stay until they are dropped.
   explicit KeptRows(std::uint64_t rows = 0) { grow(rows); }
+  /// No row stays until it is kept.
+  [[nodiscard]] static KeptRows none(std::uint64_t rows) {
+    KeptRows out;
+    out.words_.assign(rows / 64 + 1, 0);
+    return out;
+  }
 
   /// Sets the number of rows.  REQUIRES: there are no fewer than before.
   void grow(std::uint64_t rows) { words_.resize(rows / 64 + 1, ~std::uint64_t{0}); }
@@ -29,8 +36,8 @@ class KeptRows {
   }
   /// True if there were middles; without them all rows stay as they are.
   [[nodiscard]] bool any() const { return any_; }
-  void corner(std::uint64_t row) { words_[row / 64] |= bit(row); }
-  /// Numbers the rows that stay.  To be called after the last corner.
+  void keep(std::uint64_t row) { words_[row / 64] |= bit(row); }
+  /// Numbers the rows that stay.  To be called after the last change.
   void number() {
     before_.assign(words_.size(), 0);
     for (std::size_t i = 1; i < words_.size(); ++i) {
@@ -38,6 +45,10 @@ class KeptRows {
     }
   }
 
+  /// Returns how many rows stay.  REQUIRES: number().
+  [[nodiscard]] std::uint64_t count() const {
+    return before_.back() + static_cast<std::uint64_t>(std::popcount(words_.back()));
+  }
   [[nodiscard]] bool stays(std::uint64_t row) const { return (words_[row / 64] & bit(row)) != 0; }
   /// Returns the new number of a row: how many rows before it stay.  REQUIRES: number().
   [[nodiscard]] std::uint64_t operator[](std::uint64_t row) const {
@@ -58,7 +69,7 @@ class KeptRows {
 inline void drop_middles(MeshData& mesh, KeptRows& middles) {
   if (!middles.any()) return;
   for (const TetRows& tet : mesh.tets) {
-    for (const std::uint64_t row : tet) middles.corner(row);
+    for (const std::uint64_t row : tet) middles.keep(row);
   }
   middles.number();
   for (TetRows& tet : mesh.tets) {

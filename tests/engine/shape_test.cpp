@@ -6,6 +6,7 @@
 
 #include "kernels/audit/shape/shape.h"
 #include "kernels/audit/shape/volumes.h"
+#include "tests/engine/figures_of.h"
 #include "tests/engine/memory_run.h"
 
 namespace mw::engine {
@@ -27,6 +28,7 @@ SmallVolume body(std::int64_t edge, std::size_t labels, LabelAt label_at) {
 
 struct Result {
   RunReport report;
+  MeshFigures figures;
   SmallMesh mesh;
 
   /// The largest share by which a label's volume is off.
@@ -34,7 +36,7 @@ struct Result {
     double max = 0.0;
     for (std::size_t l = 0; l < report.label_voxels.size(); ++l) {
       const auto row = audit::volume_row(static_cast<Label>(l), report.label_voxels[l],
-                                         report.label_volumes6[l]);
+                                         figures.label_volumes6[l]);
       max = std::max(max, std::abs(row.error));
     }
     return max;
@@ -45,12 +47,13 @@ Result run(const SmallVolume& voxels, const MeshSettings& settings = {}) {
   const MemoryVolume volume(voxels, {});
   const io::LabelTable table = io::collect_labels(volume);
   RunHooks hooks;
-  hooks.output.measure_shape = hooks.output.measure_quality = true;
   MemorySink sink;
   Result out;
-  out.report = mesh_volume(io::DenseVolume(volume, table), settings, sink, hooks);
+  const io::DenseVolume labels(volume, table);
+  out.report = mesh_volume(labels, settings, sink, hooks);
+  out.figures = figures_of(sink.mesh(), labels);
   out.mesh = small_mesh(sink.mesh());
-  EXPECT_GE(out.report.quality->radius_ratio_min, 0.2 - 1e-9);
+  EXPECT_GE(out.figures.quality.radius_ratio_min, 0.2 - 1e-9);
   return out;
 }
 
@@ -108,10 +111,10 @@ TEST(SmoothSurface, BallsKeepTheirVolumeAndHaveNoDents) {
     SCOPED_TRACE("radius " + std::to_string(radius));
     const Result r = run(ball(radius, centre, edge));
     EXPECT_LT(r.volume_error(), 0.0025);
-    EXPECT_LT(r.report.shape->sharp_share, 0.01);
+    EXPECT_LT(r.figures.shape.sharp_share, 0.01);
     if (radius < 12) continue;
-    EXPECT_LT(r.report.shape->bend_max_deg, 60.0);
-    bends += r.report.shape->bend_max_deg;
+    EXPECT_LT(r.figures.shape.bend_max_deg, 60.0);
+    bends += r.figures.shape.bend_max_deg;
     balls += 1.0;
   }
   // Of 16 other balls one had an edge that contraction left at more than 45 degrees.
@@ -131,7 +134,7 @@ TEST(SmoothSurface, BallsHaveNoKnots) {
     for (int i = 0; i < kBalls; ++i) {
       const double radius = between(10, 13);
       const Vec3 centre(between(17.5, 18.5), between(17.5, 18.5), between(17.5, 18.5));
-      sum += run(ball(radius, centre, 36), settings).report.shape->bend_max_deg;
+      sum += run(ball(radius, centre, 36), settings).figures.shape.bend_max_deg;
     }
     EXPECT_LT(sum / kBalls, most) << "size " << size;
   }
@@ -158,7 +161,7 @@ TEST(SmoothSurface, TiltedPlanesAreFlat) {
     EXPECT_LT(tilt, 4.0);
     EXPECT_LT(r.volume_error(), 0.001);
     tilts += tilt;
-    bends += r.report.shape->bend_p95_deg;
+    bends += r.figures.shape.bend_p95_deg;
   }
   EXPECT_LT(tilts / static_cast<double>(ways.size()), 1.0);
   EXPECT_LT(bends / static_cast<double>(ways.size()), 10.0);
@@ -184,9 +187,9 @@ TEST(SmoothSurface, FlatLayersAreFlatToTheLastBit) {
     }
     const Result r = run(layers(i % 3, ends, 48));
     for (std::size_t l = 0; l < r.report.label_voxels.size(); ++l) {
-      EXPECT_EQ(r.report.label_volumes6[l], Int128{kVoxelVolume6} * r.report.label_voxels[l]);
+      EXPECT_EQ(r.figures.label_volumes6[l], Int128{kVoxelVolume6} * r.report.label_voxels[l]);
     }
-    EXPECT_EQ(r.report.shape->bend_max_deg, 0.0);
+    EXPECT_EQ(r.figures.shape.bend_max_deg, 0.0);
   }
 }
 
@@ -198,7 +201,7 @@ TEST(SmoothSurface, ThinLayersBetweenTwoOthersAreFlat) {
       for (const std::int64_t place : {7, 12, 19}) {
         const Result r = run(layers(axis, {place, place + thickness}, 32, 3));
         EXPECT_LT(r.volume_error(), 0.001);
-        EXPECT_LT(r.report.shape->bend_max_deg, 1.0);
+        EXPECT_LT(r.figures.shape.bend_max_deg, 1.0);
       }
     }
   }
@@ -211,7 +214,7 @@ TEST(SmoothSurface, PlatesOfOneVoxelAreFlatAndNotThick) {
     for (std::int64_t place = 14; place < 26; ++place) {
       const Result r = run(layers(axis, {place, place + 1}, 40));
       EXPECT_LT(r.volume_error(), 0.005);
-      EXPECT_LT(r.report.shape->bend_p95_deg, 1.0);
+      EXPECT_LT(r.figures.shape.bend_p95_deg, 1.0);
     }
   }
 }
@@ -227,7 +230,7 @@ TEST(SmoothSurface, StacksOfThinLayersAreFlat) {
     }
     const Result r = run(layers(i % 3, ends, 33, static_cast<std::uint32_t>(ends.size()) + 1));
     EXPECT_LT(r.volume_error(), 0.005);
-    EXPECT_LT(r.report.shape->bend_p95_deg, 1.0);
+    EXPECT_LT(r.figures.shape.bend_p95_deg, 1.0);
   }
 }
 
@@ -267,7 +270,7 @@ TEST(SmoothSurface, TwoVoxelSheetsAreFlatOnBothSides) {
   const Result r = run(body(64, 2, [&](const Vec3& p) {
     return std::abs((p - Vec3(32, 32, 32)).dot(normal)) < 1 ? 1U : 0U;
   }));
-  EXPECT_LT(r.report.shape->sharp_share, 0.01);
+  EXPECT_LT(r.figures.shape.sharp_share, 0.01);
   EXPECT_LT(r.volume_error(), 0.015);
   EXPECT_LT(mean_tilt(r.mesh, 64, normal), 1.0);
 }
@@ -278,12 +281,12 @@ TEST(SmoothSurface, TubesAndToriKeepTheirVolume) {
     return (p - Vec3(20, 20, 20)).cross(way).norm() < 6 ? 1U : 0U;
   }));
   EXPECT_LT(tube.volume_error(), 0.01);
-  EXPECT_LT(tube.report.shape->sharp_share, 0.01);
+  EXPECT_LT(tube.figures.shape.sharp_share, 0.01);
   const Result torus = run(body(48, 2, [](const Vec3& p) {
     return std::hypot(std::hypot(p[0] - 24, p[1] - 24) - 14, p[2] - 24) < 5 ? 1U : 0U;
   }));
   EXPECT_LT(torus.volume_error(), 0.01);
-  EXPECT_LT(torus.report.shape->sharp_share, 0.03);
+  EXPECT_LT(torus.figures.shape.sharp_share, 0.03);
 }
 
 /// Edges of about the size of the threads must not pull them tight.
@@ -352,7 +355,7 @@ TEST(SmoothSurface, Promise8HoldsBetweenThreads) {
     if (i % 6 == 3) settings.start = StartMesh::kDense;
     const Result r = run(volume, settings);
     audit::VolumeRow row =
-        audit::volume_row(0, r.report.label_voxels[0], r.report.label_volumes6[0]);
+        audit::volume_row(0, r.report.label_voxels[0], r.figures.label_volumes6[0]);
     row.faces_a_voxel = static_cast<double>(faces_of(volume, 0)) / static_cast<double>(row.voxels);
     EXPECT_LT(std::abs(row.error), audit::volume_bound(row, 0.05)) << i;
   }
@@ -365,7 +368,7 @@ TEST(SmoothSurface, Promise8HoldsOfSheetsThatTouchAlongEdges) {
   const auto expect_promise = [](const SmallVolume& sheet, double thickness) {
     const Result r = run(sheet);
     audit::VolumeRow row =
-        audit::volume_row(1, r.report.label_voxels[1], r.report.label_volumes6[1]);
+        audit::volume_row(1, r.report.label_voxels[1], r.figures.label_volumes6[1]);
     row.faces_a_voxel = static_cast<double>(faces_of(sheet, 1)) / static_cast<double>(row.voxels);
     EXPECT_LT(std::abs(row.error), audit::volume_bound(row, 0.05)) << thickness;
   };
@@ -395,13 +398,13 @@ TEST(SmoothSurface, TwoLabelsShareABall) {
     return (p - centre).dot(normal) < 0 ? 1U : 2U;
   }));
   EXPECT_LT(r.volume_error(), 0.0025);
-  EXPECT_LT(r.report.shape->sharp_share, 0.02);
+  EXPECT_LT(r.figures.shape.sharp_share, 0.02);
 }
 
 TEST(SmoothSurface, InterfacesKeptAreSmoothAsWell) {
   const Result r = run(ball(14, {20.3, 19.8, 20.1}, 40), {.topology = KeptTopology::kInterfaces});
   EXPECT_LT(r.volume_error(), 0.005);
-  EXPECT_LT(r.report.shape->sharp_share, 0.02);
+  EXPECT_LT(r.figures.shape.sharp_share, 0.02);
 }
 
 }  // namespace

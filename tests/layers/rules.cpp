@@ -116,15 +116,18 @@ const Room kRooms[] = {
     {"engine/forecast/",
      {"engine/settings/", "engine/labels/", "engine/march/", "engine/store/run_layout.h"}},
     {"engine/output/", {"engine/system/", "engine/window/window_grid.h"}},
-    // Looks at a mesh on its way into a file, and knows no run.
+    // Looks at a finished mesh, and knows no run.
     {"engine/connect/", {"engine/settings/"}},
+    // All that is done to a finished mesh before a file of it is written; it knows no run, either.
+    {"engine/finish/",
+     {"engine/connect/", "engine/output/label_selection.h", "engine/sample/", "engine/settings/",
+      "engine/system/", "engine/verify/"}},
     // Values of tets from images beside the labels.
-    {"engine/sample/",
-     {"engine/output/cell_values.h", "engine/output/remembered.h", "engine/system/"}},
+    {"engine/sample/", {"engine/system/"}},
     {"engine/verify/", {"engine/labels/", "engine/system/"}},
     {"engine/report/",
-     {"engine/connect/connect_options.h", "engine/run/run.h", "engine/sample/", "engine/settings/",
-      "engine/system/", "engine/verify/", "engine/version.h"}},
+     {"engine/connect/connect_options.h", "engine/finish/", "engine/run/run.h", "engine/sample/",
+      "engine/settings/", "engine/system/", "engine/verify/", "engine/version.h"}},
     // The run puts the rooms together, and knows no more of other processes than an interface.
     {"engine/run/",
      {"engine/codt/", "engine/forecast/", "engine/keep/", "engine/labels/", "engine/march/",

@@ -6,18 +6,19 @@
 #include "engine/cli/command.h"
 #include "engine/cli/exit_code.h"
 #include "engine/cli/info/info_text.h"
-#include "engine/cli/info/shape_sink.h"
 #include "engine/cli/info/volume_facts.h"
 #include "engine/cli/options/shared_options.h"
 #include "engine/cli/options/values.h"
 #include "engine/cli/options/volume_options.h"
-#include "engine/connect/connected_sink.h"
+#include "engine/connect/connect_mesh.h"
+#include "engine/finish/interface_shape.h"
 #include "io/file/errors.h"
 #include "io/mesh/digest.h"
 #include "io/mesh/grouped/grouped_sink.h"
 #include "io/mesh/merged_vertices.h"
 #include "io/mesh/mesh_sink.h"
 #include "io/mesh/open_mesh.h"
+#include "io/mesh/scratch_mesh.h"
 
 namespace mw::cli {
 namespace {
@@ -31,6 +32,8 @@ struct InfoJob {
   bool csv = false;
 };
 
+constexpr std::size_t kSortBytes = 8 << 20;
+
 MeshInfo look_at_mesh(const InfoJob& job) {
   std::optional<VolumeSide> volume;
   io::LabelNames more_names;
@@ -40,29 +43,28 @@ MeshInfo look_at_mesh(const InfoJob& job) {
   } else if (!job.volume.names.empty()) {
     more_names = names_in(job.volume.names);
   }
-  io::GroupedSink sink(io::scratch_folder(), nullptr);
-  io::DigestSink digest(io::scratch_folder());
-  ShapeSink shape(io::scratch_folder());
-  io::TeeSink measured(sink, shape);
-  io::MergedVertices merged(measured, io::scratch_folder());
-  io::NoSink nowhere;
-  engine::ConnectedSink connected(nowhere, {.options = {}, .folder = io::scratch_folder()});
-  io::TeeSink told(merged,
-                   connected);  // `merged` is first: it checks rows before their places are told
-  io::TeeSink all(told, digest);
-  io::copy_mesh(job.file, all);
-  io::GroupedMesh& mesh = sink.mesh();
+  const std::filesystem::path folder = io::scratch_folder();
+  io::ScratchMesh stored(folder), single(folder);
+  io::ScratchMeshSink from_file(stored), into_single(single);
+  io::copy_mesh(job.file, from_file);
+  io::MergedVertices merged(into_single, folder);
+  stored.copy_to(merged);
+  io::GroupedSink grouped(folder, nullptr);  // it checks rows before others look up their vertices
+  single.copy_to(grouped);
+  io::DigestSink digest(folder);
+  stored.copy_to(digest);
+  io::GroupedMesh& mesh = grouped.mesh();
   return {.file = job.file.string(),
           .vertices = mesh.vertex_count() + merged.merged(),
           .tets = mesh.tet_count(),
           .curved = mesh.header().in_parts ? mesh.tet_count() / kTetParts.size() : 0,
           .doubled = merged.merged(),
-          .parts = connected.facts().value(),
+          .parts = engine::connect(stored, {}),
           .table = mesh.table(),
           .names = mesh.names().merged_with(more_names),
           .mesh = measure_mesh(mesh, job.betti),
           .volume = std::move(volume),
-          .shape = shape.shape(),
+          .shape = engine::interface_shape(single, kSortBytes),
           .digest = digest.digest(),
           .cohesive = mesh.header().record.cohesive};
 }

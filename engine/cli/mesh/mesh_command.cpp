@@ -12,7 +12,7 @@
 #include "engine/cli/mesh/run_processes.h"
 #include "engine/cli/options/values.h"
 #include "engine/cli/page/run_page.h"
-#include "engine/connect/connected_sink.h"
+#include "engine/finish/passes.h"
 #include "engine/report/run_report.h"
 #include "engine/settings/promises.h"
 #include "engine/settings/size_text.h"
@@ -24,6 +24,7 @@
 #include "io/mesh/grouped/grouped_sink.h"
 #include "io/mesh/mesh_sink.h"
 #include "io/mesh/open_mesh.h"
+#include "io/mesh/scratch_mesh.h"
 #include "io/remote/wait_stop.h"
 #include "io/volume/cropped_volume.h"
 #include "io/volume/open_volume.h"
@@ -57,34 +58,29 @@ struct MeshFiles {
     if (!request.html.empty()) html.emplace(request.html);
     if (!request.report.empty()) report.emplace(request.report);
     if (!request.delta.empty()) delta.emplace(request.delta);
-    if (has_no_sink(shared)) return;
-    counted.emplace(*sink, tets);
-    if (!request.job.is_measured) return;
+    if (has_no_sink(shared) || !request.job.is_measured) return;
     digest.emplace(request.output.parent_path(), digest_memory(request.job.run.store.memory));
-    both.emplace(*counted, *digest);
-    if (!html) return;
-    grouped.emplace(request.output.parent_path(), nullptr);
-    three.emplace(*both, *grouped);
+    if (html) grouped.emplace(request.output.parent_path(), nullptr);
   }
 
-  /// Returns where the mesh goes.
-  [[nodiscard]] io::MeshSink& all() {
-    if (three) return *three;
-    if (both) return *both;
-    return counted ? static_cast<io::MeshSink&>(*counted) : *sink;
+  /// Returns where the mesh goes; the file with its name comes last.
+  [[nodiscard]] std::vector<io::MeshSink*> all() {
+    if (has_no_sink(shared)) return {sink.get()};
+    std::vector<io::MeshSink*> out{&tets};
+    if (digest) out.push_back(&*digest);
+    if (grouped) out.push_back(&*grouped);
+    out.push_back(sink.get());
+    return out;
   }
 
   SharedOutput shared;
   std::unique_ptr<io::MeshSink> sink;
   LabelTets tets;
-  std::optional<io::TeeSink> counted;
   std::optional<io::AtomicFile> report;
   std::optional<io::AtomicFile> html;
   std::optional<io::AtomicFile> delta;
-  std::optional<io::DigestSink> digest;  ///< for report and page; it waits beside the output
-  std::optional<io::TeeSink> both;
+  std::optional<io::DigestSink> digest;    ///< for report and page; it waits beside the output
   std::optional<io::GroupedSink> grouped;  ///< for the page; it waits there, too
-  std::optional<io::TeeSink> three;
   std::optional<TraceFile> trace;
 };
 
@@ -172,17 +168,13 @@ report::FinishedRun mesh_into(const MeshRequest& request, const io::LabelVolume&
   }
 }
 
-/// Counts parts and hinges in a mesh that several processes have written.
-std::optional<engine::ConnectFacts> parts_of_file(const MeshRequest& request,
-                                                  const io::LabelTable& labels) {
-  io::NoSink nowhere;
-  const engine::MeshJob& job = request.job;
-  engine::ConnectedSink sink(
-      nowhere, {.options = {.watched = engine::sized_interfaces(job, labels)},
-                .folder = job.folder.empty() ? "." : job.folder,
-                .memory_bytes = engine::ConnectTask::memory_of(job.run.store.memory)});
-  io::copy_mesh(request.output, sink);
-  return sink.facts();
+/// Looks at a mesh that several processes have written.
+void look_at_file(const MeshRequest& request, report::FinishedRun& run) {
+  const std::filesystem::path& folder = request.job.folder;
+  io::ScratchMesh mesh(folder.empty() ? "." : folder);
+  io::ScratchMeshSink into(mesh);
+  io::copy_mesh(request.output, into);
+  run.take(engine::apply_passes(mesh, engine::looking_task(request.job, run)));
 }
 
 /// Says who wrote the mesh, where that could be several processes.
@@ -346,9 +338,7 @@ int mesh(MeshRequest& request, const OptionSet& options) {
   }
   report::FinishedRun run = mesh_into(request, *volume, files);
   if (!run_processes().speaks()) return kExitDone;
-  if (!run.connected && files.shared.mesh != nullptr) {
-    run.connected = parts_of_file(request, run.labels);
-  }
+  if (files.shared.mesh != nullptr) look_at_file(request, run);
   tell_resume(request, run.engine.store);
   if (run.engine.keep) tell_keep(*run.engine.keep);
   run.resources = meter.read();

@@ -63,8 +63,8 @@ std::vector<BarRow> edge_rows(const engine::EdgeRatios& ratios) {
 }
 
 std::string shape_section(const report::FinishedRun& run) {
-  const audit::QualityReport& quality = run.engine.quality.value();
-  const audit::ShapeReport& shape = run.engine.shape.value();
+  const audit::QualityReport& quality = run.figures->quality;
+  const audit::ShapeReport& shape = run.figures->shape;
   std::string out = "<section><h2>Shape</h2><div class=\"charts\">\n";
   out += histogram_figure({.title = "Radius ratio",
                            .note = "of tets; 1 is regular",
@@ -85,7 +85,7 @@ std::string shape_section(const report::FinishedRun& run) {
   out += histogram_figure(volume_errors(run));
   if (run.sizes.rules.any()) {
     out += bar_figure("Edges, as shares of the size that was asked",
-                      edge_rows(run.engine.edge_ratios));
+                      edge_rows(run.figures->edge_ratios));
   }
   return out + "</div></section>\n";
 }

@@ -2,8 +2,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "engine/team/output/team_output.h"
 
-#include <functional>
-
 #include "engine/output/remembered.h"
 #include "engine/output/written_block.h"
 #include "engine/team/output/part_rows.h"
@@ -44,35 +42,6 @@ AllRows rows_before(Team& team, const LineShare& share, const std::vector<LineRo
   return out;
 }
 
-/// Returns the options with the measures that rank 0 asks for.
-OutputOptions asked_by_first(Team& team, OutputOptions options) {
-  struct Wishes {
-    bool quality, shape, edges;
-  };
-  const Wishes mine{options.measure_quality, options.measure_shape, options.measure_edges};
-  const Wishes first = list_of<Wishes>(team.gather(bytes_of(&mine, 1)).at(0)).at(0);
-  options.measure_quality = first.quality;
-  options.measure_shape = first.shape;
-  options.measure_edges = first.edges;
-  return options;
-}
-
-/// Adds up the figures of all ranks, on rank 0.
-void add_up(Team& team, BlockFigures& mine) {
-  if (mine.quality) {
-    audit::QualityMeter sum;
-    for (const auto& said : team.gather(bytes_of(&*mine.quality, 1))) {
-      sum.add(list_of<audit::QualityMeter>(said).at(0));
-    }
-    mine.quality = sum;
-  }
-  if (mine.edges) {
-    fold_lists(team, mine.edges->squares(), [](double a, double b) { return std::max(a, b); });
-    fold_lists(team, mine.edges->ratios().counts, std::plus<>());
-  }
-  fold_lists(team, mine.volumes6, std::plus<>());
-}
-
 /// The part of the mesh that one rank writes.
 class PartOfMesh {
  public:
@@ -84,8 +53,7 @@ class PartOfMesh {
         layers_(options.layers),
         selection_(options.wanted, volume_.table()),
         remembered_(options.hold),
-        uses_(mesh.grid),
-        figures_(options, volume_.table().size()) {}
+        uses_(mesh.grid) {}
 
   /// Makes the first two passes.  Returns how many rows there are in all.
   LineRows number() {
@@ -114,14 +82,11 @@ class PartOfMesh {
         share_,
         [&](std::size_t) {
           const LineRows& at = places_.own[line++];
-          next_tet_ = at.tets;
           mesh.go_to({.vertex = at.vertices, .tet = at.tets});
         },
         [&](Index3 b) { write(b, mesh); });
     mesh.sync();
   }
-
-  [[nodiscard]] BlockFigures& figures() { return figures_; }
 
   [[nodiscard]] io::MeshHeader header(const OutputOptions& options) const {
     return header_of(volume_, selection_, places_.all.tets, options.promises);
@@ -178,8 +143,6 @@ class PartOfMesh {
     std::vector<io::Position> added;
     for (std::size_t v : assigned.added) added.push_back(made.positions[v]);
     mesh.write_vertices(added);
-    figures_.add(made, figures_.quality ? quality_of(made) : audit::QualityMeter(), next_tet_);
-    next_tet_ += made.tets.size();
     give_rows(made.tets, assigned.rows);
     mesh.write_tets(made.tets, made.labels);
   }
@@ -195,8 +158,6 @@ class PartOfMesh {
   std::vector<LineRows> lines_;  ///< of own lines, ascending
   AllRows places_;
   std::optional<PartRows> rows_;
-  BlockFigures figures_;
-  std::uint64_t next_tet_ = 0;
 };
 
 }  // namespace
@@ -215,21 +176,16 @@ bool join_output(Team& team, io::SharedMesh* mesh) {
 }
 
 FinishedMesh finish_together(const FinalMesh& mesh, const TeamOutput& output,
-                             const OutputOptions& asked) {
+                             const OutputOptions& options) {
   Team& team = output.team;
-  const OutputOptions options = asked_by_first(team, asked);
   PartOfMesh part(mesh, output, options);
   const LineRows all = part.number();
   if (team.is_first()) output.file.lay_out(part.header(options), all.vertices);
   (void)team.gather(std::string());  // no rank opens the file until it has its size
   part.write(output.file, options);
   (void)team.gather(std::string());  // all rows are on the disk
-  add_up(team, part.figures());
-  FinishedMesh out{.vertices = all.vertices, .tets = all.tets};
-  if (!team.is_first()) return out;
-  part.figures().report(out);
-  output.file.finish();
-  return out;
+  if (team.is_first()) output.file.finish();
+  return {.vertices = all.vertices, .tets = all.tets};
 }
 
 }  // namespace mw::engine

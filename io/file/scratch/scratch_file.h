@@ -94,8 +94,9 @@ class ScratchFile {
 };
 
 /// Records are appended, and looked up through a cache of pages, which is fast where neighbours are
-/// asked for together.  Memory: 8 MiB.  ERRORS: see ScratchFile.
-template <typename Record>
+/// asked for together.  Memory: 4 KiB for each of the pages, once they are used.
+/// ERRORS: see ScratchFile.
+template <typename Record, std::size_t kPages = 2048>
 class PagedFile {
   static_assert(std::is_trivially_copyable_v<Record>);
 
@@ -111,6 +112,11 @@ class PagedFile {
     file_.append(std::as_bytes(std::span(&record, 1)));
   }
   [[nodiscard]] std::uint64_t size() const { return file_.size() / sizeof(Record); }
+  /// Calls visit(std::span<const Record>) on all records in their order, some thousands at once.
+  template <class Visit>
+  void each_batch(Visit visit) {
+    file_.template each_batch<Record>(visit);
+  }
   /// REQUIRES: at < size().
   [[nodiscard]] Record operator[](std::uint64_t at) {
     const std::uint64_t page = at / kPageRecords;
@@ -121,7 +127,6 @@ class PagedFile {
 
  private:
   static constexpr std::size_t kPageRecords = 4096 / sizeof(Record);
-  static constexpr std::size_t kPages = 2048;
   static constexpr std::uint64_t kNone = ~std::uint64_t{0};
 
   void load(std::uint64_t page, std::size_t slot) {

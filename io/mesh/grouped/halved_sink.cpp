@@ -15,8 +15,9 @@ constexpr std::size_t kHalvedBatch = 512;  ///< uncut tets whose parts are passe
 /// Passes on the eight parts of each tet of a mesh with ten nodes a tet.
 class HalvedWriter : public GroupedWriter {
  public:
-  HalvedWriter(MeshSink& below, SeeTet see, const std::optional<HalvedCurves>& curves)
-      : below_(below), see_(std::move(see)), curves_(curves) {}
+  HalvedWriter(MeshSink& below, const std::optional<HalvedCurves>& curves,
+               std::function<void()> between)
+      : below_(below), curves_(curves), between_(std::move(between)) {}
 
   void write(GroupedMesh& mesh) override {
     MeshHeader header = mesh.header();
@@ -39,11 +40,10 @@ class HalvedWriter : public GroupedWriter {
   void add_parts_of(GroupedMesh& mesh, std::uint64_t tet) {
     const NodeRows rows = mesh.tet_nodes(tet);
     const RawLabel label = mesh.table().raw(mesh.label_of(tet));
-    std::array<Position, 10> nodes{};
     std::array<Vec3, 10> places;
-    for (std::size_t i = 0; i < nodes.size(); ++i) {
-      nodes[i] = mesh.node(rows.begin()[i]);
-      places[i] = {nodes[i][0], nodes[i][1], nodes[i][2]};
+    for (std::size_t i = 0; i < places.size(); ++i) {
+      const auto [x, y, z] = mesh.node(rows.begin()[i]);
+      places[i] = {x, y, z};
     }
     for (const auto& [a, b, c, d] : halved_tet(places)) {
       rows_.push_back({rows.begin()[a], rows.begin()[b], rows.begin()[c], rows.begin()[d]});
@@ -51,11 +51,11 @@ class HalvedWriter : public GroupedWriter {
       for (std::size_t k = 0; k < mesh.header().values.size(); ++k) {
         values_.push_back(mesh.value(tet, k));
       }
-      if (see_) see_({nodes[a], nodes[b], nodes[c], nodes[d]}, label);
     }
   }
 
   void flush() {
+    between_();
     below_.write_tets(rows_, labels_);
     if (!values_.empty()) below_.write_values(values_);
     rows_.clear();
@@ -64,8 +64,8 @@ class HalvedWriter : public GroupedWriter {
   }
 
   MeshSink& below_;
-  SeeTet see_;
   std::optional<HalvedCurves> curves_;
+  std::function<void()> between_;
   std::vector<TetRows> rows_;
   std::vector<RawLabel> labels_;
   std::vector<double> values_;
@@ -78,9 +78,9 @@ std::optional<CurveRule> rule_of(const std::optional<HalvedCurves>& curves) {
 
 }  // namespace
 
-HalvedSink::HalvedSink(MeshSink& below, const std::filesystem::path& folder, SeeTet see,
-                       const std::optional<HalvedCurves>& curves)
-    : GroupedSink(folder, std::make_unique<HalvedWriter>(below, std::move(see), curves),
+HalvedSink::HalvedSink(MeshSink& below, const std::filesystem::path& folder,
+                       const std::optional<HalvedCurves>& curves, std::function<void()> between)
+    : GroupedSink(folder, std::make_unique<HalvedWriter>(below, curves, std::move(between)),
                   Element::kTet10, rule_of(curves)),
       below_(below) {}
 

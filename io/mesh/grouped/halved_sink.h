@@ -9,9 +9,6 @@
 
 namespace mw::io {
 
-/// Called for each tet that is written, in the order of the mesh.
-using SeeTet = std::function<void(const std::array<Position, 4>& corners, RawLabel label)>;
-
 /// How interfaces become smoother while tets are cut.
 struct HalvedCurves {
   double most_move = 0;                ///< no vertex and no middle of an edge moves farther
@@ -26,8 +23,10 @@ struct HalvedCurves {
 /// Memory and disk: those of a GroupedSink with kTet10.  REQUIRES: the sink below outlives it.
 class HalvedSink : public GroupedSink {
  public:
-  HalvedSink(MeshSink& below, const std::filesystem::path& folder, SeeTet see = {},
-             const std::optional<HalvedCurves>& curves = {});
+  /// between is called for each batch of tets that is passed on, and may throw.
+  HalvedSink(
+      MeshSink& below, const std::filesystem::path& folder,
+      const std::optional<HalvedCurves>& curves = {}, std::function<void()> between = [] {});
   [[nodiscard]] std::uint64_t buffer_bytes() const override;
 
  private:

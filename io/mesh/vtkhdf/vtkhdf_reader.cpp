@@ -265,7 +265,7 @@ class Reader {
     for (std::size_t part = 0; part < parts_.size(); ++part) {
       each_batch(part, [&](const std::vector<TetRows>& tets, const auto&, const auto&) {
         for (const TetRows& tet : tets) {
-          for (const std::uint64_t row : tet) rows_.corner(row);
+          for (const std::uint64_t row : tet) rows_.keep(row);
         }
       });
     }

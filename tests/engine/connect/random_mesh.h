@@ -1,11 +1,11 @@
 // SPDX-FileCopyrightText: The mwmesh authors
 // SPDX-License-Identifier: Apache-2.0
-// Small meshes, and what ConnectedSink makes of them.
+// Small meshes, and what connect() makes of them.
 #pragma once
 
 #include <map>
 
-#include "engine/connect/connected_sink.h"
+#include "engine/connect/connect_mesh.h"
 #include "io/mesh/mesh_data.h"
 #include "tests/oracle/small_volumes.h"
 #include "tests/temp_folder.h"
@@ -46,21 +46,17 @@ struct Connected {
   ConnectFacts facts;
 };
 
-/// piece: tets that are written at once.
 inline Connected connect(const io::MeshData& mesh, const ConnectOptions& options,
-                         std::size_t memory = 1 << 16, std::size_t piece = 4096) {
+                         std::size_t memory = 1 << 16) {
   const ::mw::test::TempFolder folder;
-  io::MeshDataSink below;
-  ConnectedSink sink(below, {options, folder.path(), memory});
-  sink.begin({.tets = mesh.tets.size(), .record = mesh.record});
-  sink.write_vertices(mesh.vertices);
-  for (std::size_t t = 0; t < mesh.tets.size(); t += piece) {
-    const std::size_t count = std::min(piece, mesh.tets.size() - t);
-    sink.write_tets(std::span(mesh.tets).subspan(t, count),
-                    std::span(mesh.labels).subspan(t, count));
-  }
-  sink.finish();
-  return {std::move(below.mesh()), sink.facts().value()};
+  io::ScratchMesh stored(folder.path());
+  io::ScratchMeshSink into(stored);
+  io::write_mesh(mesh, into);
+  Connected out{.mesh = {}, .facts = engine::connect(stored, {options, memory})};
+  io::MeshDataSink back;
+  stored.copy_to(back);
+  out.mesh = std::move(back.mesh());
+  return out;
 }
 
 }  // namespace mw::engine::test

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: The mwmesh authors
 // SPDX-License-Identifier: Apache-2.0
-// A mesh gets its name only when it passes its own check.
-#include "engine/job/certificate.h"
+// A mesh is delivered only when it passes its own check.
+#include "engine/job/certificate_plan.h"
 
 #include <nlohmann/json.hpp>
 
@@ -20,20 +20,9 @@ using nlohmann::json;
 
 constexpr std::uint64_t kGibibyte = std::uint64_t{1} << 30U;
 
-/// Sees whether it is finished.
-class WatchedSink : public io::MeshSink {
- public:
-  void begin(const io::MeshHeader&) override {}
-  void write_vertices(std::span<const io::Position>) override {}
-  void write_tets(std::span<const io::TetRows>, std::span<const RawLabel>) override {}
-  void finish() override { is_finished = true; }
-
-  bool is_finished = false;
-};
-
-class CertifierTest : public testing::Test {
+class CertifyTest : public testing::Test {
  protected:
-  /// The mesh through a certificate; returns what that says against it.
+  /// Returns what a certificate says against a mesh of the volume.
   std::string objection(const audit::test::SmallMesh& mesh) {
     const ::mw::test::TempFolder folder;
     engine::MeshJob job{.folder = folder.path()};
@@ -42,22 +31,22 @@ class CertifierTest : public testing::Test {
     const MemoryVolume volume(volume_, {});
     const io::LabelTable table = io::collect_labels(volume);
     const io::DenseVolume labels(volume, table);
-    WatchedSink sink;
-    engine::Certifier certifier(engine::plan_certificate(job), job, labels, sink, [] {});
     io::MeshData data;
     data.vertices = mesh.vertices;
     data.tets = mesh.tets;
     for (const Label l : mesh.labels) data.labels.push_back(table.raw(l));
-    data.record.promises = io::MeshPromises{.max_distance = 1.5, .quality_floor = 0.2};
-    std::string said;
+    io::ScratchMesh stored(folder.path());
+    io::ScratchMeshSink into(stored);
+    io::write_mesh(data, into);
+    const engine::CertificateTask task = certificate_task(
+        engine::plan_certificate(job), job, labels, {.max_distance = 1.5, .quality_floor = 0.2});
     try {
-      io::write_mesh(data, certifier.sink());
+      EXPECT_TRUE(certify(stored, task, [] {}).passed());
     } catch (const Error& error) {
       EXPECT_EQ(error.kind(), ErrorKind::kCheckFailed);
-      said = error.what();
+      return error.what();
     }
-    EXPECT_EQ(sink.is_finished, said.empty());
-    return said;
+    return "";
   }
 
   audit::test::SmallVolume volume_ =
@@ -65,11 +54,11 @@ class CertifierTest : public testing::Test {
   audit::test::SmallMesh mesh_ = audit::test::five_tet_mesh(volume_);
 };
 
-TEST_F(CertifierTest, PassesAGoodMeshOn) {
+TEST_F(CertifyTest, PassesAGoodMesh) {
   EXPECT_EQ(objection(mesh_), "");
 }
 
-TEST_F(CertifierTest, HoldsABadMeshBack) {
+TEST_F(CertifyTest, RefusesABadMesh) {
   auto turned = mesh_;
   std::swap(turned.tets[9][0], turned.tets[9][1]);
   EXPECT_NE(objection(turned).find("P2 orientation"), std::string::npos);

@@ -43,7 +43,7 @@ std::string said(const audit::test::SmallVolume& before, const audit::test::Smal
   job.run.store.memory = std::uint64_t{1} << 30U;
   MemorySink sink;
   try {
-    static_cast<void>(mesh(volume, job, sink));
+    static_cast<void>(mesh(volume, job, std::array<io::MeshSink*, 1>{&sink}));
   } catch (const Error& error) {
     EXPECT_EQ(error.kind(), ErrorKind::kInput);
     return error.what();

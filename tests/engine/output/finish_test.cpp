@@ -3,7 +3,7 @@
 // Final blocks to one mesh: what a list of everything in memory would give, without one.
 #include "engine/output/finish.h"
 
-#include "engine/output/interface_shape.h"
+#include "tests/engine/figures_of.h"
 #include "tests/engine/output/marched_blocks.h"
 #include "tests/io/mesh/mesh_digest.h"
 #include "tests/kernels/mesh/dense_mesh.h"
@@ -62,12 +62,12 @@ double volume6_of(const io::MeshData& mesh, const io::TetRows& t) {
          a[2] * (b[0] * c[1] - b[1] * c[0]);
 }
 
-/// Figures of the audit, which holds the whole mesh, are those that were measured on the way.
-void expect_same_shape(const FinishedMesh& finished, const io::MeshData& mesh, const Trial& trial,
+/// Figures of the last pass are those of the audit, which holds the whole mesh.
+void expect_same_shape(const MeshFigures& figures, const io::MeshData& mesh, const Trial& trial,
                        const WantedLabel& wanted) {
   const test::SmallMesh small = test::small_mesh(mesh);
   const audit::ShapeReport expected = measure_shape(small.view());
-  const audit::ShapeReport& actual = finished.shape.value();
+  const audit::ShapeReport& actual = figures.shape;
   EXPECT_EQ(actual.triangles, expected.triangles);
   EXPECT_NEAR(actual.area, expected.area, 1e-12 * expected.area);
   EXPECT_NEAR(actual.bend_max_deg, expected.bend_max_deg, 1e-9);
@@ -79,13 +79,12 @@ void expect_same_shape(const FinishedMesh& finished, const io::MeshData& mesh, c
   const audit::VolumeReport volumes =
       measure_volumes(trial.volume.view(), trial.volume.label_count, small.view(), trial.frame);
   EXPECT_TRUE(volumes.exact);
-  ASSERT_EQ(volumes.per_label.size(), finished.label_volumes6.size());
+  ASSERT_EQ(volumes.per_label.size(), figures.label_volumes6.size());
   for (std::size_t l = 0; l < volumes.per_label.size(); ++l) {
     const audit::VolumeRow& row = volumes.per_label[l];
-    EXPECT_EQ(audit::volume_row(row.label, row.voxels, finished.label_volumes6[l]).error,
-              row.error);
+    EXPECT_EQ(audit::volume_row(row.label, row.voxels, figures.label_volumes6[l]).error, row.error);
     const bool written = !wanted || wanted(test::raw_label(row.label));
-    EXPECT_EQ(finished.label_volumes6[l] > 0, written);
+    EXPECT_EQ(figures.label_volumes6[l] > 0, written);
   }
 }
 
@@ -102,7 +101,7 @@ TEST(Finish, StreamsTheMeshThatAListOfEverythingGives) {
     const io::DenseVolume volume(file, table);
     MarchedBlocks blocks(trial, volume);
     const WindowGrid& grid = blocks.grid();
-    OutputOptions options{.wanted = {}, .measure_quality = true, .measure_shape = true};
+    OutputOptions options;
     if (i % 3 == 0) options.wanted = [](RawLabel label) { return test::test_label(label) != 0; };
     MemorySink sink;
     const FinishedMesh finished = finish({blocks, grid, volume}, sink, options);
@@ -114,18 +113,15 @@ TEST(Finish, StreamsTheMeshThatAListOfEverythingGives) {
     for (const io::TetRows& t : mesh.tets) EXPECT_GT(volume6_of(mesh, t), 0);
     const audit::QualityReport quality =
         measure_quality({.vertices = mesh.vertices, .tets = mesh.tets, .labels = {}});
-    EXPECT_EQ(finished.quality->radius_ratio_min, quality.radius_ratio_min);
-    EXPECT_EQ(finished.quality->radius_ratio_mean, quality.radius_ratio_mean);
-    EXPECT_EQ(finished.quality->radius_ratio_histogram, quality.radius_ratio_histogram);
-    EXPECT_EQ(finished.quality->worst_tet, quality.worst_tet);
-    expect_same_shape(finished, mesh, trial, options.wanted);
+    const MeshFigures figures = test::figures_of(mesh, volume);
+    EXPECT_EQ(figures.quality.radius_ratio_min, quality.radius_ratio_min);
+    EXPECT_EQ(figures.quality.radius_ratio_mean, quality.radius_ratio_mean);
+    EXPECT_EQ(figures.quality.radius_ratio_histogram, quality.radius_ratio_histogram);
+    EXPECT_EQ(figures.quality.worst_tet, quality.worst_tet);
+    expect_same_shape(figures, mesh, trial, options.wanted);
     MemorySink again;
     options.work = {.threads = 2 + static_cast<int>(i % 3)};
-    const FinishedMesh second = finish({blocks, grid, volume}, again, options);
-    EXPECT_EQ(second.quality->worst_tet, finished.quality->worst_tet);
-    EXPECT_EQ(second.shape->bend_p95_deg, finished.shape->bend_p95_deg);
-    EXPECT_EQ(second.shape->area, finished.shape->area);
-    EXPECT_EQ(second.shape->sharp_share, finished.shape->sharp_share);
+    static_cast<void>(finish({blocks, grid, volume}, again, options));
     EXPECT_TRUE(again.mesh().vertices == mesh.vertices && again.mesh().tets == mesh.tets);
   }
 }
@@ -152,42 +148,19 @@ class Bar : public FinalBlocks {
 /// P6: what is remembered does not grow with the number of planes of blocks.
 TEST(Promise6BoundedMemory, OfTheFinalMerge) {
   std::vector<std::size_t> max;
-  std::vector<std::uint64_t> max_shape;
   for (const std::int64_t length : {12, 60, 240}) {
     Bar bar(length);
     const MemoryVolume file(bar.volume(), {});
     const io::LabelTable table = io::collect_labels(file);
     const io::DenseVolume volume(file, table);
     MemorySink sink;
-    const FinishedMesh finished = finish({bar, bar.grid(), volume}, sink, {.measure_shape = true});
+    const FinishedMesh finished = finish({bar, bar.grid(), volume}, sink);
     EXPECT_EQ(finished.vertices, static_cast<std::uint64_t>(9 * 9 * (length + 1)));
     max.push_back(finished.max_remembered);
-    max_shape.push_back(finished.max_shape_bytes);
   }
   // Two planes of blocks and a line, two voxels thick each, and the far side.
   EXPECT_LE(max[0], 9U * 9U * 7U);
   EXPECT_EQ(max[1], max[2]);
-  EXPECT_GT(max_shape[1], 0U);
-  EXPECT_EQ(max_shape[1], max_shape[2]);
-}
-
-/// The same, and nothing is left when the last block has come.
-TEST(InterfaceShape, RemembersTheFrontOnly) {
-  Bar bar(40);
-  const MemoryVolume file(bar.volume(), {});
-  const io::LabelTable table = io::collect_labels(file);
-  const LabelSelection all({}, table);
-  std::uint64_t held = 0;
-  InterfaceShape shape(bar.grid(), file.info(), all, [&](std::uint64_t bytes) { held = bytes; });
-  for_each_index(bar.grid().blocks(), [&](Index3 b) {
-    shape.add(shape.look_at(bar.load(b)));
-    EXPECT_LE(shape.remembered(), held);
-  });
-  EXPECT_EQ(shape.remembered(), 0U);
-  // A plane of blocks has 8 x 8 voxel faces of two triangles on one side, the row of blocks that
-  // is under way 4 x 8 and 2 x 4 more; three edges a triangle at most.
-  constexpr std::uint64_t kTriangles = 2 * (64 + 32 + 16);
-  EXPECT_LE(shape.max_remembered(), kTriangles * (32 + 3 * 56) + 64 * 160);
 }
 
 }  // namespace

@@ -80,28 +80,6 @@ TEST(Team, SwapsListsByPieces) {
             });
 }
 
-/// Lists of any length, by pieces of a few numbers; the order of ranks is kept.
-TEST(Team, FoldsListsOnRank0) {
-  constexpr int kRanks = 4;
-  for (const std::size_t size : {0U, 1U, 7U, 50U}) {
-    for_ranks({.ranks = kRanks, .seed = 8, .max_delay = std::chrono::microseconds(300)},
-              [&](Team& team) {
-                std::vector<std::int64_t> list(size);
-                std::iota(list.begin(), list.end(), 100 * team.rank());
-                const auto digits = [](std::int64_t a, std::int64_t b) { return 1000 * a + b; };
-                fold_lists(team, list, digits, 50);
-                if (!team.is_first()) return;
-                for (std::size_t i = 0; i < size; ++i) {
-                  std::int64_t expected = 0;
-                  for (int r = 0; r < kRanks; ++r) {
-                    expected = 1000 * expected + 100 * r + static_cast<std::int64_t>(i);
-                  }
-                  EXPECT_EQ(list[i], expected);
-                }
-              });
-  }
-}
-
 TEST(Team, ParcelsArriveOnceAlsoThoseThatCameTooEarly) {
   constexpr int kRanks = 4, kEach = 50;
   for_ranks({.ranks = kRanks, .seed = 4, .max_delay = std::chrono::microseconds(3000)},

@@ -64,19 +64,15 @@ TEST(HalvedSink, EachTetBecomesEight) {
     MeshData mesh = grid_mesh({3, 2, 1 + seed % 3}, seed);
     mesh.record.promises = MeshPromises{.quality_floor = 0.2};
     CollectedMesh out;
-    std::size_t seen = 0;
-    HalvedSink sink(out, dir.path(), [&](const std::array<Position, 4>& corners, RawLabel label) {
-      ASSERT_GT(volume6_of(corners[0], corners[1], corners[2], corners[3]), 0);
-      ASSERT_LT(label, 4U);
-      ++seen;
-    });
+    std::size_t asked = 0;
+    HalvedSink sink(out, dir.path(), {}, [&] { ++asked; });
     write_mesh(mesh, sink);
     EXPECT_EQ(out.finished, 1);
     EXPECT_EQ(out.announced, 8 * mesh.tets.size());
     EXPECT_EQ(out.mesh().record.promises->halvings, 1);
     EXPECT_EQ(out.mesh().record.promises->quality_floor, 0.2);
     EXPECT_EQ(out.mesh().tets.size(), 8 * mesh.tets.size());
-    EXPECT_EQ(seen, out.mesh().tets.size());
+    EXPECT_GT(asked, 0U);
     EXPECT_EQ(out.mesh().vertices.size(), mesh.vertices.size() + edges_of(mesh));
     EXPECT_EQ(sink.mesh().node_count(), out.mesh().vertices.size());
     for (std::size_t v = 0; v < mesh.vertices.size(); ++v) {
@@ -121,7 +117,7 @@ TEST(HalvedSink, CurvesMoveNodesNoFartherThanTheyMayAndKeepTetsGood) {
     HalvedSink as_they_are(straight, dir.path());
     write_mesh(mesh, as_they_are);
     const double most_move = seed % 2 == 0 ? 0.02 : 0.2;
-    HalvedSink with_curves(curved, dir.path(), {},
+    HalvedSink with_curves(curved, dir.path(),
                            HalvedCurves{.most_move = most_move, .max_distance = 1.5});
     write_mesh(mesh, with_curves);
     EXPECT_EQ(curved.mesh().record.promises->max_distance, 1.5);

@@ -1,7 +1,6 @@
 // SPDX-FileCopyrightText: The mwmesh authors
 // SPDX-License-Identifier: Apache-2.0
-// A verification with what the run promised.
-#include "engine/job/certificate.h"
+#include "engine/job/certificate_plan.h"
 
 #include <algorithm>
 #include <limits>
@@ -50,15 +49,6 @@ CertificatePlan largest_plan(int threads, std::uint64_t reader_bytes, std::uint6
           .memory_bytes = certificate_bytes(threads, readers, reader_bytes)};
 }
 
-/// Returns "P2 faces: 3 triangles ..., P3 ...".
-std::string failures(const audit::AuditReport& report) {
-  std::string out;
-  for (const audit::Check& check : report.checks) {
-    if (!check.passed) out += (out.empty() ? "" : "; ") + check.name + ": " + check.detail;
-  }
-  return out;
-}
-
 std::string obstacle(const MeshJob& job) {
   if (job.certify == Certify::kAuto && job.run.processes != nullptr &&
       job.run.processes->count() > 1) {
@@ -102,34 +92,24 @@ CertificatePlan beside_others(const CertificatePlan& plan, const MeshJob& job,
   return {.why_not = "needs --memory " + io::mebibytes(others + least) + " or more here"};
 }
 
-Certifier::Certifier(const CertificatePlan& plan, const MeshJob& job, const io::DenseVolume& volume,
-                     io::MeshSink& sink, std::function<void()> stop)
-    : volume_(volume),
-      folder_(job.folder.empty() ? "." : job.folder),
-      stop_(std::move(stop)),
-      kept_(kept_labels(job.choice, volume.table())),
-      tiles_(volume.info(), volume.table(), {folder_, kShared / 4}),
-      sink_(sink, tiles_, plan.memory_bytes, [this, plan] { certify(plan); }) {}
-
-void Certifier::certify(const CertificatePlan& plan) {
-  const io::MeshPromises promises = tiles_.header().record.promises.value();
-  VerifyTask task{.options = audit_options(promises, volume_.info().space),
-                  .threads = plan.threads,
-                  .readers = plan.readers,
-                  .memory_bytes = kShared / 2,
-                  .folder = folder_,
-                  .between = stop_};
-  const bool has_scores = volume_.raw().scores() != nullptr;
-  if (has_scores || !why_no_volumes(promises).empty()) task.options.max_volume_error.reset();
-  task.options.kept = kept_;
-  task.options.label_text = report::label_texts(volume_.table(), volume_.info().names);
-  task.options.count_junctions = task.options.count_junctions && kept_.empty();
-  report_ = verify_mesh(volume_, tiles_, task);
-  if (report_->passed()) return;
-  throw Error(ErrorKind::kCheckFailed,
-              "the mesh does not pass its own check and is not delivered (please report this, with "
-              "the volume and the settings): " +
-                  failures(*report_));
+CertificateTask certificate_task(const CertificatePlan& plan, const MeshJob& job,
+                                 const io::DenseVolume& volume, const io::MeshPromises& promises) {
+  CertificateTask out{.volume = volume,
+                      .check = {.options = audit_options(promises, volume.info().space),
+                                .threads = plan.threads,
+                                .readers = plan.readers,
+                                .memory_bytes = kShared / 2,
+                                .folder = job.folder.empty() ? "." : job.folder,
+                                .between = job.stop},
+                      .tiles_bytes = kShared / 4,
+                      .memory_bytes = plan.memory_bytes};
+  audit::AuditOptions& options = out.check.options;
+  const bool has_scores = volume.raw().scores() != nullptr;
+  if (has_scores || !why_no_volumes(promises).empty()) options.max_volume_error.reset();
+  options.kept = kept_labels(job.choice, volume.table());
+  options.label_text = report::label_texts(volume.table(), volume.info().names);
+  options.count_junctions = options.count_junctions && options.kept.empty();
+  return out;
 }
 
 }  // namespace mw::engine

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: The mwmesh authors
 // SPDX-License-Identifier: Apache-2.0
 // Parts, hinges and doubled vertices of random meshes, against floods over the whole mesh.
-#include "engine/connect/connected_sink.h"
+#include "engine/connect/connect_mesh.h"
 
 #include "io/mesh/digest.h"
 #include "io/mesh/merged_vertices.h"
@@ -73,7 +73,7 @@ void expect_same_facts(const ConnectFacts& a, const ConnectFacts& b) {
   for (std::size_t h = 0; h < a.hinges.size(); ++h) EXPECT_EQ(a.hinges[h].rows, b.hinges[h].rows);
 }
 
-TEST(ConnectedSink, TellsWhichWatchedLabelsShareNoFace) {
+TEST(Connect, TellsWhichWatchedLabelsShareNoFace) {
   const std::vector<LabelPair> watched{{0, 1}, {0, 9}, {1, 2}, {1, 3}, {2, 3}, {7, 8}};
   std::size_t met = 0, unmet = 0;
   for (unsigned seed = 0; seed < 60; ++seed) {
@@ -98,7 +98,7 @@ TEST(ConnectedSink, TellsWhichWatchedLabelsShareNoFace) {
   EXPECT_GT(std::min(met, unmet), 50U);
 }
 
-TEST(ConnectedSink, CountsPartsAndHinges) {
+TEST(Connect, CountsPartsAndHinges) {
   std::size_t hanging = 0, free = 0, hinge_vertices = 0, hinge_edges = 0;
   for (unsigned seed = 0; seed < 120; ++seed) {
     SCOPED_TRACE(seed);
@@ -165,7 +165,7 @@ std::map<RawLabel, bool> labels_with_insides(const io::MeshData& mesh) {
   return out;
 }
 
-TEST(ConnectedSink, CountsLabelsWithoutAVertexInside) {
+TEST(Connect, CountsLabelsWithoutAVertexInside) {
   std::size_t all = 0, stiff = 0;
   for (unsigned seed = 0; seed < 120; ++seed) {
     SCOPED_TRACE(seed);
@@ -187,7 +187,7 @@ TEST(ConnectedSink, CountsLabelsWithoutAVertexInside) {
   EXPECT_GT(all - stiff, 50U);
 }
 
-TEST(ConnectedSink, LeavesPartsOut) {
+TEST(Connect, LeavesPartsOut) {
   std::size_t left_out = 0;
   for (unsigned seed = 0; seed < 80; ++seed) {
     SCOPED_TRACE(seed);
@@ -248,44 +248,30 @@ std::array<double, 2> values_of(const io::MeshData& mesh, std::size_t tet) {
   return {sum, weighted + static_cast<double>(mesh.labels[tet])};
 }
 
-class ValuesSink : public io::MeshDataSink {
- public:
-  void write_values(std::span<const double> rows) override {
-    values.insert(values.end(), rows.begin(), rows.end());
-  }
-  std::vector<double> values;
-};
-
-TEST(ConnectedSink, PassesTheValuesOfTheTetsThatAreLeft) {
+TEST(Connect, PassesTheValuesOfTheTetsThatAreLeft) {
   const std::array<ConnectOptions, 4> rules{ConnectOptions{},
                                             {.parts = {.only_largest = true}},
                                             {.split = {.all = true, .pairs = {}}},
                                             {.parts = {.least_tets = 3}, .open_hinges = true}};
   for (unsigned seed = 0; seed < 40; ++seed) {
     SCOPED_TRACE(seed);
-    const io::MeshData mesh = random_mesh(seed);
+    io::MeshData mesh = random_mesh(seed);
     if (parts_of(mesh).empty() || largest(parts_of(mesh)).size() < 3) continue;
-    const ::mw::test::TempFolder folder;
-    ValuesSink below;
-    ConnectedSink sink(below, {rules[seed % rules.size()], folder.path(), 1 << 16});
-    sink.begin({.tets = mesh.tets.size(), .values = {"sum", "weighted"}});
-    sink.write_vertices(mesh.vertices);
+    mesh.values = {{"sum", {}}, {"weighted", {}}};
     for (std::size_t t = 0; t < mesh.tets.size(); ++t) {
-      sink.write_tets(std::span(mesh.tets).subspan(t, 1), std::span(mesh.labels).subspan(t, 1));
-      sink.write_values(values_of(mesh, t));
+      for (std::size_t k = 0; k < 2; ++k) mesh.values[k].numbers.push_back(values_of(mesh, t)[k]);
     }
-    sink.finish();
-    const io::MeshData& left = below.mesh();
-    ASSERT_EQ(below.values.size(), 2 * left.tets.size());
+    const io::MeshData left = connect(mesh, rules[seed % rules.size()]).mesh;
+    ASSERT_EQ(left.values.size(), 2U);
     for (std::size_t t = 0; t < left.tets.size(); ++t) {
       const std::array<double, 2> expected = values_of(left, t);
-      EXPECT_EQ(below.values[2 * t], expected[0]);
-      EXPECT_EQ(below.values[2 * t + 1], expected[1]);
+      EXPECT_EQ(left.values[0].numbers.at(t), expected[0]);
+      EXPECT_EQ(left.values[1].numbers.at(t), expected[1]);
     }
   }
 }
 
-TEST(ConnectedSink, SaysHowLargeTheLargestPartIs) {
+TEST(Connect, SaysHowLargeTheLargestPartIs) {
   const io::MeshData mesh = random_mesh(1);
   try {
     static_cast<void>(connect(mesh, {.parts = {.least_tets = 1'000'000}}));
@@ -299,7 +285,7 @@ TEST(ConnectedSink, SaysHowLargeTheLargestPartIs) {
 
 /// Corners of tets at one vertex have one row exactly when faces that are not split join the tets
 /// there, where the vertex is one that is doubled; else all have one row.
-TEST(ConnectedSink, DoublesVerticesByTheSetsOfTheirStars) {
+TEST(Connect, DoublesVerticesByTheSetsOfTheirStars) {
   std::size_t copies = 0, junctions = 0, opened = 0;
   for (unsigned seed = 0; seed < 120; ++seed) {
     SCOPED_TRACE(seed);
@@ -361,14 +347,14 @@ TEST(ConnectedSink, DoublesVerticesByTheSetsOfTheirStars) {
   EXPECT_GT(std::min({copies, junctions, opened}), 50U);
 }
 
-TEST(ConnectedSink, Promise5SameBytesWhateverTheMemoryAndThePieces) {
+TEST(Connect, Promise5SameBytesWhateverTheMemory) {
   for (unsigned seed = 40; seed < 60; ++seed) {
     const io::MeshData mesh = random_mesh(seed);
     if (mesh.tets.empty()) continue;
     const ConnectOptions options{
         .parts = {.least_tets = 3}, .split = {true, {}}, .open_hinges = true};
     if (largest(parts_of(mesh)).size() < 3) continue;
-    const Connected one = connect(mesh, options), other = connect(mesh, options, 2000, 7);
+    const Connected one = connect(mesh, options), other = connect(mesh, options, 2000);
     EXPECT_EQ(one.mesh.tets, other.mesh.tets) << seed;
     EXPECT_EQ(one.mesh.vertices, other.mesh.vertices) << seed;
     expect_same_facts(one.facts, other.facts);

@@ -1,16 +1,15 @@
 // SPDX-FileCopyrightText: The mwmesh authors
 // SPDX-License-Identifier: Apache-2.0
 // Two external sorts: triangles, then edges of those between two labels.
-#include "engine/cli/info/shape_sink.h"
+#include "engine/finish/interface_shape.h"
 
 #include <algorithm>
-#include <string>
+#include <array>
 
-#include "io/mesh/grouped/grouped_mesh.h"
-#include "kernels/core/error.h"
+#include "io/file/scratch/external_sort.h"
 #include "kernels/core/vector3.h"
 
-namespace mw::cli {
+namespace mw::engine {
 namespace {
 
 using io::Position;
@@ -21,6 +20,23 @@ using EdgeRecord = std::array<std::uint64_t, 5>;
 
 std::array<std::uint64_t, 3> rows_of(const FaceRecord& face) {
   return {face[0], face[1], face[2] >> 1};
+}
+
+/// Adds the four triangles of a tet: three ascending rows, and the label of the tet.  The last row
+/// is doubled, and odd when the triangle's normal points out of the tet.
+void add_faces(io::ScratchMesh& mesh, const io::TetRows& tet, RawLabel label,
+               io::ExternalSort<4>& faces) {
+  io::TetRows rows = tet;
+  std::sort(rows.begin(), rows.end());
+  const auto [a, b, c, d] = rows;
+  const auto [at_a, at_b, at_c, at_d] = mesh.corners(rows);
+  // The normal of a b c points at d, into the tet, when that is positive; with each swap it turns.
+  const std::uint64_t positive = mw::volume6(at_a, at_b, at_c, at_d) > 0 ? 1 : 0;
+  const std::uint64_t negative = 1 - positive;
+  faces.add({a, b, c << 1 | negative, label});
+  faces.add({a, b, d << 1 | positive, label});
+  faces.add({a, c, d << 1 | negative, label});
+  faces.add({b, c, d << 1 | positive, label});
 }
 
 /// Sorts; calls visit(first, second) for the groups of exactly two records whose keys agree.
@@ -54,52 +70,31 @@ void add_edges(const FaceRecord& one, const FaceRecord& other, io::ExternalSort<
 
 }  // namespace
 
-ShapeSink::ShapeSink(const std::filesystem::path& folder)
-    : folder_(folder), positions_(folder), faces_(folder, kSortBytes) {}
-
-void ShapeSink::write_vertices(std::span<const Position> positions) {
-  for (const Position& p : positions) positions_.append(p);
-}
-
-void ShapeSink::write_tets(std::span<const io::TetRows> tets, std::span<const RawLabel> labels) {
-  for (std::size_t t = 0; t < tets.size(); ++t) add_tet(tets[t], labels[t]);
-}
-
-void ShapeSink::add_tet(const io::TetRows& tet, RawLabel label) {
-  io::TetRows rows = tet;
-  std::sort(rows.begin(), rows.end());
-  if (rows[3] >= positions_.size()) {
-    throw Error(ErrorKind::kInput, "a tet names vertex " + std::to_string(rows[3]) + " of " +
-                                       std::to_string(positions_.size()));
-  }
-  const auto [a, b, c, d] = rows;
-  const double volume6 = mw::volume6(positions_[a], positions_[b], positions_[c], positions_[d]);
-  // The normal of a b c points at d, into the tet, when that is positive; with each swap it turns.
-  const std::uint64_t positive = volume6 > 0 ? 1 : 0;
-  const std::uint64_t negative = 1 - positive;
-  faces_.add({a, b, c << 1 | negative, label});
-  faces_.add({a, b, d << 1 | positive, label});
-  faces_.add({a, c, d << 1 | negative, label});
-  faces_.add({b, c, d << 1 | positive, label});
-}
-
-audit::ShapeReport ShapeSink::shape() {
+audit::ShapeReport interface_shape(io::ScratchMesh& mesh, std::size_t sort_bytes,
+                                   const std::function<void()>& between) {
+  io::ExternalSort<4> faces(mesh.folder(), sort_bytes);
+  mesh.each_tet_batch([&](const io::TetBatch& batch) {
+    between();
+    for (std::size_t t = 0; t < batch.tets.size(); ++t) {
+      add_faces(mesh, batch.tets[t], batch.labels[t], faces);
+    }
+  });
   audit::ShapeMeter meter;
-  io::ExternalSort<5> edges(folder_, kSortBytes);
-  each_pair(faces_, rows_of, [&](const FaceRecord& one, const FaceRecord& other) {
+  io::ExternalSort<5> edges(mesh.folder(), sort_bytes);
+  each_pair(faces, rows_of, [&](const FaceRecord& one, const FaceRecord& other) {
     if (one[3] == other[3]) return;
     const auto [a, b, c] = rows_of(one);
-    meter.add_triangle(positions_[a], positions_[b], positions_[c]);
+    meter.add_triangle(mesh.vertex(a), mesh.vertex(b), mesh.vertex(c));
     add_edges(one, other, edges);
   });
   const auto edge_of = [](const EdgeRecord& e) { return std::array{e[0], e[1]}; };
   each_pair(edges, edge_of, [&](const EdgeRecord& one, const EdgeRecord& other) {
     if (one[3] != other[3] || one[4] != other[4]) return;
-    meter.add_edge(positions_[one[0]], positions_[one[1]],
-                   {positions_[one[2] >> 1], (one[2] & 1) != 0},
-                   {positions_[other[2] >> 1], (other[2] & 1) != 0});
+    meter.add_edge(mesh.vertex(one[0]), mesh.vertex(one[1]),
+                   {mesh.vertex(one[2] >> 1), (one[2] & 1) != 0},
+                   {mesh.vertex(other[2] >> 1), (other[2] & 1) != 0});
   });
   return meter.report();
 }
 
-}  // namespace mw::cli
+}  // namespace mw::engine

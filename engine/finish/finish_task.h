@@ -1,0 +1,42 @@
+// SPDX-FileCopyrightText: The mwmesh authors
+// SPDX-License-Identifier: Apache-2.0
+// What is asked of a mesh between the marches, or a file, and the file that is written; and what
+// was found about it on the way.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <optional>
+
+#include "engine/connect/connect_mesh.h"
+#include "engine/finish/certificate.h"
+#include "engine/finish/cut.h"
+#include "engine/finish/figures.h"
+#include "engine/output/label_selection.h"
+#include "engine/sample/image_sampler.h"
+#include "kernels/audit/audit.h"
+
+namespace mw::engine {
+
+/// Each member is what one pass is asked to do (passes.cpp).
+struct FinishTask {
+  LabelChoice labels{};  ///< labels that are left out of a mesh that has them
+  CutTask cut{};
+  std::optional<CertificateTask> certificate{};
+  ConnectTask connect{};
+  bool finds_parts = false;  ///< whether parts and hinges are counted where the mesh stays as it is
+  ImageSampler* samples = nullptr;  ///< outlives the task
+  std::optional<FiguresTask> figures{};
+  bool leaves_values_out = false;
+  std::function<void()> between = [] {};  ///< called often; may throw
+};
+
+struct FinishFacts {
+  std::uint64_t vertices = 0;  ///< of the mesh behind all passes
+  std::uint64_t tets = 0;
+  std::optional<audit::AuditReport> certificate;
+  std::optional<ConnectFacts> connected;
+  std::optional<MeshFigures> figures;
+};
+
+}  // namespace mw::engine

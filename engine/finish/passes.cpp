@@ -1,0 +1,99 @@
+// SPDX-FileCopyrightText: The mwmesh authors
+// SPDX-License-Identifier: Apache-2.0
+#include "engine/finish/passes.h"
+
+#include <algorithm>
+#include <array>
+
+#include "engine/finish/sample.h"
+#include "engine/finish/select_labels.h"
+
+namespace mw::engine {
+namespace {
+
+/// A row here and a field of FinishTask make a pass.  The order is the order of work.
+constexpr std::array kPasses{
+    Pass{.name = "labels left out",
+         .is_asked =
+             [](const FinishTask& task) { return task.labels.labels || task.labels.background; },
+         .bytes = [](const FinishTask&) { return io::ScratchMesh::kBufferBytes; },
+         .apply = [](io::ScratchMesh& mesh, const FinishTask& task,
+                     FinishFacts&) { select_labels(mesh, task.labels, task.between); }},
+    Pass{.name = "cut",
+         .is_asked = [](const FinishTask& task) { return task.cut.times > 0; },
+         .bytes = [](const FinishTask&) { return bytes_to_cut(); },
+         .apply = [](io::ScratchMesh& mesh, const FinishTask& task,
+                     FinishFacts&) { cut(mesh, task.cut, task.between); }},
+    // The certificate is about what the marches made, before parts are left out on purpose.
+    Pass{.name = "certificate",
+         .is_asked = [](const FinishTask& task) { return task.certificate.has_value(); },
+         .bytes = [](const FinishTask& task) { return task.certificate->memory_bytes; },
+         .apply =
+             [](io::ScratchMesh& mesh, const FinishTask& task, FinishFacts& facts) {
+               facts.certificate = certify(mesh, *task.certificate, task.between);
+             }},
+    Pass{.name = "parts",
+         .is_asked =
+             [](const FinishTask& task) {
+               return task.finds_parts || task.connect.options.change_mesh();
+             },
+         .bytes = [](const FinishTask& task) { return bytes_to_connect(task.connect); },
+         .apply =
+             [](io::ScratchMesh& mesh, const FinishTask& task, FinishFacts& facts) {
+               facts.connected = connect(mesh, task.connect, task.between);
+             }},
+    Pass{.name = "sample",
+         .is_asked = [](const FinishTask& task) { return task.samples != nullptr; },
+         .bytes =
+             [](const FinishTask& task) {
+               return bytes_to_sample(*task.samples, task.connect.memory_bytes);
+             },
+         .apply =
+             [](io::ScratchMesh& mesh, const FinishTask& task, FinishFacts&) {
+               sample(mesh, *task.samples, task.connect.memory_bytes, task.between);
+             }},
+    Pass{.name = "figures",
+         .is_asked = [](const FinishTask& task) { return task.figures.has_value(); },
+         .bytes = [](const FinishTask& task) { return bytes_to_measure(*task.figures); },
+         .apply =
+             [](io::ScratchMesh& mesh, const FinishTask& task, FinishFacts& facts) {
+               facts.figures = measure(mesh, *task.figures, task.between);
+             }},
+    Pass{.name = "values left out",
+         .is_asked = [](const FinishTask& task) { return task.leaves_values_out; },
+         .bytes = [](const FinishTask&) { return std::uint64_t{0}; },
+         .apply = [](io::ScratchMesh& mesh, const FinishTask&,
+                     FinishFacts&) { mesh.drop_values(); }},
+};
+
+}  // namespace
+
+std::span<const Pass> all_passes() {
+  return kPasses;
+}
+
+FinishFacts apply_passes(io::ScratchMesh& mesh, const FinishTask& task) {
+  FinishFacts out;
+  for (const Pass& pass : kPasses) {
+    if (pass.is_asked(task)) pass.apply(mesh, task, out);
+  }
+  out.vertices = mesh.vertex_count();
+  out.tets = mesh.tet_count();
+  return out;
+}
+
+std::uint64_t FinishSink::buffer_bytes() const {
+  std::uint64_t passes = 0, sinks = 0;
+  for (const Pass& pass : kPasses) {
+    if (pass.is_asked(task_)) passes = std::max(passes, pass.bytes(task_));
+  }
+  for (const io::MeshSink* sink : sinks_) sinks += sink->buffer_bytes();
+  return io::ScratchMesh::kBufferBytes + std::max(passes, sinks);
+}
+
+void FinishSink::complete() {
+  facts_ = apply_passes(mesh_, task_);
+  for (io::MeshSink* sink : sinks_) mesh_.copy_to(*sink, task_.between);
+}
+
+}  // namespace mw::engine

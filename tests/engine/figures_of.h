@@ -1,0 +1,29 @@
+// SPDX-FileCopyrightText: The mwmesh authors
+// SPDX-License-Identifier: Apache-2.0
+// The figures of a mesh in memory, as the last pass of a run measures them.
+#pragma once
+
+#include "engine/finish/figures.h"
+#include "io/mesh/mesh_data.h"
+#include "io/volume/label_volume.h"
+#include "kernels/core/lattice.h"
+#include "tests/temp_folder.h"
+
+namespace mw::engine::test {
+
+/// edge_sizes are by dense label; empty: edges are not measured.
+inline MeshFigures figures_of(const io::MeshData& mesh, const io::DenseVolume& volume,
+                              std::vector<double> edge_sizes = {}) {
+  const ::mw::test::TempFolder folder;
+  io::ScratchMesh stored(folder.path());
+  io::ScratchMeshSink into(stored);
+  io::write_mesh(mesh, into);
+  const io::VolumeSpace& space = volume.info().space;
+  return measure(stored, {.table = volume.table(),
+                          .space = space,
+                          .layers = layers_of(space.spacing),
+                          .edge_sizes = std::move(edge_sizes),
+                          .sort_bytes = 1 << 16});
+}
+
+}  // namespace mw::engine::test
