@@ -4,20 +4,18 @@
 #include "engine/job/mesh_job.h"
 
 #include <algorithm>
-#include <atomic>
 #include <cmath>
 #include <limits>
-#include <sstream>
+#include <optional>
+#include <utility>
 
 #include "engine/finish/passes.h"
 #include "engine/job/certificate_plan.h"
 #include "engine/job/count_pilot.h"
 #include "engine/job/earlier_run.h"
 #include "engine/job/halving.h"
-#include "engine/job/volume_delta.h"
-#include "engine/keep/keep_folder.h"
+#include "engine/job/kept_input.h"
 #include "engine/keep/keep_options.h"
-#include "engine/keep/kept_labels.h"
 #include "engine/labels/label_counts.h"
 #include "engine/labels/label_scan.h"
 #include "engine/labels/reading_tiles.h"
@@ -55,20 +53,6 @@ class StoppableVolume : public io::VolumeView {
   std::function<void()> stop_;
 };
 
-/// Counts voxels that are read.
-class CountedVolume : public io::VolumeView {
- public:
-  using VolumeView::VolumeView;
-  void read(const Box3& box, std::span<RawLabel> out) const override {
-    below().read(box, out);
-    voxels_ += static_cast<std::uint64_t>(box.voxels());
-  }
-  [[nodiscard]] std::uint64_t voxels() const { return voxels_; }
-
- private:
-  mutable std::atomic<std::uint64_t> voxels_ = 0;
-};
-
 /// A volume that lies elsewhere.
 class PlacedVolume : public io::VolumeView {
  public:
@@ -82,167 +66,6 @@ class PlacedVolume : public io::VolumeView {
 
  private:
   io::VolumeInfo info_;
-};
-
-/// Throws if a box has no voxel: what it was to say is not known then.  One that lies outside of
-/// the volume says that nothing has changed in it, as where the volume was cropped.
-void check_changed(const std::vector<Box3>& changed) {
-  for (const Box3& box : changed) {
-    if (!is_empty(box)) continue;
-    io::fail_usage("--changed: the box from ", box.lo.x, ",", box.lo.y, ",", box.lo.z, " to ",
-                   box.hi.x, ",", box.hi.y, ",", box.hi.z,
-                   " has no voxel: give the first voxel, and the one behind the last");
-  }
-}
-
-/// The labels of a run that keeps something, and those that it leaves for the next one.  With
-/// several processes the one that speaks leaves them.
-class KeptInput {
- public:
-  /// ERRORS: those of KeepFolder and KeptLabels; mw::Error(kUsage) when the labels before are those
-  /// of a volume of another shape, and for Delta::kOn when no run before was complete.
-  KeptInput(const io::LabelVolume& opened, const MeshJob& job)
-      : counted_(opened), memory_(job.run.store.memory) {
-    const KeepOptions& options = job.run.keep;
-    const bool speaks = job.run.processes == nullptr || job.run.processes->speaks();
-    if (options.folder.empty() || !speaks) return;
-    check_changed(options.changed);
-    folder_ = std::make_shared<KeepFolder>(options.folder, options.use);
-    open_before(job);
-    changed_ = {{{0, 0, 0}, opened.info().shape}};
-    const bool reads_all = job.certify == Certify::kOn;  // it vouches for the whole input
-    const bool is_patched = before_ && !options.changed.empty() && !reads_all && !is_renumbered_;
-    if (!is_patched) return;
-    changed_ = options.changed;
-    patched_.emplace(counted_, *before_, folder_->with_incomplete(changed_));
-  }
-
-  /// Must be called before the run keeps anything: from here on its labels may be in the folder.
-  void begin() {
-    if (folder_ == nullptr) return;
-    if (patched_) refuse_untold_change();
-    folder_->begin_change(changed_);
-    after_ = std::make_unique<io::AtomicFile>(folder_->path() / kLabelsFile);
-    write_kept_labels(volume(), *after_, scanner_count(volume(), 1, memory_));
-    folder_->expect_labels(after_->appended());
-  }
-
-  [[nodiscard]] const io::LabelVolume& volume() const {
-    return patched_ ? static_cast<const io::LabelVolume&>(*patched_) : counted_;
-  }
-  [[nodiscard]] const std::shared_ptr<KeepFolder>& folder() const { return folder_; }
-  [[nodiscard]] std::uint64_t voxels_read() const { return counted_.voxels(); }
-
-  /// Tells whether there is a run to compare with.
-  [[nodiscard]] bool knows_delta() const { return before_.has_value(); }
-
-  /// Returns what the edit did to the volume and to the mesh.  `after` is what the steps of the job
-  /// made of the labels; before, the steps of the run that was complete last did so.
-  /// REQUIRES: knows_delta().
-  [[nodiscard]] io::Json delta(const io::LabelVolume& after, const MeshJob& job,
-                               const MeshSize& size) const {
-    const PatchedVolume unpatched(counted_, *before_, {});
-    const io::PreparedInput before(unpatched, note_.steps,
-                                   io::SpeckLimits::of_budget(job.run.store.memory));
-    VerifyTask task{.options = {},
-                    .threads = thread_count(job.run.threads),
-                    .folder = folder_->path(),
-                    .between = job.stop};
-    task.memory_bytes = std::min(task.memory_bytes, job.run.store.memory / 8);
-    const ReaderRoom room{.each = kComparerBytes, .memory = job.run.store.memory};
-    const int readers = reader_count(after, 1, room);
-    task.readers = readers_of_thread(task.threads, reader_bytes(after), task.memory_bytes);
-    VolumeDelta delta = delta_of(before.volume(), after, task, readers);
-    delta.is_renumbered = is_renumbered_;
-    return delta_json(delta, note_.size, size);
-  }
-
-  /// Must be called once the run is complete.
-  void finish(const io::InputSteps& steps, const MeshSize& size) {
-    if (folder_ == nullptr) return;
-    const std::uint64_t numbering = counted_.info().numbering;
-    append_note(*after_, io::text(size.vertices, " ", size.tets, " ", numbering, " ",
-                                  folder_->number(), "\n") +
-                             text_of(steps));
-    after_->commit();
-    folder_->end_change();
-  }
-
- private:
-  /// What finish() says of a run beside its labels.
-  struct Note {
-    std::optional<MeshSize> size;
-    std::uint64_t numbering = 0;
-    std::uint64_t folder = 0;  ///< KeepFolder::number()
-    io::InputSteps steps;
-  };
-
-  static Note parse_note(const std::string& note) {
-    Note out;
-    MeshSize size;
-    std::istringstream text(note);
-    if (text >> size.vertices >> size.tets >> out.numbering >> out.folder) out.size = size;
-    std::string rest;
-    std::getline(text, rest);  // the end of the first line
-    std::getline(text, rest, '\0');
-    out.steps = steps_of(text ? rest : std::string());
-    return out;
-  }
-
-  void open_before(const MeshJob& job) {
-    const KeepOptions& options = job.run.keep;
-    if (options.changed.empty() && job.delta == Delta::kNo) return;
-    const std::filesystem::path file = folder_->path() / kLabelsFile;
-    const std::string folder = folder_->path().string();
-    before_ = KeptLabels::open(file, counted_.info().shape);
-    if (before_) {
-      note_ = parse_note(before_->note());
-      if (note_.folder != folder_->number()) {
-        throw DamagedWork(kLabelsFile, "it is of another folder");
-      }
-      is_renumbered_ = note_.numbering != counted_.info().numbering;
-      if (options.say && is_renumbered_ && !options.changed.empty()) {
-        options.say(folder +
-                    ": labels have other numbers than in the last run here, since these depend on "
-                    "all masks; all labels are read, not only --changed");
-      }
-      return;
-    }
-    if (std::error_code ignored; std::filesystem::exists(file, ignored)) {
-      io::fail_usage(folder +
-                     ": was kept of a volume of another shape; give that volume, edited, or "
-                     "delete the folder and begin it by --keep");
-    }
-    if (job.delta == Delta::kOn) {
-      io::fail_usage("--delta: no run was complete in " + folder + ", there is nothing before");
-    }
-    if (options.say && !options.changed.empty()) {
-      options.say(folder +
-                  ": no run was complete here, so all labels are read, not only --changed");
-    }
-  }
-
-  /// ERRORS: mw::Error(kUsage) when labels outside of the boxes are found to have changed.
-  void refuse_untold_change() const {
-    const auto box = patched_->untold_change(scanner_count(counted_, 1, memory_));
-    if (!box) return;
-    const Index3 lo = box->lo + counted_.info().first, hi = box->hi + counted_.info().first;
-    io::fail_usage(
-        "--changed: labels have changed outside of its boxes, too: those of the tile from ", lo.x,
-        ",", lo.y, ",", lo.z, " to ", hi.x, ",", hi.y, ",", hi.z,
-        " are not those of the last run in ", folder_->path().string(),
-        "; give all boxes that changed, or leave --changed out, so that all is read");
-  }
-
-  CountedVolume counted_;
-  std::uint64_t memory_;  ///< bytes of the budget
-  std::shared_ptr<KeepFolder> folder_;
-  std::optional<KeptLabels> before_;
-  Note note_;                   ///< of the run before
-  bool is_renumbered_ = false;  ///< one number stood for something else before
-  std::vector<Box3> changed_;
-  std::optional<PatchedVolume> patched_;
-  std::unique_ptr<io::AtomicFile> after_;
 };
 
 /// Returns sizes by dense label, as FiguresTask has them.
@@ -450,122 +273,203 @@ FinishTask looking_task(const MeshJob& job, const report::FinishedRun& run) {
 
 namespace {
 
-/// Returns what the run promises, whose tets are cut that often.
-io::MeshPromises promises_of(const MeshSettings& asked, int halvings) {
-  io::MeshPromises out = promises_of(asked);
-  out.halvings = halvings;
+/// The image of sizes as the marches take it, and what follows from it.
+struct JobSizes {
+  std::optional<SizeImage> image;
+  int halvings = 0;  ///< how often tets are cut behind the marches
+  report::RaisedSizes raised;
+};
+
+/// Settles sizes, and gives the job the settings of the marches.
+JobSizes settle_sizes(const io::VolumeInfo& volume, const MeshJob& asked, MeshJob& job) {
+  JobSizes out{.image = size_image(volume, asked)};
+  const double smallest =
+      out.image ? least_size_of(*out.image, asked) : std::numeric_limits<double>::infinity();
+  out.halvings = halvings_of(volume, asked, smallest);
+  job.settings = before_halvings(asked.settings, out.halvings);
+  if (!out.image) return out;
+  if (asked.settings.sizes.count == 0) {
+    out.raised = raised_sizes(*out.image, smallest, volume, out.halvings);
+  }
+  out.image.emplace(out.image->scaled(std::ldexp(1.0, out.halvings)));
   return out;
 }
 
-report::FinishedRun mesh_and_keep(const io::LabelVolume& opened, const MeshJob& asked,
-                                  std::span<io::MeshSink* const> sinks) {
-  MeshJob job = asked;
-  CertificatePlan plan = plan_certificate(job, reader_bytes(opened));
-  const engine::ResourceMeter meter;
-  std::optional<SizeImage> sizes = size_image(opened.info(), job);
-  const double smallest =
-      sizes ? least_size_of(*sizes, job) : std::numeric_limits<double>::infinity();
-  const int halvings = halvings_of(opened.info(), asked, smallest);
-  job.settings = before_halvings(asked.settings, halvings);
+/// Checks before any label is read that the job can be done.
+void check_job(const io::LabelVolume& opened, const MeshJob& job) {
   check(opened.info(), job.settings);
   check_keep(job.run, job.settings);
   check_object_box(opened.info(), job);
-  const io::LabelScores* const scores = opened.scores();
-  if (scores != nullptr) check_scored(job);
-  io::check_unpacking(opened, reading_room(job, scores != nullptr));
-  for (const SampleImage& sample : job.samples)
+  const bool has_scores = opened.scores() != nullptr;
+  if (has_scores) check_scored(job);
+  io::check_unpacking(opened, reading_room(job, has_scores));
+  for (const SampleImage& sample : job.samples) {
     io::check_unpacking(*sample.image, reading_room(job));
-  report::RaisedSizes raised;
-  if (sizes && asked.settings.sizes.count == 0) {
-    raised = raised_sizes(*sizes, smallest, opened.info(), halvings);
   }
-  if (sizes) sizes.emplace(sizes->scaled(std::ldexp(1.0, halvings)));
-  const StoppableVolume from_file(opened, job.stop);
-  KeptInput kept(from_file, job);
-  const io::SpeckLimits limits = io::SpeckLimits::of_budget(job.run.store.memory);
-  SharedReads shared(kept.volume(), job.run.store.memory - limits.memory);
-  const io::PreparedInput input(shared, job.steps, limits);
-  shared.end();
-  return_free_memory_above(0);  // the search for specks has let go of more than is held
-  FingerprintVolume volume(input.volume());
-  Processes& processes = job.run.processes == nullptr ? one_process() : *job.run.processes;
-  report::FinishedRun run{.volume = volume.info(),
-                          .labels = processes.collect_labels(
-                              volume, scanner_count(volume, job.run.threads, job.run.store.memory)),
-                          .sizes = asked.settings.sizes,
-                          .raised = raised,
-                          .specks = input.specks(),
-                          .welds = input.welds()};
-  run.labels_seconds = meter.read().wall_seconds;
-  run.fingerprint = volume.text();
-  if (sizes) run.fingerprint += io::text(", sizes ", sizes->fingerprint());
-  if (scores != nullptr) run.fingerprint += io::text(", scores ", fingerprint(*scores));
-  if (job.labels_known) job.labels_known(run.labels.size());
-  const io::DenseVolume labels(input.volume(), run.labels);
-  const std::uint64_t beside = std::min(input.held_bytes(), job.run.store.memory);
-  const std::uint64_t memory = job.run.store.memory - beside;
-  job.run.store.memory_beside = beside;
-  if (asked.settings.sizes.count > 0) {
-    run.count = count_facts({.labels = labels,
-                             .job = asked,
-                             .image = sizes ? &*sizes : nullptr,
-                             .memory = memory,
-                             .memory_beside = beside},
-                            run);
-    job.settings = with_scale(asked.settings, run.count->scale);
-    run.sizes = job.settings.sizes;
-    if (sizes) sizes.emplace(sizes->scaled(run.count->scale));
-    check(opened.info(), job.settings);
-  }
-  check_interfaces(job.connect, run.labels);
-  const std::uint64_t standing = standing_bytes(labels, job.settings, job.run);
-  plan = beside_others(plan, job, beside + standing + io::ScratchMesh::kBufferBytes);
-  job.run.store.buffers_grow = kSortsShare + (plan.why_not.empty() ? kCertificateShare : 0);
-  const io::MeshPromises promises = promises_of(asked.settings, halvings);
-  FinishTask task = looking_task(job, run);
-  task.leaves_values_out = job.leaves_values_out;
-  task.cut = cut_task(halvings, asked, labels.info());
-  task.connect.options = job.connect;
-  task.connect.options.watched = sized_interfaces(job, run.labels);
-  if (plan.why_not.empty()) {
-    task.certificate.emplace(certificate_task(plan, job, labels, promises));
-  }
-  std::optional<ImageSampler> sampler;
-  if (!job.samples.empty()) {
-    sampler.emplace(job.samples, opened.info(), thread_count(job.run.threads));
-    task.samples = &*sampler;
-  }
-  io::ScratchMesh mesh(job.folder.empty() ? "." : job.folder);
-  FinishSink sink(mesh, task, {sinks.begin(), sinks.end()});
-  try {
-    RunHooks hooks = run_hooks(job, run, memory);
-    hooks.sizes = sizes ? &*sizes : nullptr;
-    hooks.keep.opened = kept.folder();
-    hooks.keep.begin = [&kept] { kept.begin(); };
-    run.engine = march(labels, job, sink, std::move(hooks));
-  } catch (const Error& error) {
-    if (error.kind() == ErrorKind::kCheckFailed) {
-      refuse_changed_input(input.volume(), volume.sum(), job.run.threads);
-    }
-    throw;
-  }
-  run.engine.halvings = halvings;
-  if (sink.facts()) run.take(*sink.facts());
-  const MeshSize size{run.engine.vertices, run.engine.tets};
-  if (job.delivered) job.delivered();
-  if (job.delta != Delta::kNo && kept.knows_delta()) {
-    run.delta = kept.delta(input.volume(), job, size);
-    if (job.tell) job.tell(*run.delta);
-  }
-  kept.finish(job.steps, size);
-  if (run.engine.keep) run.engine.keep->voxels_read = kept.voxels_read();
-  if (sampler) run.samples = sampler->facts();
-  run.radius_ratio_floor = floor_of(promises);
-  run.why_no_certificate = plan.why_not;
-  run.why_no_volumes = scores != nullptr ? kVolumesOfScores : why_no_volumes(promises);
-  run.resources = meter.read();
-  return run;
 }
+
+/// Settles sizes and settings, and checks that the job can be done.
+JobSizes settle(const io::LabelVolume& opened, const MeshJob& asked, MeshJob& job) {
+  JobSizes out = settle_sizes(opened.info(), asked, job);
+  check_job(opened, job);
+  return out;
+}
+
+/// One job: labels behind the views that it asks for, marches into a finished mesh, passes over
+/// it, and what is told of all that.
+class MeshRun {
+ public:
+  MeshRun(const io::LabelVolume& opened, const MeshJob& asked)
+      : opened_(opened),
+        asked_(asked),
+        job_(asked),
+        plan_(plan_certificate(job_, reader_bytes(opened))),
+        sizes_(settle(opened, asked, job_)),
+        from_file_(opened, job_.stop),
+        kept_(from_file_, job_),
+        limits_(io::SpeckLimits::of_budget(job_.run.store.memory)),
+        shared_(kept_.volume(), job_.run.store.memory - limits_.memory),
+        input_(shared_, job_.steps, limits_),
+        volume_(input_.volume()) {
+    shared_.end();
+    return_free_memory_above(0);  // the search for specks has let go of more than is held
+  }
+
+  report::FinishedRun go(std::span<io::MeshSink* const> sinks) {
+    read_labels();
+    const io::DenseVolume labels(input_.volume(), run_.labels);
+    if (asked_.settings.sizes.count > 0) find_count(labels);
+    check_interfaces(job_.connect, run_.labels);
+    plan_check(labels);
+    const FinishTask task = finish_task(labels);
+    io::ScratchMesh mesh(job_.folder.empty() ? "." : job_.folder);
+    FinishSink sink(mesh, task, {sinks.begin(), sinks.end()});
+    march_into(sink, labels);
+    if (sink.facts()) run_.take(*sink.facts());
+    leave_for_later();
+    tell();
+    return std::move(run_);
+  }
+
+ private:
+  void read_labels() {
+    Processes& processes = job_.run.processes == nullptr ? one_process() : *job_.run.processes;
+    run_.volume = volume_.info();
+    run_.labels = processes.collect_labels(
+        volume_, scanner_count(volume_, job_.run.threads, job_.run.store.memory));
+    run_.sizes = asked_.settings.sizes;
+    run_.labels_seconds = meter_.read().wall_seconds;
+    run_.fingerprint = volume_.text();
+    if (sizes_.image) run_.fingerprint += io::text(", sizes ", sizes_.image->fingerprint());
+    if (const io::LabelScores* const scores = opened_.scores()) {
+      run_.fingerprint += io::text(", scores ", fingerprint(*scores));
+    }
+    if (job_.labels_known) job_.labels_known(run_.labels.size());
+    job_.run.store.memory_beside = std::min(input_.held_bytes(), job_.run.store.memory);
+  }
+
+  /// Returns the memory of the marches.
+  [[nodiscard]] std::uint64_t memory() const {
+    return job_.run.store.memory - job_.run.store.memory_beside;
+  }
+
+  void find_count(const io::DenseVolume& labels) {
+    run_.count = count_facts({.labels = labels,
+                              .job = asked_,
+                              .image = sizes_.image ? &*sizes_.image : nullptr,
+                              .memory = memory(),
+                              .memory_beside = job_.run.store.memory_beside},
+                             run_);
+    job_.settings = with_scale(asked_.settings, run_.count->scale);
+    run_.sizes = job_.settings.sizes;
+    if (sizes_.image) sizes_.image.emplace(sizes_.image->scaled(run_.count->scale));
+    check(opened_.info(), job_.settings);
+  }
+
+  void plan_check(const io::DenseVolume& labels) {
+    const std::uint64_t standing = standing_bytes(labels, job_.settings, job_.run);
+    const std::uint64_t others =
+        job_.run.store.memory_beside + standing + io::ScratchMesh::kBufferBytes;
+    plan_ = beside_others(plan_, job_, others);
+    job_.run.store.buffers_grow = kSortsShare + (plan_.why_not.empty() ? kCertificateShare : 0);
+  }
+
+  [[nodiscard]] io::MeshPromises promises() const {
+    io::MeshPromises out = promises_of(asked_.settings);
+    out.halvings = sizes_.halvings;
+    return out;
+  }
+
+  [[nodiscard]] FinishTask finish_task(const io::DenseVolume& labels) {
+    FinishTask out = looking_task(job_, run_);
+    out.leaves_values_out = job_.leaves_values_out;
+    out.cut = cut_task(sizes_.halvings, asked_, labels.info());
+    out.connect.options = job_.connect;
+    out.connect.options.watched = sized_interfaces(job_, run_.labels);
+    if (plan_.why_not.empty()) {
+      out.certificate.emplace(certificate_task(plan_, job_, labels, promises()));
+    }
+    if (job_.samples.empty()) return out;
+    sampler_.emplace(job_.samples, opened_.info(), thread_count(job_.run.threads));
+    out.samples = &*sampler_;
+    return out;
+  }
+
+  void march_into(io::MeshSink& sink, const io::DenseVolume& labels) {
+    RunHooks hooks = run_hooks(job_, run_, memory());
+    hooks.sizes = sizes_.image ? &*sizes_.image : nullptr;
+    hooks.keep.opened = kept_.folder();
+    hooks.keep.begin = [this] { kept_.begin(); };
+    try {
+      run_.engine = march(labels, job_, sink, std::move(hooks));
+    } catch (const Error& error) {
+      if (error.kind() == ErrorKind::kCheckFailed) {
+        refuse_changed_input(input_.volume(), volume_.sum(), job_.run.threads);
+      }
+      throw;
+    }
+    run_.engine.halvings = sizes_.halvings;
+  }
+
+  /// Tells what an edit changed, and keeps the labels for the next one.
+  void leave_for_later() {
+    const MeshSize size{run_.engine.vertices, run_.engine.tets};
+    if (job_.delivered) job_.delivered();
+    if (job_.delta != Delta::kNo && kept_.knows_delta()) {
+      run_.delta = kept_.delta(input_.volume(), job_, size);
+      if (job_.tell) job_.tell(*run_.delta);
+    }
+    kept_.finish(job_.steps, size);
+    if (run_.engine.keep) run_.engine.keep->voxels_read = kept_.voxels_read();
+  }
+
+  void tell() {
+    run_.raised = sizes_.raised;
+    run_.specks = input_.specks();
+    run_.welds = input_.welds();
+    if (sampler_) run_.samples = sampler_->facts();
+    run_.radius_ratio_floor = floor_of(promises());
+    run_.why_no_certificate = plan_.why_not;
+    run_.why_no_volumes =
+        opened_.scores() != nullptr ? kVolumesOfScores : why_no_volumes(promises());
+    run_.resources = meter_.read();
+  }
+
+  const engine::ResourceMeter meter_;
+  const io::LabelVolume& opened_;
+  const MeshJob& asked_;
+  MeshJob job_;  ///< with the settings of the marches
+  CertificatePlan plan_;
+  JobSizes sizes_;
+  StoppableVolume from_file_;
+  KeptInput kept_;
+  io::SpeckLimits limits_;
+  SharedReads shared_;
+  io::PreparedInput input_;
+  FingerprintVolume volume_;
+  std::optional<ImageSampler> sampler_;
+  report::FinishedRun run_;
+};
 
 }  // namespace
 
@@ -574,9 +478,9 @@ report::FinishedRun mesh(const io::LabelVolume& opened, const MeshJob& job,
   const io::WaitStop waits(&job.stop);
   const KeepOptions& keep = job.run.keep;
   try {
-    if (keep.use != KeepUse::kUpdate) return mesh_and_keep(opened, job, sinks);
+    if (keep.use != KeepUse::kUpdate) return MeshRun(opened, job).go(sinks);
     const PlacedVolume placed(opened, settled_space(keep.folder, opened.info().space));
-    return mesh_and_keep(placed, job, sinks);
+    return MeshRun(placed, job).go(sinks);
   } catch (const DamagedWork& damage) {
     fail_damaged(damage, job.run);
   }
