@@ -1,17 +1,27 @@
 // SPDX-FileCopyrightText: The mwmesh authors
 // SPDX-License-Identifier: Apache-2.0
 // mwmesh convert: a mesh from one format to another.
+#include <algorithm>
 #include <iostream>
+#include <optional>
 
 #include "engine/cli/command.h"
 #include "engine/cli/exit_code.h"
 #include "engine/cli/options/file_names.h"
+#include "engine/cli/options/finish_options.h"
 #include "engine/cli/options/shared_options.h"
 #include "engine/cli/options/values.h"
+#include "engine/cli/options/volume_options.h"
+#include "engine/finish/passes.h"
+#include "engine/finish/select_labels.h"
+#include "engine/march/march.h"
+#include "engine/report/connect_report.h"
 #include "engine/settings/size_text.h"
 #include "io/file/errors.h"
-#include "io/mesh/mesh_sink.h"
+#include "io/file/scratch/scratch_file.h"
 #include "io/mesh/open_mesh.h"
+#include "io/mesh/scratch_mesh.h"
+#include "io/volume/open_volume.h"
 
 namespace mw::cli {
 namespace {
@@ -23,6 +33,10 @@ struct ConvertJob {
   std::uint64_t pieces = 0;            ///< 0: not asked for
   bool force = false;                  ///< whether it may replace files of others
   io::MeshExtras extras;
+  std::filesystem::path names;  ///< empty: those of the mesh
+  engine::LabelChoice choice;
+  engine::ConnectOptions connect;
+  std::vector<engine::SampleImage> samples;
 };
 
 void check_files(const ConvertJob& job) {
@@ -30,13 +44,17 @@ void check_files(const ConvertJob& job) {
   files.read_mesh(job.from);
   files.write_mesh(job.to, job.extras.materials.has_value());
   files.write("--pairs", job.extras.pairs);
+  if (!job.names.empty()) files.read("--names", job.names);
+  for (const engine::SampleImage& sample : job.samples) files.read("--sample", sample.file);
   files.require_apart();
   if (!job.force) files.require_own();
 }
 
 std::unique_ptr<io::MeshSink> open_output(const ConvertJob& job, io::Element element) {
   const bool in_pieces = job.to.extension() == io::kPiecesExtension;
-  if (!in_pieces && job.pieces == 0) return io::open_mesh_sink(job.to, element, job.extras);
+  io::MeshExtras extras = job.extras;
+  extras.wedges = job.connect.cohesive.any();
+  if (!in_pieces && job.pieces == 0) return io::open_mesh_sink(job.to, element, extras);
   if (in_pieces && job.pieces == 0) {
     io::fail_usage(job.to.string() + ": a mesh in pieces; say how many with --pieces N");
   }
@@ -49,71 +67,100 @@ std::unique_ptr<io::MeshSink> open_output(const ConvertJob& job, io::Element ele
   return io::open_mesh_pieces(job.to, job.pieces);
 }
 
+/// Which nodes the tets of the file have, and those that are written.
+struct Nodes {
+  io::Element of_file = io::Element::kTet4;
+  io::Element written = io::Element::kTet4;
+  std::string no_middles{};  ///< why the file's middles are not written; empty if they are
+};
+
 io::Element element_of(const io::MeshHeader& file) {
   if (file.in_parts) return io::Element::kCurvedTet10;
   return file.ten_nodes ? io::Element::kTet10 : io::Element::kTet4;
 }
 
-/// Opens the output when it is known which nodes the file's tets have; tells what it has not.
-class ConvertSink : public io::MeshSink {
- public:
-  explicit ConvertSink(const ConvertJob& job)
-      : job_(job), below_(open_output(job, job.element.value_or(io::Element::kTet4))) {}
+Nodes nodes_of(const io::MeshHeader& file, const ConvertJob& job) {
+  Nodes out{.of_file = element_of(file)};
+  if (!job.element && io::has_middles(out.of_file)) {
+    out.no_middles = io::why_no_middles(job.to, file.record.cohesive.any());
+  }
+  out.written = job.element.value_or(out.no_middles.empty() ? out.of_file : io::Element::kTet4);
+  return out;
+}
 
-  void begin(const io::MeshHeader& header) override {
-    values_ = header.values;
-    of_file_ = element_of(header);
-    const bool has_wedges = header.record.cohesive.any();
-    if (!job_.element && io::has_middles(of_file_)) {
-      no_middles_ = io::why_no_middles(job_.to, has_wedges);
-    }
-    written_ = job_.element.value_or(no_middles_.empty() ? of_file_ : io::Element::kTet4);
-    if (!job_.element && io::has_middles(written_)) {
-      below_.reset();
-      below_ = open_output(job_, written_);
-    }
-    below_->begin(header);
+/// Says what the new file does not have, or not as the mesh had it.
+void tell_left_out(const io::MeshHeader& file, const Nodes& nodes, const ConvertJob& job) {
+  if (!nodes.no_middles.empty()) {
+    std::cout << "left out: middles of edges; " << nodes.no_middles << std::endl;
+  } else if (!job.element && nodes.written == io::Element::kTet10) {
+    std::cout << "tets keep ten nodes, those of edges in their middles; --element tet4 leaves "
+                 "these out"
+              << std::endl;
   }
-  void write_vertices(std::span<const io::Position> positions) override {
-    below_->write_vertices(positions);
+  if (nodes.of_file == io::Element::kCurvedTet10 && nodes.written != nodes.of_file) {
+    std::cout << "each curved tet is written as eight of its parts" << std::endl;
   }
-  void write_tets(std::span<const io::TetRows> tets, std::span<const RawLabel> labels) override {
-    below_->write_tets(tets, labels);
-  }
-  void write_values(std::span<const double> rows) override { below_->write_values(rows); }
-  void finish() override { below_->finish(); }
+  const std::string why = io::why_no_values(job.to);
+  if (file.values.empty() || why.empty() || job.extras.materials) return;
+  std::cout << "left out: values " << joined(file.values, ", ") << "; " << why << std::endl;
+}
 
-  /// Says what the new file does not have, or not as the mesh had it.
-  void tell() const {
-    if (!no_middles_.empty()) {
-      std::cout << "left out: middles of edges; " << no_middles_ << std::endl;
-    } else if (!job_.element && written_ == io::Element::kTet10) {
-      std::cout << "tets keep ten nodes, those of edges in their middles; --element tet4 leaves "
-                   "these out"
-                << std::endl;
+/// Opens the images that tets get values from.  A mesh does not tell where the voxels of its volume
+/// were, so that an image must tell where it lies.
+std::vector<engine::SampleImage> opened_samples(const ConvertJob& job, const io::MeshHeader& file) {
+  std::vector<engine::SampleImage> out = job.samples;
+  for (engine::SampleImage& sample : out) {
+    if (std::find(file.values.begin(), file.values.end(), sample.name) != file.values.end()) {
+      io::fail_usage("--sample ", sample.name, ": ", job.from.string(),
+                     " has values of that name; give another one");
     }
-    if (of_file_ == io::Element::kCurvedTet10 && written_ != of_file_) {
-      std::cout << "each curved tet is written as eight of its parts" << std::endl;
-    }
-    const std::string why = io::why_no_values(job_.to);
-    if (values_.empty() || why.empty() || job_.extras.materials) return;
-    std::cout << "left out: values " << joined(values_, ", ") << "; " << why << std::endl;
+    sample.image = io::open_volume(sample.file, {.dataset = sample.dataset});
+    if (sample.image->info().is_placed) continue;
+    io::fail_usage("--sample ", sample.name, ": ", sample.file,
+                   " does not say where it lies, and a mesh not which voxels it was made of; give "
+                   "an image in a format that has a place, such as NIfTI");
   }
+  return out;
+}
 
- private:
-  const ConvertJob& job_;
-  std::unique_ptr<io::MeshSink> below_;
-  io::Element of_file_ = io::Element::kTet4;
-  io::Element written_ = io::Element::kTet4;
-  std::vector<std::string> values_;
-  std::string no_middles_;  ///< why the file's middles are not written; empty if they are
-};
+/// Changes the mesh as the options ask.
+void change(io::ScratchMesh& mesh, const ConvertJob& job) {
+  io::MeshHeader& header = mesh.header();
+  const bool looks_at_tets = job.connect.change_mesh() || !job.samples.empty();
+  const bool stays_curved = job.element.value_or(io::Element::kCurvedTet10) != io::Element::kTet4;
+  if (header.in_parts && looks_at_tets && stays_curved) {
+    io::fail_usage(job.from.string(),
+                   ": --parts, --split, --cohesive, --open-hinges and --sample are for straight "
+                   "tets, and these are curved; give --element tet4");
+  }
+  if (!job.names.empty()) header.names = header.names.merged_with(names_in(job.names));
+  if (job.connect.split.any() || job.connect.cohesive.any()) {
+    check_interfaces(job.connect, engine::labels_of(mesh));
+  }
+  engine::FinishTask task{.labels = job.choice, .connect = {.options = job.connect}};
+  std::optional<engine::ImageSampler> sampler;
+  if (!job.samples.empty()) {
+    io::VolumeInfo world;
+    world.space.frame = header.record.frame;
+    world.space.unit = header.record.unit;
+    sampler.emplace(opened_samples(job, header), world, engine::thread_count(0));
+    task.samples = &*sampler;
+  }
+  const engine::FinishFacts facts = engine::apply_passes(mesh, task);
+  if (facts.connected) std::cout << report::connect_text(*facts.connected) << std::endl;
+}
 
 int run_convert(const ConvertJob& job) {
   check_files(job);
-  ConvertSink sink(job);
-  io::copy_mesh(job.from, sink);
-  sink.tell();
+  // What cannot be written fails before the mesh is read.
+  static_cast<void>(open_output(job, job.element.value_or(io::Element::kTet4)));
+  io::ScratchMesh mesh(io::scratch_folder());
+  io::ScratchMeshSink from_file(mesh);
+  io::copy_mesh(job.from, from_file);
+  change(mesh, job);
+  const Nodes nodes = nodes_of(mesh.header(), job);
+  mesh.copy_to(*open_output(job, nodes.written));
+  tell_left_out(mesh.header(), nodes, job);
   return kExitDone;
 }
 
@@ -168,16 +215,29 @@ void add_output_options(OptionSet& options, ConvertJob& job) {
   add_force_option(options, job.force);
 }
 
+void add_change_options(OptionSet& options, ConvertJob& job) {
+  add_choice_options(options, job.choice);
+  options.add({.name = "names",
+               .value = "FILE",
+               .help = "names and colours of labels, in the place of the mesh's",
+               .group = kLabelGroup,
+               .assign = into(job.names)});
+  add_connect_options(options, job.connect);
+  add_sample_option(options, job.samples);
+}
+
 }  // namespace
 
 Command convert_command() {
   const auto job = std::make_shared<ConvertJob>();
   Command command{.name = "convert",
-                  .about = "writes a mesh in another format",
+                  .about = "writes a mesh in another format, or changed",
                   .options = {},
                   .run = [job](const OptionSet&) { return run_convert(*job); },
-                  .note = mesh_note() + "OUT: " + io::mesh_extensions() + ".\n"};
+                  .note = mesh_note() + "OUT: " + io::mesh_extensions() + ".\n",
+                  .names = [job] { return names_of(job->from); }};
   add_mesh_option(command.options, job->from, "mesh to read");
+  add_change_options(command.options, *job);
   add_output_options(command.options, *job);
   return command;
 }

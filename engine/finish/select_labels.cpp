@@ -7,17 +7,10 @@
 #include <utility>
 #include <vector>
 
-#include "io/labels/label_table.h"
 #include "io/mesh/kept_rows.h"
 
 namespace mw::engine {
 namespace {
-
-io::LabelTable labels_of(io::ScratchMesh& mesh) {
-  io::LabelSet found;
-  mesh.each_tet_batch([&](const io::TetBatch& batch) { found.insert(batch.labels); });
-  return {found.values(), mesh.header().labels_signed};
-}
 
 /// Tells in the header which labels are gone.
 void tell_choice(const io::LabelTable& table, const WantedLabel& wanted, io::MeshHeader& header) {
@@ -83,6 +76,12 @@ void add_tets(const io::TetBatch& batch, const WantedLabel& wanted, const io::Ke
 }
 
 }  // namespace
+
+io::LabelTable labels_of(io::ScratchMesh& mesh) {
+  io::LabelSet found;
+  mesh.each_tet_batch([&](const io::TetBatch& batch) { found.insert(batch.labels); });
+  return {found.values(), mesh.header().labels_signed};
+}
 
 void select_labels(io::ScratchMesh& mesh, const LabelChoice& choice,
                    const std::function<void()>& between) {

@@ -6,9 +6,13 @@
 #include <functional>
 
 #include "engine/output/label_selection.h"
+#include "io/labels/label_table.h"
 #include "io/mesh/scratch_mesh.h"
 
 namespace mw::engine {
+
+/// Returns the labels of the tets.
+[[nodiscard]] io::LabelTable labels_of(io::ScratchMesh& mesh);
 
 /// Leaves the tets of the other labels out, and then the vertices that no tet has.  What stays
 /// keeps its order, and the record tells what is gone.  Calls between(), which may throw, often.

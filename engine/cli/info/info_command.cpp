@@ -57,7 +57,7 @@ MeshInfo look_at_mesh(const InfoJob& job) {
   return {.file = job.file.string(),
           .vertices = mesh.vertex_count() + merged.merged(),
           .tets = mesh.tet_count(),
-          .curved = mesh.header().in_parts ? mesh.tet_count() / kTetParts.size() : 0,
+          .curved = stored.header().in_parts ? mesh.tet_count() / kTetParts.size() : 0,
           .doubled = merged.merged(),
           .parts = engine::connect(stored, {}),
           .table = mesh.table(),

@@ -5,10 +5,10 @@
 
 #include <algorithm>
 
+#include "engine/cli/options/finish_options.h"
 #include "engine/cli/options/shared_options.h"
 #include "engine/cli/options/values.h"
 #include "engine/codt/worker_pool.h"
-#include "engine/sample/sample_text.h"
 #include "engine/settings/size_text.h"
 #include "engine/system/memory.h"
 #include "io/file/errors.h"
@@ -151,38 +151,6 @@ void add_run_options(OptionSet& options, MeshRequest& request) {
                .only_flag = true});
 }
 
-void add_connect_options(OptionSet& options, engine::ConnectOptions& connect) {
-  options.add({.name = "parts",
-               .value = "all|largest|N",
-               .help = "parts that are written; N: those of at least N tets",
-               .group = kOutputGroup,
-               .kind = ValueKind::kNumberOrText,
-               .fallback = "all",
-               .listed = Listed::kInHelpAll,
-               .assign = into(connect.parts, engine::parse_parts)});
-  options.add({.name = "split",
-               .value = "A|B,...",
-               .help = "doubles the vertices of interfaces, so that they open; *: of all",
-               .group = kOutputGroup,
-               .listed = Listed::kInHelpAll,
-               .has_labels = true,
-               .assign = into(connect.split, engine::parse_split)});
-  options.add({.name = "cohesive",
-               .value = "A|B,...",
-               .help = "--split, with wedges of no thickness in between, from A to B",
-               .group = kOutputGroup,
-               .listed = Listed::kInHelpAll,
-               .has_labels = true,
-               .assign = into(connect.cohesive, engine::parse_cohesive)});
-  options.add({.name = "open-hinges",
-               .help = "doubles the vertices at which parts hang, so that they come apart",
-               .group = kOutputGroup,
-               .kind = ValueKind::kSwitch,
-               .fallback = "false",
-               .listed = Listed::kInHelpAll,
-               .assign = into(connect.open_hinges)});
-}
-
 void add_output_options(OptionSet& options, MeshRequest& request) {
   options.add({.name = "output",
                .value = "OUTPUT",
@@ -223,13 +191,7 @@ void add_output_options(OptionSet& options, MeshRequest& request) {
                .fallback = "false",
                .listed = Listed::kInHelpAll,
                .assign = into(request.extras.encoding, parse_ascii)});
-  options.add({.name = "sample",
-               .value = "NAME=FILE[:mean]",
-               .help = "an image's mean, min, max or mode in each tet, repeatable",
-               .group = kOutputGroup,
-               .listed = Listed::kInHelpAll,
-               .repeats = true,
-               .assign = into(request.job.samples, engine::parse_samples)});
+  add_sample_option(options, request.job.samples);
   options.add({.name = "materials",
                .value = "NAME=N[:LO:HI]",
                .help = "N sets of elements by equal ranges of a --sample, with a table",

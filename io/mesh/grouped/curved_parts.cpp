@@ -47,7 +47,7 @@ KeptRows CurvedParts::corners() {
           throw Error(ErrorKind::kInput,
                       text("a tet names vertex ", tet.rows[i], " of ", vertices_.size()));
         }
-        are_corners ? out.corner(tet.rows[i]) : out.middle(tet.rows[i]);
+        are_corners ? out.keep(tet.rows[i]) : out.middle(tet.rows[i]);
       }
     }
   }

@@ -1,0 +1,53 @@
+// SPDX-FileCopyrightText: The mwmesh authors
+// SPDX-License-Identifier: Apache-2.0
+#include "engine/cli/options/finish_options.h"
+
+#include "engine/cli/options/shared_options.h"
+#include "engine/cli/options/values.h"
+#include "engine/sample/sample_text.h"
+
+namespace mw::cli {
+
+void add_connect_options(OptionSet& options, engine::ConnectOptions& connect) {
+  options.add({.name = "parts",
+               .value = "all|largest|N",
+               .help = "parts that are written; N: those of at least N tets",
+               .group = kOutputGroup,
+               .kind = ValueKind::kNumberOrText,
+               .fallback = "all",
+               .listed = Listed::kInHelpAll,
+               .assign = into(connect.parts, engine::parse_parts)});
+  options.add({.name = "split",
+               .value = "A|B,...",
+               .help = "doubles the vertices of interfaces, so that they open; *: of all",
+               .group = kOutputGroup,
+               .listed = Listed::kInHelpAll,
+               .has_labels = true,
+               .assign = into(connect.split, engine::parse_split)});
+  options.add({.name = "cohesive",
+               .value = "A|B,...",
+               .help = "--split, with wedges of no thickness in between, from A to B",
+               .group = kOutputGroup,
+               .listed = Listed::kInHelpAll,
+               .has_labels = true,
+               .assign = into(connect.cohesive, engine::parse_cohesive)});
+  options.add({.name = "open-hinges",
+               .help = "doubles the vertices at which parts hang, so that they come apart",
+               .group = kOutputGroup,
+               .kind = ValueKind::kSwitch,
+               .fallback = "false",
+               .listed = Listed::kInHelpAll,
+               .assign = into(connect.open_hinges)});
+}
+
+void add_sample_option(OptionSet& options, std::vector<engine::SampleImage>& samples) {
+  options.add({.name = "sample",
+               .value = "NAME=FILE[:mean]",
+               .help = "an image's mean, min, max or mode in each tet, repeatable",
+               .group = kOutputGroup,
+               .listed = Listed::kInHelpAll,
+               .repeats = true,
+               .assign = into(samples, engine::parse_samples)});
+}
+
+}  // namespace mw::cli

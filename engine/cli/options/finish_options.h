@@ -1,0 +1,21 @@
+// SPDX-FileCopyrightText: The mwmesh authors
+// SPDX-License-Identifier: Apache-2.0
+// Options about what is done to a finished mesh, which mesh and convert share.
+#pragma once
+
+#include <vector>
+
+#include "engine/cli/options/option_set.h"
+#include "engine/connect/connect_options.h"
+#include "engine/sample/image_sampler.h"
+
+namespace mw::cli {
+
+/// Adds --parts, --split, --cohesive and --open-hinges.
+/// REQUIRES (also below): what is written to outlives options.
+void add_connect_options(OptionSet& options, engine::ConnectOptions& connect);
+
+/// Adds --sample.
+void add_sample_option(OptionSet& options, std::vector<engine::SampleImage>& samples);
+
+}  // namespace mw::cli
