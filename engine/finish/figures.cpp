@@ -2,12 +2,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "engine/finish/figures.h"
 
-#include <algorithm>
+#include <array>
 #include <cmath>
+#include <utility>
 
 #include "engine/finish/interface_shape.h"
 #include "io/mesh/merged_vertices.h"
-#include "kernels/core/vector3.h"
 
 namespace mw::engine {
 namespace {
@@ -15,25 +15,18 @@ namespace {
 /// Takes the tets of a mesh one by one, with the dense label of each.
 class TetFigures {
  public:
-  explicit TetFigures(const FiguresTask& task)
-      : task_(task),
-        volumes6_(task.table.size()),
-        squares_(task.edge_sizes.empty() ? 0 : task.table.size()) {}
+  explicit TetFigures(const FiguresTask& task) : task_(task), volumes6_(task.table.size()) {}
 
   void add(std::uint64_t number, const std::array<io::Position, 4>& corners, Label label) {
     quality_.add(number, corners);
     const Int128 volume = volume6(lattice_point(corners[0]), lattice_point(corners[1]),
                                   lattice_point(corners[2]), lattice_point(corners[3]));
     volumes6_[label] += volume < 0 ? -volume : volume;
-    if (!squares_.empty()) add_edges(corners, label);
   }
 
   void report(MeshFigures& out) {
     out.quality = quality_.report();
     out.label_volumes6 = std::move(volumes6_);
-    for (double& length : squares_) length = std::sqrt(length);
-    out.longest_edges = std::move(squares_);
-    out.edge_ratios = ratios_;
   }
 
  private:
@@ -47,23 +40,9 @@ class TetFigures {
             units(corner[2], task_.layers.z)};
   }
 
-  void add_edges(const std::array<io::Position, 4>& corners, Label label) {
-    const double size = task_.edge_sizes[label];
-    for (std::size_t i = 0; i < 4; ++i) {
-      for (std::size_t j = i + 1; j < 4; ++j) {
-        const io::Position edge = minus(corners[j], corners[i]);
-        const double square = dot(edge, edge);
-        squares_[label] = std::max(squares_[label], square);
-        if (size > 0.0) ratios_.add(std::sqrt(square) / size);
-      }
-    }
-  }
-
   const FiguresTask& task_;
   audit::QualityMeter quality_;
   std::vector<Int128> volumes6_;
-  std::vector<double> squares_;  ///< of the longest edges, by dense label
-  EdgeRatios ratios_;
 };
 
 /// Measures interfaces as they are where vertices were not doubled.
@@ -78,11 +57,6 @@ audit::ShapeReport shape_of(io::ScratchMesh& mesh, std::size_t sort_bytes,
 }
 
 }  // namespace
-
-void EdgeRatios::add(double ratio) {
-  const auto bound = std::lower_bound(kBounds.begin(), kBounds.end(), ratio);
-  ++counts[static_cast<std::size_t>(bound - kBounds.begin())];
-}
 
 MeshFigures measure(io::ScratchMesh& mesh, const FiguresTask& task,
                     const std::function<void()>& between) {

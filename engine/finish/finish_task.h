@@ -11,6 +11,7 @@
 #include "engine/connect/connect_mesh.h"
 #include "engine/finish/certificate.h"
 #include "engine/finish/cut.h"
+#include "engine/finish/edges.h"
 #include "engine/finish/figures.h"
 #include "engine/output/label_selection.h"
 #include "engine/sample/image_sampler.h"
@@ -26,6 +27,7 @@ struct FinishTask {
   ConnectTask connect{};
   bool finds_parts = false;  ///< whether parts and hinges are counted where the mesh stays as it is
   ImageSampler* samples = nullptr;  ///< outlives the task
+  std::optional<EdgesTask> edges{};
   std::optional<FiguresTask> figures{};
   bool leaves_values_out = false;
   std::function<void()> between = [] {};  ///< called often; may throw
@@ -36,6 +38,7 @@ struct FinishFacts {
   std::uint64_t tets = 0;
   std::optional<audit::AuditReport> certificate;
   std::optional<ConnectFacts> connected;
+  std::optional<EdgeFigures> edges;
   std::optional<MeshFigures> figures;
 };
 

@@ -52,6 +52,13 @@ constexpr std::array kPasses{
              [](io::ScratchMesh& mesh, const FinishTask& task, FinishFacts&) {
                sample(mesh, *task.samples, task.connect.memory_bytes, task.between);
              }},
+    Pass{.name = "edges",
+         .is_asked = [](const FinishTask& task) { return task.edges.has_value(); },
+         .bytes = [](const FinishTask&) { return bytes_of_edges(); },
+         .apply =
+             [](io::ScratchMesh& mesh, const FinishTask& task, FinishFacts& facts) {
+               facts.edges = measure_edges(mesh, *task.edges, task.between);
+             }},
     Pass{.name = "figures",
          .is_asked = [](const FinishTask& task) { return task.figures.has_value(); },
          .bytes = [](const FinishTask& task) { return bytes_to_measure(*task.figures); },

@@ -68,9 +68,9 @@ class PlacedVolume : public io::VolumeView {
   io::VolumeInfo info_;
 };
 
-/// Returns sizes by dense label, as FiguresTask has them.
+/// Returns sizes by dense label, as EdgesTask has them.
 std::vector<double> edge_sizes(const SizeRules& rules, const io::LabelTable& table) {
-  std::vector<double> out(rules.any() ? table.size() : 0);
+  std::vector<double> out(table.size());
   for (Label label = 0; label < out.size(); ++label) {
     out[label] = rules.of_label(table.raw(label)).value_or(0.0);
   }
@@ -261,12 +261,15 @@ FinishTask looking_task(const MeshJob& job, const report::FinishedRun& run) {
                              .memory_bytes = sort_bytes},
                  .finds_parts = job.finds_parts,
                  .between = job.stop};
+  if (run.sizes.rules.any()) {
+    out.edges.emplace(
+        EdgesTask{.table = run.labels, .sizes = edge_sizes(run.sizes.rules, run.labels)});
+  }
   if (!job.is_measured) return out;
   const io::VolumeSpace& space = run.volume.space;
   out.figures.emplace(FiguresTask{.table = run.labels,
                                   .space = space,
                                   .layers = layers_of(space.spacing),
-                                  .edge_sizes = edge_sizes(run.sizes.rules, run.labels),
                                   .sort_bytes = sort_bytes});
   return out;
 }

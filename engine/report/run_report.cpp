@@ -201,7 +201,7 @@ Json size_json(const FinishedRun& run) {
            {"labels_that_do_not_meet", unmet_json(run)}};
   // Edges are compared with the sizes of labels only.
   if (run.sizes.rules.labels.empty() && !run.sizes.rules.others) return out;
-  const engine::EdgeRatios& ratios = run.figures->edge_ratios;
+  const engine::EdgeRatios& ratios = run.edges->ratios;
   out["edges_over_size"] = {{"bounds", ratios.kBounds}, {"counts", ratios.counts}};
   return out;
 }
@@ -211,7 +211,7 @@ void add_size(Label label, const FinishedRun& run, Json& row) {
   const std::optional<double> size = run.sizes.rules.of_label(run.labels.raw(label));
   if (!size) return;
   row["size"] = *size;
-  row["longest_edge"] = run.figures->longest_edges[label];
+  row["longest_edge"] = run.edges->longest[label];
 }
 
 /// Returns the distances over all labels; there are none of single labels.
@@ -249,6 +249,7 @@ void FinishedRun::take(const engine::FinishFacts& facts) {
   engine.tets = facts.tets;
   certificate = facts.certificate;
   connected = facts.connected;
+  edges = facts.edges;
   figures = facts.figures;
 }
 

@@ -58,6 +58,7 @@ struct FinishedRun {
   std::string digest;           ///< empty if it was not made
   std::string fingerprint;      ///< of the labels
   std::optional<audit::AuditReport> certificate;  ///< empty if none was made
+  std::optional<engine::EdgeFigures> edges;       ///< empty if no size was asked for
   std::optional<engine::MeshFigures> figures;     ///< empty if not measured
   std::optional<io::Json> delta;                  ///< delta_json() (engine/job/volume_delta.h)
   std::optional<engine::ConnectFacts> connected;  ///< empty if not counted

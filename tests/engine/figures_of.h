@@ -11,9 +11,7 @@
 
 namespace mw::engine::test {
 
-/// edge_sizes are by dense label; empty: edges are not measured.
-inline MeshFigures figures_of(const io::MeshData& mesh, const io::DenseVolume& volume,
-                              std::vector<double> edge_sizes = {}) {
+inline MeshFigures figures_of(const io::MeshData& mesh, const io::DenseVolume& volume) {
   const ::mw::test::TempFolder folder;
   io::ScratchMesh stored(folder.path());
   io::ScratchMeshSink into(stored);
@@ -22,7 +20,6 @@ inline MeshFigures figures_of(const io::MeshData& mesh, const io::DenseVolume& v
   return measure(stored, {.table = volume.table(),
                           .space = space,
                           .layers = layers_of(space.spacing),
-                          .edge_sizes = std::move(edge_sizes),
                           .sort_bytes = 1 << 16});
 }
 

@@ -35,8 +35,8 @@ void print_space(const io::VolumeSpace& space) {
 
 /// Prints how near edges are to the sizes asked of their labels, where that was measured.
 void print_sizes(const report::FinishedRun& run) {
-  if (!run.figures) return;
-  const engine::EdgeRatios& ratios = run.figures->edge_ratios;
+  if (!run.edges) return;
+  const engine::EdgeRatios& ratios = run.edges->ratios;
   double all = 0, near = 0;
   for (std::size_t i = 0; i < ratios.counts.size(); ++i) {
     const auto count = static_cast<double>(ratios.counts[i]);

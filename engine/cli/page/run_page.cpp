@@ -85,7 +85,7 @@ std::string shape_section(const report::FinishedRun& run) {
   out += histogram_figure(volume_errors(run));
   if (run.sizes.rules.any()) {
     out += bar_figure("Edges, as shares of the size that was asked",
-                      edge_rows(run.figures->edge_ratios));
+                      edge_rows(run.edges->ratios));
   }
   return out + "</div></section>\n";
 }

@@ -4,7 +4,9 @@
 #include "engine/finish/figures.h"
 
 #include <cmath>
+#include <numeric>
 
+#include "engine/finish/edges.h"
 #include "engine/finish/interface_shape.h"
 #include "io/mesh/mesh_data.h"
 #include "kernels/core/error.h"
@@ -94,7 +96,7 @@ TEST(Figures, RefuseTetsOfVerticesThatAreNotThere) {
 }
 
 /// Against all pairs of corners of all tets of a label.
-TEST(Figures, HaveTheLongestEdgesOfEachLabel) {
+TEST(Edges, AreCountedAndTheLongestOfEachLabelFound) {
   std::mt19937 random(391);
   std::uniform_real_distribution<double> place(-3, 7);
   const io::LabelTable table({10, 11, 12, 13, 14}, false);
@@ -117,16 +119,34 @@ TEST(Figures, HaveTheLongestEdgesOfEachLabel) {
     }
   }
   Stored stored(mesh);
-  const MeshFigures figures = measure(
-      stored.mesh, {.table = table, .edge_sizes = {0, 0, 4.0, 0, 0}, .sort_bytes = kSortBytes});
-  ASSERT_EQ(figures.longest_edges.size(), table.size());
-  EXPECT_EQ(figures.longest_edges.back(), 0.0);
+  const EdgeFigures figures =
+      measure_edges(stored.mesh, {.table = table, .sizes = {0, 0, 4.0, 0, 0}});
+  ASSERT_EQ(figures.longest.size(), table.size());
+  EXPECT_EQ(figures.longest.back(), 0.0);
   for (std::size_t label = 0; label < table.size(); ++label) {
-    EXPECT_DOUBLE_EQ(figures.longest_edges[label], expected[label]);
+    EXPECT_DOUBLE_EQ(figures.longest[label], expected[label]);
   }
-  const auto& counts = figures.edge_ratios.counts;
+  const auto& counts = figures.ratios.counts;
   EXPECT_EQ(counts[0] + counts[1] + counts[2], edges);
   EXPECT_GT(edges, 0U);
+}
+
+/// Of two tets of two labels that share a triangle, its three edges are at an interface.
+TEST(Edges, AtInterfacesAreThoseBetweenVerticesWhereLabelsMeet) {
+  io::MeshData mesh;
+  mesh.vertices = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}, {0, 0, -1}};
+  mesh.tets = {{0, 1, 2, 3}, {0, 2, 1, 4}};
+  const io::LabelTable table({5, 6}, false);
+  const auto sum = [](const std::vector<std::uint64_t>& counts) {
+    return std::accumulate(counts.begin(), counts.end(), std::uint64_t{0});
+  };
+  for (const RawLabel other : {5U, 6U}) {
+    mesh.labels = {5, other};
+    Stored stored(mesh);
+    const EdgeFigures figures = measure_edges(stored.mesh, {.table = table, .sizes = {1.0, 1.0}});
+    EXPECT_EQ(sum(figures.ratios.at_interfaces), other == 5 ? 0U : 6U);
+    EXPECT_EQ(sum(figures.ratios.counts), 12U);
+  }
 }
 
 }  // namespace
