@@ -276,8 +276,8 @@ struct Options {
   bool from_kept = false;
   /// With from_kept, boxes of voxels, counted as by crop, that hold all changes since the
   /// last run that returned, and that alone are read, beside a sample that must not have changed;
-  /// if empty, everything may have changed.  A run that threw may have kept its labels all the same,
-  /// so its boxes must be there, too.
+  /// if empty, everything may have changed.  A run that threw may have kept its labels all the
+  /// same, so its boxes must be there, too.
   std::vector<Box> changed{};
   /// Images whose values tets get, as `mwmesh mesh --sample` has them: "NAME=FILE" or
   /// "NAME=FILE:mode", several joined by ';'.  The voxels of a .npy file are those of the volume,
