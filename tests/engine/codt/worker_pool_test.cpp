@@ -172,7 +172,7 @@ TEST(WorkerPool, EndsWhereTheMachineTakesEachWorker) {
   }
 }
 
-/// As under a debugger, or on a machine with too much to do.
+/// A debugger may stop it, or a machine with too much to do.
 TEST(WorkerPool, WaitsForAWorkerThatIsStopped) {
   NEEDS_WORKER();
   std::mt19937 random(1309);

@@ -102,7 +102,7 @@ class KeptVolume {
   std::optional<KeptLabels> kept_;
 };
 
-/// Of small volumes all tiles are read.
+/// All tiles of a small volume are read.
 TEST(PatchedVolume, FindsEachUntoldEditOfASmallVolume) {
   std::mt19937 random(3516);
   int found = 0, told = 0;
@@ -142,7 +142,7 @@ class NotingVolume : public io::VolumeView {
   mutable std::set<std::pair<std::int64_t, std::int64_t>> noted_;
 };
 
-/// Of others one tile of each of equal parts is read, which depends on labels alone.
+/// One tile of each of equal parts of a large one is read, which depends on labels alone.
 TEST(PatchedVolume, SamplesALargeVolume) {
   test::SmallVolume labels{.shape = {128, 128, 256}, .label_count = 100, .labels = {}};
   constexpr std::size_t kSamples = 64;  // tiles of 128 x 16 x 16: 8 * ReadingTiles::kMaxVoxels
