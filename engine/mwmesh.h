@@ -291,6 +291,7 @@ struct Options {
   /// Labels before merge, as VolumeFile::object has them: the mesh has what these become, and no
   /// others.  Where labels or background is given, that counts instead.
   std::vector<std::uint64_t> object{};
+  bool force = false;  ///< meshes a volume that looks like an image, too, which else is kUsage
 };
 
 struct Progress {
@@ -309,6 +310,9 @@ struct Hooks {
   /// as a rule, but can take half a minute where nearly all of its voxels differ from their
   /// neighbours (noise); smaller windows (Settings) take less.
   std::function<bool()> cancel{};
+  /// Is told, before the first window, what may not be meant: a spacing that cuts voxels into many
+  /// layers, or labels that were rounded.
+  std::function<void(const std::string& line)> warn{};
 };
 
 /// A mesh in memory.

@@ -21,12 +21,12 @@ bool is_letter(char c) {
 /// it.  Other flags are those of commands that a message tells.
 bool is_of_library(std::string_view flag) {
   constexpr std::string_view kOptions[] = {
-      "background", "cache",       "certify", "changed", "cohesive", "crop",   "dataset",
-      "deck",       "drop-specks", "element", "frame",   "from",     "keep",   "keep-bytes",
-      "labels",     "materials",   "memory",  "merge",   "names",    "object", "open-hinges",
-      "origin",     "overlap",     "pairs",   "parts",   "preset",   "report", "resume",
-      "sample",     "scale",       "spacing", "split",   "threads",  "values", "trust-paths",
-      "use-form",   "weld",        "workdir"};
+      "background",  "cache",       "certify",   "changed", "cohesive", "crop",    "dataset",
+      "deck",        "drop-specks", "element",   "force",   "frame",    "from",    "keep",
+      "keep-bytes",  "labels",      "materials", "memory",  "merge",    "names",   "object",
+      "open-hinges", "origin",      "overlap",   "pairs",   "parts",    "preset",  "report",
+      "resume",      "sample",      "scale",     "spacing", "split",    "threads", "values",
+      "trust-paths", "use-form",    "weld",      "workdir"};
   const auto& settings = engine::setting_table();
   return std::ranges::find(kOptions, flag) != std::end(kOptions) ||
          std::ranges::find(settings, flag, &engine::Setting::name) != settings.end();

@@ -158,7 +158,11 @@ engine::MeshJob mesh_job(const io::VolumeInfo& labels, const mwmesh::Settings& s
       .delta = options.from_kept && options.report ? engine::Delta::kIfKnown : engine::Delta::kNo,
       .folder = io::scratch_folder(),
       .run = run_hooks(labels, options, hooks),
-      .stop = stop_function(hooks)};
+      .takes_images = options.force,
+      .stop = stop_function(hooks),
+      .warn = [&hooks](const std::string& line) {
+        if (hooks.warn) hooks.warn(library_words(line));
+      }};
 }
 
 std::function<void()> stop_function(const mwmesh::Hooks& hooks) {

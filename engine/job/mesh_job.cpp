@@ -21,6 +21,7 @@
 #include "engine/labels/reading_tiles.h"
 #include "engine/labels/score_crossings.h"
 #include "engine/labels/size_image.h"
+#include "engine/labels/texture_volume.h"
 #include "engine/labels/voxel_lattice.h"
 #include "engine/settings/number_text.h"
 #include "engine/settings/promises.h"
@@ -31,6 +32,7 @@
 #include "engine/window/window_memory.h"
 #include "io/file/errors.h"
 #include "io/remote/wait_stop.h"
+#include "io/volume/decode.h"
 #include "io/volume/label_volume.h"
 #include "io/volume/volume_readers.h"
 #include "kernels/core/error.h"
@@ -232,6 +234,27 @@ RunReport march(const io::DenseVolume& labels, const MeshJob& job, io::MeshSink&
   }
 }
 
+void warn(const MeshJob& job, const std::string& line) {
+  if (job.warn && !line.empty()) job.warn(line);
+}
+
+/// Returns all labels, and warns if some were rounded.  ERRORS: mw::Error(kUsage) for an image.
+io::LabelTable first_pass(FingerprintVolume& volume, const TextureVolume& texture,
+                          const MeshJob& job) {
+  Processes& processes = job.run.processes == nullptr ? one_process() : *job.run.processes;
+  const std::uint64_t before = io::rounded_voxels();
+  io::LabelTable out = processes.collect_labels(
+      volume, scanner_count(volume, job.run.threads, job.run.store.memory));
+  if (io::rounded_voxels() > before) {
+    warn(job,
+         io::text("labels: numbers within ", io::kRounding, " of whole ones are rounded to them"));
+  }
+  if (job.takes_images || !texture.is_image(out)) return out;
+  io::fail_usage("the labels look like the grey values of an image: there are ", out.size(),
+                 ", and most voxels differ a little from both neighbours; segment it first, or "
+                 "--force meshes it");
+}
+
 /// Throws if the labels are not those that were read first, which explains a mesh that does not
 /// pass its check.
 void refuse_changed_input(const io::LabelVolume& volume, std::uint64_t first, int threads) {
@@ -303,6 +326,7 @@ void check_job(const io::LabelVolume& opened, const MeshJob& job) {
   check(opened.info(), job.settings);
   check_keep(job.run, job.settings);
   check_object_box(opened.info(), job);
+  warn(job, many_layers_text(opened.info()));
   const bool has_scores = opened.scores() != nullptr;
   if (has_scores) check_scored(job);
   io::check_unpacking(opened, reading_room(job, has_scores));
@@ -333,7 +357,8 @@ class MeshRun {
         limits_(io::SpeckLimits::of_budget(job_.run.store.memory)),
         shared_(kept_.volume(), job_.run.store.memory - limits_.memory),
         input_(shared_, job_.steps, limits_),
-        volume_(input_.volume()) {
+        texture_(input_.volume()),
+        volume_(texture_) {
     shared_.end();
     return_free_memory_above(0);  // the search for specks has let go of more than is held
   }
@@ -356,10 +381,8 @@ class MeshRun {
 
  private:
   void read_labels() {
-    Processes& processes = job_.run.processes == nullptr ? one_process() : *job_.run.processes;
     run_.volume = volume_.info();
-    run_.labels = processes.collect_labels(
-        volume_, scanner_count(volume_, job_.run.threads, job_.run.store.memory));
+    run_.labels = first_pass(volume_, texture_, job_);
     run_.sizes = asked_.settings.sizes;
     run_.labels_seconds = meter_.read().wall_seconds;
     run_.fingerprint = volume_.text();
@@ -469,6 +492,7 @@ class MeshRun {
   io::SpeckLimits limits_;
   SharedReads shared_;
   io::PreparedInput input_;
+  TextureVolume texture_;
   FingerprintVolume volume_;
   std::optional<ImageSampler> sampler_;
   report::FinishedRun run_;

@@ -51,8 +51,10 @@ struct MeshJob {
   /// Threads, memory, work folder, other processes and callbacks.  mesh() sets what is written and
   /// the identity of the run.
   RunHooks run{.threads = 0};
-  /// These four do not change the result.
+  bool takes_images = false;  ///< whether grey values are meshed as labels (TextureVolume)
+  /// These five do not change the result.
   std::function<void()> stop = [] {};                    ///< called often, by any thread; may throw
+  std::function<void(const std::string& line)> warn;     ///< optional; called before marches
   std::function<void(std::size_t labels)> labels_known;  ///< optional; called before marches
   std::function<void()> delivered;  ///< optional; called when all of the mesh is in the sinks
   /// Optional; given FinishedRun::delta while the folder still has the labels before, so that the
@@ -86,7 +88,8 @@ struct CertificatePlan {
 /// the other.  A certificate is made before, of the mesh before parts are left out and vertices
 /// doubled.
 /// ENSURES: promises P1 to P3 and P5 of the README.  The digest is the caller's to add.
-/// ERRORS: those of the volume, its steps, mesh_volume() and the sinks; kCheckFailed when the
+/// ERRORS: those of the volume, its steps, mesh_volume() and the sinks; kUsage for a volume that
+///         looks like an image, unless the job takes one; kCheckFailed when the
 ///         certificate does not hold; io::fail_input_changed() when that is because the labels
 ///         changed, or when a later reading finds labels that the first did not; what the job's
 ///         functions throw.

@@ -202,7 +202,7 @@ void PreparedLabels::limit_by_image(const SizeImage& image, int threads) {
     for_each_index(box, [&](Index3 v) {
       const double limit = limit_of(sizes[i++], volume_);
       if (limit == SizeField::kNoLimit) return;
-      sizes_.limit_voxel(v, rung_from(least, limit));
+      sizes_.limit_voxel(v, std::max(limit, least));
     });
   });
 }

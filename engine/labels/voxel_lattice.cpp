@@ -121,6 +121,17 @@ double told_size(double size) {
   return std::ceil(scale * size) / scale;
 }
 
+std::string many_layers_text(const io::VolumeInfo& volume) {
+  constexpr std::int64_t kMany = 20;
+  const std::array<double, 3>& s = volume.space.spacing;
+  const Index3 layers = layers_of(s);
+  if (std::max({layers.x, layers.y, layers.z}) <= kMany) return {};
+  return io::text("voxels of ", s[0], " x ", s[1], " x ", s[2], " are cut into ", layers.x, " x ",
+                  layers.y, " x ", layers.z,
+                  " layers, and each layer is meshed as a voxel is; --spacing sets another spacing "
+                  "if this one is wrong");
+}
+
 VoxelLattice::VoxelLattice(const io::DenseVolume& volume)
     : volume_(volume),
       layers_(layers_of(volume.info().space.spacing)),

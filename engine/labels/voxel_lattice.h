@@ -3,6 +3,8 @@
 // The lattice that a volume is meshed on: its voxels, cut into layers where slices are thick.
 #pragma once
 
+#include <string>
+
 #include "engine/settings/settings.h"
 #include "io/labels/label_table.h"
 #include "io/labels/repeated_volume.h"
@@ -15,6 +17,10 @@ namespace mw::engine {
 
 /// Returns a size rounded up to three digits, so that the size a user is told can be kept.
 [[nodiscard]] double told_size(double size);
+
+/// Returns a line about voxels that are cut into more than 20 layers, as where a wrong spacing
+/// makes them thick; else nothing.
+[[nodiscard]] std::string many_layers_text(const io::VolumeInfo& volume);
 
 /// A volume and the lattice that it is meshed on.  The volume must outlive it.
 class VoxelLattice {

@@ -7,6 +7,7 @@
 #include <pybind11/stl.h>
 
 #include <cstring>
+#include <iterator>
 #include <utility>
 
 #include "engine/mwmesh.h"
@@ -25,15 +26,15 @@ std::shared_ptr<py::object> shared(py::object object) {
           }};
 }
 
+/// The types of numpy's arrays, in the order of VoxelType.
+constexpr const char* kTypeCodes[] = {"u1", "u2", "u4", "u8", "i1", "i2", "i4", "i8", "f4", "f8"};
+static_assert(std::size(kTypeCodes) == static_cast<std::size_t>(VoxelType::kF64) + 1);
+
 VoxelType voxel_type(const py::dtype& type) {
   const std::string code = std::string(1, type.kind()) + std::to_string(type.itemsize());
-  const std::pair<const char*, VoxelType> known[] = {
-      {"b1", VoxelType::kU8},  {"u1", VoxelType::kU8},  {"u2", VoxelType::kU16},
-      {"u4", VoxelType::kU32}, {"u8", VoxelType::kU64}, {"i1", VoxelType::kI8},
-      {"i2", VoxelType::kI16}, {"i4", VoxelType::kI32}, {"i8", VoxelType::kI64},
-      {"f4", VoxelType::kF32}, {"f8", VoxelType::kF64}};
-  for (const auto& [name, voxel] : known) {
-    if (code == name) return voxel;
+  if (code == "b1") return VoxelType::kU8;
+  for (std::size_t i = 0; i < std::size(kTypeCodes); ++i) {
+    if (code == kTypeCodes[i]) return static_cast<VoxelType>(i);
   }
   throw Error(ErrorKind::kUsage, "array: labels of type " + py::repr(type).cast<std::string>() +
                                      ": expected integers, or floats of 32 or 64 bits that are "
@@ -162,12 +163,29 @@ void add_space(py::module_& module) {
   module.def("read_names", [](const std::string& path) { return read_names(path); });
 }
 
+/// Returns all labels of a volume, indexed [z, y, x].
+py::array labels_of(const HeldVolume& held) {
+  const Index shape = held.volume.shape();
+  py::array_t<std::uint64_t> out({shape[2], shape[1], shape[0]});
+  const std::span<std::uint64_t> labels(out.mutable_data(), static_cast<std::size_t>(out.size()));
+  {
+    const WithoutLock no_gil;
+    held.volume.read({{0, 0, 0}, shape}, labels);
+  }
+  return held.volume.labels_are_signed() ? out.attr("view")("i8").cast<py::array>() : out;
+}
+
 void add_volume(py::module_& module) {
   py::class_<HeldVolume>(module, "Volume")
       .def_property_readonly("shape", [](const HeldVolume& v) { return v.volume.shape(); })
       .def_property_readonly("space", [](const HeldVolume& v) { return v.volume.space(); })
       .def_property_readonly("labels_are_signed",
                              [](const HeldVolume& v) { return v.volume.labels_are_signed(); })
+      .def_property_readonly("names", [](const HeldVolume& v) { return v.volume.names(); })
+      .def_property_readonly(
+          "dtype",
+          [](const HeldVolume& v) { return kTypeCodes[static_cast<int>(v.volume.type())]; })
+      .def("labels", &labels_of)
       .def("with_names", [](const HeldVolume& v, const std::vector<LabelName>& names) {
         return HeldVolume{v.volume.with_names(names), v.array};
       });
@@ -223,6 +241,7 @@ void add_options(py::module_& module) {
       .def_readwrite("split", &Options::split)
       .def_readwrite("cohesive", &Options::cohesive)
       .def_readwrite("open_hinges", &Options::open_hinges)
+      .def_readwrite("force", &Options::force)
       .def_readwrite("threads", &Options::threads)
       .def_readwrite("memory", &Options::memory)
       .def_property("workdir", nullptr,

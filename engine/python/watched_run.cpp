@@ -63,6 +63,12 @@ class Watched {
     return std::exchange(news_, std::nullopt);
   }
 
+  /// Returns the warnings that came since the last call.
+  [[nodiscard]] std::vector<std::string> warnings() {
+    const std::lock_guard lock(mutex_);
+    return std::exchange(warnings_, {});
+  }
+
   /// REQUIRES: the work has ended.
   [[nodiscard]] std::exception_ptr error() const { return error_; }
 
@@ -73,7 +79,12 @@ class Watched {
                             const std::lock_guard lock(mutex_);
                             news_ = at;
                           },
-                      .cancel = [this] { return cancelled_.load(); }};
+                      .cancel = [this] { return cancelled_.load(); },
+                      .warn =
+                          [this](const std::string& line) {
+                            const std::lock_guard lock(mutex_);
+                            warnings_.push_back(line);
+                          }};
     std::exception_ptr error;
     try {
       work(hooks);
@@ -91,9 +102,19 @@ class Watched {
   std::condition_variable ended_;
   bool is_over_ = false;
   std::optional<Progress> news_;
+  std::vector<std::string> warnings_;
   std::exception_ptr error_;
   std::thread thread_;  ///< last, as it uses the others
 };
+
+void warn(const std::vector<std::string>& lines) {
+  constexpr py::ssize_t kCaller = 3;  // of mwmesh.mesh(), which calls what calls the core
+  for (const std::string& line : lines) {
+    if (PyErr_WarnEx(PyExc_RuntimeWarning, line.c_str(), kCaller) != 0) {
+      throw py::error_already_set();
+    }
+  }
+}
 
 void tell(const py::object& progress, const std::optional<Progress>& news) {
   if (!news || progress.is_none()) return;
@@ -125,14 +146,18 @@ void run_watched(const py::object& progress, const std::function<void(const Hook
     Watched watched(work);
     while (!watched.has_ended()) {
       const std::optional<Progress> news = watched.news();
+      const std::vector<std::string> warnings = watched.warnings();
       const py::gil_scoped_acquire gil;
       refuse_at_end();
       if (PyErr_CheckSignals() != 0) throw py::error_already_set();
+      warn(warnings);
       tell(progress, news);
     }
     error = watched.error();
     const std::optional<Progress> news = watched.news();
+    const std::vector<std::string> warnings = watched.warnings();
     const py::gil_scoped_acquire gil;
+    if (!error) warn(warnings);
     if (!error) tell(progress, news);
   }
   if (error) std::rethrow_exception(error);

@@ -90,6 +90,16 @@ std::optional<std::int64_t> whole(double x) {
   return static_cast<std::int64_t>(x);
 }
 
+thread_local std::uint64_t rounded_here = 0;
+
+/// Returns the whole number that x is, or that it is near to.
+std::optional<std::int64_t> nearly_whole(double x) {
+  const double nearest = std::round(x);
+  if (!(std::abs(x - nearest) <= kRounding)) return std::nullopt;
+  if (nearest != x) ++rounded_here;
+  return whole(nearest);
+}
+
 /// Returns slope * value + intercept if it is a whole number that 64 signed bits hold.  It is
 /// computed in integers where all three are, so that no bit is lost.
 template <class T>
@@ -102,7 +112,7 @@ std::optional<std::int64_t> scaled(T value, const VoxelScaling& scaling) {
       return static_cast<std::int64_t>(x);
     }
   }
-  return whole(scaling.slope * static_cast<double>(value) + scaling.intercept);
+  return nearly_whole(scaling.slope * static_cast<double>(value) + scaling.intercept);
 }
 
 /// Negative labels are kept in two's complement.
@@ -168,6 +178,10 @@ std::size_t decode_voxels(const std::byte* bytes, std::size_t count, std::size_t
     }
     return decode_checked<T>(bytes, count, step, coding, out, stride);
   });
+}
+
+std::uint64_t rounded_voxels() {
+  return rounded_here;
 }
 
 void numbers_of_bits(std::span<const RawLabel> bits, std::span<double> out) {

@@ -4,6 +4,7 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <optional>
 #include <span>
 #include <string>
@@ -41,12 +42,18 @@ struct VoxelCoding {
 };
 
 /// Decodes `count` voxels at `bytes`, each `step` voxels behind the last, to out[0], out[stride]
-/// and so on.  Signed types are sign-extended.  Floats and scaled numbers must be whole and within
-/// 64 signed bits, unless coding.as_numbers.  ENSURES: returns the index of the first that is not,
-/// or count.
+/// and so on.  Signed types are sign-extended.  Floats and scaled numbers must be within kRounding
+/// of whole numbers, which they become, and within 64 signed bits, unless coding.as_numbers.
+/// ENSURES: returns the index of the first that is not, or count.
 [[nodiscard]] std::size_t decode_voxels(const std::byte* bytes, std::size_t count, std::size_t step,
                                         const VoxelCoding& coding, RawLabel* out,
                                         std::size_t stride);
+
+/// How far the number of a label may be from the whole number that it is taken for.
+inline constexpr double kRounding = 1e-3;
+
+/// Returns how many voxels decode_voxels() has rounded in this thread.
+[[nodiscard]] std::uint64_t rounded_voxels();
 
 /// Turns bits into the doubles that they are (VoxelCoding::as_numbers).  REQUIRES: sizes are equal.
 void numbers_of_bits(std::span<const RawLabel> bits, std::span<double> out);

@@ -97,6 +97,26 @@ float rounded_down(double value) {
 /// Beyond this number limits are rounded to rungs before they are spread.
 constexpr std::size_t kMostLimits = 64;
 
+constexpr double kWidestStep = 1.05;
+
+/// Returns the largest power of the step that is no larger than the limit.
+double rung_of(double step, double limit) {
+  double rung = 1.0;
+  while (rung > limit) rung /= step;
+  while (rung * step <= limit) rung *= step;
+  return rung;
+}
+
+/// Returns the narrowest of some steps that leaves few limits, if one does, else the widest.
+double step_for(double least, double most) {
+  for (const double step : {1.0125, 1.025}) {
+    std::size_t rungs = 1;
+    for (double rung = rung_of(step, least); rung * step <= most; rung *= step) ++rungs;
+    if (rungs <= kMostLimits) return step;
+  }
+  return kWidestStep;
+}
+
 /// Returns the values that occur, ascending.
 std::vector<float> distinct(std::vector<float> values) {
   sort_distinct(values);
@@ -166,19 +186,18 @@ void SizeField::limit_voxel(Index3 voxel, double limit) {
 }
 
 double SizeField::rung_below(double limit) {
-  constexpr double kStep = 1.05;
-  double rung = 1.0;
-  while (rung > limit) rung /= kStep;
-  while (rung * kStep <= limit) rung *= kStep;
-  return rung;
+  return rung_of(kWidestStep, limit);
 }
 
 void SizeField::spread() {
   std::vector<float> own = values_;
   std::vector<float> limits = distinct(own);
   if (limits.size() > kMostLimits) {
+    while (limits.back() == kUnlimited) limits.pop_back();
+    const double step =
+        step_for(static_cast<double>(limits.front()), static_cast<double>(limits.back()));
     for (float& value : own) {
-      if (value != kUnlimited) value = rounded_down(rung_below(static_cast<double>(value)));
+      if (value != kUnlimited) value = rounded_down(rung_of(step, static_cast<double>(value)));
     }
     limits = distinct(own);
   }

@@ -69,7 +69,8 @@ class SizeField {
   void allow_no_stretch() { stretch_ = 1.0; }
   [[nodiscard]] double stretch() const { return stretch_; }
   /// Finds the limits, once all voxels are known.  Where more than 64 limits differ, those around
-  /// labels are rung_below() what was asked; of_label() stays.  Cost: some 50 ns a cube and limit.
+  /// labels are rounded down to 64 or fewer, by as little as that takes and by a twentieth at most;
+  /// of_label() stays.  Cost: some 50 ns a cube and limit.
   void spread();
 
   /// The limit at a place, without those of labels.  A place outside the volume, where a vertex may

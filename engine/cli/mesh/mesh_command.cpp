@@ -137,6 +137,8 @@ report::FinishedRun mesh_into(const MeshRequest& request, const io::LabelVolume&
   job.stop = stop_if_interrupted;
   job.size_image = open_sizes(request);
   open_samples(request, job.samples);
+  job.warn = log_warning;
+  job.takes_images = request.force;
   job.labels_known = [](std::size_t labels) { log_info(io::text("meshing ", labels, " labels")); };
   engine::RunHooks& run = job.run;
   run.keep.say = [](const std::string& line) { log_warning(line); };

@@ -212,7 +212,7 @@ void add_output_options(OptionSet& options, MeshRequest& request) {
                .listed = Listed::kInHelpAll,
                .assign = into(request.extras.pairs)});
   options.add({.name = "force",
-               .help = "replaces files that are not of this program",
+               .help = "replaces files that are not of this program; meshes images",
                .group = kOutputGroup,
                .kind = ValueKind::kSwitch,
                .fallback = "false",

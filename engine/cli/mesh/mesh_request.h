@@ -19,7 +19,7 @@ struct MeshRequest {
   std::filesystem::path output;
   io::Element element = io::Element::kTet4;
   io::MeshExtras extras;                 ///< what the output has beside the mesh
-  bool force = false;                    ///< whether it may replace files of others
+  bool force = false;                    ///< whether it may replace files of others, mesh images
   std::filesystem::path report;          ///< empty: none
   std::filesystem::path html;            ///< empty: none
   std::filesystem::path trace;           ///< empty: none

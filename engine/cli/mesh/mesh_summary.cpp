@@ -5,9 +5,11 @@
 
 #include <algorithm>
 #include <iostream>
+#include <numeric>
 
 #include "engine/cli/log.h"
 #include "engine/cli/options/values.h"
+#include "engine/labels/voxel_lattice.h"
 #include "engine/report/connect_report.h"
 #include "engine/report/mesh_facts.h"
 #include "io/file/errors.h"
@@ -47,6 +49,26 @@ void print_sizes(const report::FinishedRun& run) {
   if (all == 0) return;
   std::cout << "sizes       " << format_fixed(100 * near / all, 1)
             << " % of edges are 0.6 to 1.5 of what was asked\n";
+}
+
+/// Warns if a coarse size could not be had at interfaces, though no other line explains it.
+void print_stopped(const report::FinishedRun& run) {
+  if (!run.edges) return;
+  const std::vector<std::uint64_t>& counts = run.edges->ratios.at_interfaces;
+  const auto sum = [&](std::ptrdiff_t bins) {
+    return std::accumulate(counts.begin(), counts.begin() + bins, std::uint64_t{0});
+  };
+  const std::uint64_t shorter = sum(4), all = sum(std::ssize(counts));  // of 0.8 of what was asked
+  double largest = 0;
+  for (Label label = 0; label < run.labels.size(); ++label) {
+    largest = std::max(largest, run.sizes.rules.of_label(run.labels.raw(label)).value_or(0));
+  }
+  const bool is_coarse = largest >= 3 * engine::least_size(run.volume);
+  if (run.count || !is_coarse || 2 * shorter <= all) return;
+  log_warning(io::text("--size: ", 100 * shorter / all,
+                       " % of the edges at interfaces are shorter than 0.8 of what was asked, as "
+                       "the bounds on distance and topology allow no longer ones; a larger "
+                       "--max-distance may"));
 }
 
 /// Returns whether a number of tets is as near to what was asked as --count promises.
@@ -284,6 +306,7 @@ void print_summary(const report::FinishedRun& run, const MeshRequest& request,
   print_halvings(run);
   print_raised(run);
   print_sizes(run);
+  print_stopped(run);
   print_count_missed(run);
   print_unmet(run);
   print_across(run);

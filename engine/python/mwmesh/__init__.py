@@ -29,7 +29,7 @@ if _stamp not in (None, getattr(_core, "stamp", "")):
 
 from ._errors import (CancelledError, CheckFailedError, Error, InputError, InternalError,
                       MissingPackageError, ResourceError, UsageError)
-from ._mesh import Materials, Mesh, Surface, Verdict
+from ._mesh import Materials, Mesh, Picture, Surface, Verdict
 from ._values import (check_names, count, file_options, label, naming, numbers, one_or_more,
                       path_bytes, switch, text, unexpected, whole)
 from ._session import Session
@@ -38,7 +38,7 @@ from ._volume import PLACE, as_volume
 __version__ = _core.__version__
 __all__ = [
     "CancelledError", "CheckFailedError", "Error", "InputError", "InternalError", "Materials",
-    "Mesh", "MissingPackageError", "ResourceError", "Surface", "UsageError", "Verdict", "as_volume", "mesh", "mesh_to_file",
+    "Mesh", "MissingPackageError", "Picture", "ResourceError", "Surface", "UsageError", "Verdict", "as_volume", "mesh", "mesh_to_file",
     "Session", "read", "settings", "synth",
 ]
 
@@ -78,7 +78,7 @@ def _size_place(volume, key):
 def _options(volume, threads=0, memory=None, labels=None, background=None, merge=None,
              drop_specks=None, workdir=None, resume=False, keep=None, keep_bytes=None,
              from_kept=False, changed=(), sample=None, certify="auto", report=True, parts="all",
-             split=(), cohesive=(), open_hinges=False, weld=None):
+             split=(), cohesive=(), open_hinges=False, weld=None, force=False):
     options = _core.Options()
     options.threads = whole(threads, "threads", 32)
     if memory is not None:
@@ -118,6 +118,7 @@ def _options(volume, threads=0, memory=None, labels=None, background=None, merge
         raise unexpected("certify", "auto, on or off", certify)
     options.certify = known[certify]
     options.report = switch(report, "report")
+    options.force = switch(force, "force")
     return options
 
 
@@ -186,6 +187,17 @@ class _Bar:
         self._bar.close()
 
 
+class _Line:
+    """Progress as a line of text, where tqdm is missing."""
+
+    def __call__(self, done, total, seconds_left):
+        left = "" if seconds_left is None else f", about {seconds_left:.0f} s left"
+        print(f"\r{done}/{total} windows{left:<28}", end="", file=sys.stderr, flush=True)
+
+    def close(self):
+        print(file=sys.stderr)
+
+
 def _progress(wanted):
     """Returns the function that shows progress.  wanted: None (a bar on a terminal), True, False,
     or a function."""
@@ -198,16 +210,13 @@ def _progress(wanted):
     try:
         from tqdm.auto import tqdm
     except ImportError:
-        if wanted:
-            raise MissingPackageError(
-                "progress: True needs the package tqdm; install it, or give a function") from None
-        return None
+        return _Line()
     return _Bar(tqdm)
 
 
 _OPTIONS = ("threads", "memory", "labels", "background", "merge", "drop_specks", "workdir",
             "resume", "keep", "keep_bytes", "from_kept", "changed", "sample", "certify", "report",
-            "parts", "split", "cohesive", "open_hinges", "weld")
+            "parts", "split", "cohesive", "open_hinges", "weld", "force")
 
 
 def _run(call, volume, arguments, progress):
@@ -223,7 +232,7 @@ def _run(call, volume, arguments, progress):
         chosen.object = _labels(volume, place.get("object"), "object")
         return call(volume, settings_text, chosen, bar)
     finally:
-        if isinstance(bar, _Bar):
+        if isinstance(bar, (_Bar, _Line)):
             bar.close()
 
 
@@ -234,7 +243,8 @@ def mesh(volume, *, progress=None, **arguments):
         a path of any format that ``mwmesh info`` reads, or an address (``https://``, ``gs://``,
         ``s3://``) of a Zarr, N5 or precomputed volume; a numpy array, which is not copied; a
         nibabel image; or an object with shape, dtype and slices (h5py, Zarr, dask), which is read
-        box by box.  Labels are integers, or floats that are whole numbers.
+        box by box.  Labels are integers, or floats within 0.001 of whole numbers, to which they
+        are rounded with a RuntimeWarning.
     spacing, origin
         (x, y, z), or one number for all: edges of a voxel, and the first corner of the first voxel.
     affine
@@ -291,9 +301,11 @@ def mesh(volume, *, progress=None, **arguments):
         "auto", "on" or "off": the mesh is checked before it is returned, see CheckFailedError.
     report
         False: quality and shape are not measured, and Mesh.report is None.
+    force
+        True: meshes a volume that looks like the grey values of an image, which else is an error.
     progress
-        None: a bar of tqdm on a terminal; True, False; or a function of done and total windows, and
-        of the seconds left (or None).
+        None: a bar of tqdm (or else a line of text) on a terminal; True, False; or a function of
+        done and total windows, and of the seconds left (or None).
     others
         the settings of ``mwmesh mesh``, listed by :func:`settings`: max_distance=1.5,
         quality_floor=0.2, surface="voxel", topology="interfaces", size={"Liver": 3},

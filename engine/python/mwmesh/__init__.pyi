@@ -11,7 +11,7 @@ import numpy.typing as npt
 __version__: str
 __all__ = [
     "CancelledError", "CheckFailedError", "Error", "InputError", "InternalError", "Materials",
-    "Mesh", "MissingPackageError", "ResourceError", "Surface", "UsageError", "Verdict", "as_volume", "mesh", "mesh_to_file",
+    "Mesh", "MissingPackageError", "Picture", "ResourceError", "Surface", "UsageError", "Verdict", "as_volume", "mesh", "mesh_to_file",
     "Session", "read", "settings", "synth",
 ]
 
@@ -213,10 +213,13 @@ def mesh(
     split: _Pairs = ...,
     cohesive: _Pairs = ...,
     open_hinges: bool = ...,
+    force: bool = ...,
     **settings: _Setting,
 ) -> Mesh: ...
+class Picture(bytes): ...
+
 class Session:
-    def __init__(self, array: npt.NDArray[Any], *, keep: _Path | None = ...,
+    def __init__(self, array: _Source, *, keep: _Path | None = ...,
                  from_kept: bool = ..., **settings: Any) -> None: ...
     @property
     def array(self) -> npt.NDArray[Any]: ...

@@ -5,6 +5,10 @@
 import collections
 import importlib
 import json
+import os
+import subprocess
+import sys
+import warnings
 from typing import NamedTuple
 
 import numpy as np
@@ -83,6 +87,33 @@ def _package(name):
         raise MissingPackageError(
             f"this needs the package {name.removesuffix('modules')}, which is not there: "
             f"pip install {name.removesuffix('modules')}") from None
+
+
+class Picture(bytes):
+    """A PNG, which a notebook shows."""
+
+    def _repr_png_(self):
+        return bytes(self)
+
+
+def _can_draw():
+    """Returns whether vtk draws here.  Where it cannot, it ends the process, so another one tries."""
+    attempt = ("import vtkmodules.vtkRenderingOpenGL2\n"
+               "from vtkmodules.vtkRenderingCore import vtkRenderWindow\n"
+               "window = vtkRenderWindow()\n"
+               "window.SetOffScreenRendering(1)\n"
+               "window.Render()\n")
+    try:
+        done = subprocess.run([sys.executable, "-c", attempt], stdin=subprocess.DEVNULL,
+                              capture_output=True, timeout=60)
+    except (OSError, subprocess.TimeoutExpired):
+        return False
+    return done.returncode == 0
+
+
+def _has_display():
+    """Returns whether there is a screen to open a window on, by what the environment says."""
+    return sys.platform != "linux" or bool(os.environ.get("DISPLAY"))
 
 
 def _window(grid):
@@ -442,14 +473,24 @@ class Mesh:
 
     def plot(self, labels=None, **arguments):
         """Shows these labels (a list, or one) in a window, by default all except the one around
-        them.  Uses pyvista
-        if it is installed, whose plot() takes the arguments, else vtk."""
+        them.  Uses pyvista if it is installed, whose plot() takes the arguments, else vtk.  With
+        off_screen=True, and where no window can be opened, as without a display, it returns a
+        :class:`Picture`: the bytes of a PNG, which a notebook shows."""
         ranks = self._inner() if labels is None else [self._rank(label) for label in one_or_more(labels)]
         seen = np.isin(self._ranks()[1], ranks)
-        grid = Mesh(self.points, self.tets[seen], self.labels[seen], self.names).to_vtk()
+        shown = Mesh(self.points, self.tets[seen], self.labels[seen], self.names)
+        grid = shown.to_vtk()
         try:
             import pyvista
         except ImportError:
+            pyvista = None
+        is_off_screen = pyvista is None and arguments.get("off_screen")
+        if is_off_screen or not ((pyvista or _has_display()) and _can_draw()):
+            if not is_off_screen:
+                warnings.warn("plot: no window can be opened here; this returns a picture (PNG)",
+                              RuntimeWarning, stacklevel=2)
+            return Picture(_core.picture(shown._core, 1000, 800))
+        if pyvista is None:
             return _window(grid).Start()
         return pyvista.wrap(grid).plot(**{"scalars": "label", **arguments})
 

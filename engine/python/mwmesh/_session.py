@@ -11,8 +11,10 @@ import weakref
 
 import numpy as np
 
+from . import _core
 from ._errors import UsageError
 from ._values import numbers, unexpected, unmasked, whole
+from ._volume import PLACE, array_of, as_volume, native
 
 
 def _extent(mask):
@@ -27,17 +29,12 @@ def _extent(mask):
     return spans
 
 
-def _native(array):
-    """A copy in the machine's byte order."""
-    array = unmasked(array)
-    return np.array(array, dtype=np.asarray(array).dtype.newbyteorder("="), order="C")
-
-
 class Session:
     """A volume and its mesh, which follow edits at the cost of what an edit reaches.
 
     array
-        labels, as :func:`mesh` takes them; the session works on a copy.
+        labels, as :func:`mesh` takes them: an array, an image, or a file, whose labels the session
+        copies into an array of its own (:attr:`Session.array`).  That of a file is indexed [z, y, x].
     keep
         a new folder for what is kept, which stays afterwards and is also that of ``mwmesh mesh
         --from``: after another run in it, an update reads the whole array, and its delta, which
@@ -47,9 +44,11 @@ class Session:
         whether to begin with what an earlier session or run has left in keep; the array is read
         whole, and may have been edited meanwhile.
     settings
-        everything else that :func:`mesh` takes, except report and the order of windows.
+        everything else that :func:`mesh` takes, except report, the order of windows, object, and
+        values and overlaps that give a voxel more than one label.
 
-    Each mesh is, byte for byte, the one that ``mesh(array, order="colour", **settings)`` would give.
+    Each mesh is, byte for byte, the one that ``mesh(array, order="colour", **settings)`` would give
+    if that had the labels as they are now.
 
     >>> import mwmesh
     >>> session = mwmesh.Session(mwmesh.synth("voronoi", (20, 16, 12), labels=5, seed=1), window=8)
@@ -59,21 +58,25 @@ class Session:
     """
 
     def __init__(self, array, *, keep=None, from_kept=False, **settings):
-        if not isinstance(array, np.ndarray) or array.ndim != 3:
-            raise unexpected("array", "a numpy array of three axes", type(array).__name__)
         for name in ("changed", "report", "workdir", "resume", "order"):
             if name in settings:
                 raise UsageError(f"{name}: a session settles that itself")
-        self._array = _native(array)
-        self._settings = settings
+        for name, only in (("values", "labels"), ("overlap", "one label for each voxel")):
+            if settings.get(name) not in (None, "labels", "first", "last"):
+                raise UsageError(f"{name}: a session edits {only}, not {settings[name]!r}")
+        if settings.get("object") is not None:
+            raise UsageError("object: a session has a box that stays; give crop and labels instead")
         if from_kept and keep is None:
             raise UsageError("from_kept: needs the folder of an earlier session, name it with keep")
         if keep is None:
             keep = tempfile.mkdtemp(prefix="mwmesh-session-")
             weakref.finalize(self, shutil.rmtree, keep, ignore_errors=True)
         self._keep = keep
-        usual = "zyx" if settings.get("affine") is None else "xyz"
-        self._is_zyx = (settings.get("axes") or usual) == "zyx"
+        place = {name: settings.pop(name) for name in (*PLACE, "names") if name in settings}
+        self._settings = settings
+        made = as_volume(array, **place)
+        self._space, self._names = made.space, made.names
+        self._array, self._is_zyx = array_of(array, made, place)
         self._turn = threading.RLock()  # held by the thread that updates
         self._is_updating = False
         self._refused = []  # boxes of updates that raised, which may be in the folder all the same
@@ -147,10 +150,15 @@ class Session:
             arguments.pop("changed", None)  # another run was here: all labels are read
             warnings.warn(f"{self._keep}: another run was here since the last update; the delta "
                           "tells what changed since that run", RuntimeWarning, stacklevel=4)
-        made = mesh(self._array, keep=self._keep,
+        made = mesh(self._volume(), keep=self._keep,
                     **{**self._settings, "order": "colour", **arguments})
         self._kept = self._labels_kept()
         return made
+
+    def _volume(self):
+        """The labels as they are now, where the session's volume lies."""
+        array = self._array.T if self._is_zyx else self._array
+        return _core.volume_of_array(array, self._space, self._names)
 
     def _labels_kept(self):
         """What tells the file of labels in the folder from those of other runs."""
@@ -162,7 +170,7 @@ class Session:
 
     def _edited(self, *edit):
         if len(edit) == 1:
-            array = _native(edit[0])
+            array = native(edit[0])
             if array.shape != self._array.shape or array.dtype != self._array.dtype:
                 raise unexpected("array", f"shape {self._array.shape} of {self._array.dtype}",
                                  f"{array.shape} of {array.dtype}")

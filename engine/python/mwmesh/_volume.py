@@ -3,6 +3,7 @@
 """Makes volumes of the library from files, arrays and images."""
 
 import os
+import warnings
 
 import numpy as np
 
@@ -15,6 +16,8 @@ from ._values import (check_names, name_rows, numbers, path_bytes, switch, text,
 AXES = ("zyx", "xyz")
 #: The frames of arrays and images; files have "file" for "own".
 FRAMES = ("own", "ras", "lps", "voxel")
+#: How far a label in floats may be from the whole number that it is taken for.
+_ROUNDING = 1e-3
 #: The arguments that say which part of a source the volume is, and where it lies.
 PLACE = ("spacing", "origin", "affine", "frame", "unit", "axes", "dataset", "scale", "crop",
          "overlap", "values", "object", "trust_paths", "cache", "use_form")
@@ -89,12 +92,18 @@ def _chunk(array):
 def _region_labels(values, first):
     """Returns the labels of a region [z, y, x], of which first is the first voxel, as 64 bits."""
     if values.dtype.kind == "f":
+        whole = np.rint(values)
         with np.errstate(invalid="ignore"):
-            wrong = np.argwhere(values.astype(np.int64) != values)
+            wrong = np.argwhere(~(np.abs(values - whole) <= _ROUNDING)
+                                | (whole.astype(np.int64) != whole))
         if len(wrong):
             voxel = tuple(int(a + b) for a, b in zip(first, wrong[0][::-1]))
             raise InputError(f"array: voxel {voxel}: value {values[tuple(wrong[0])]} is no whole "
                              "number of 64 bits; is this an image, or probabilities?")
+        if (whole != values).any():
+            warnings.warn(f"labels: numbers within {_ROUNDING} of whole ones are rounded to them",
+                          RuntimeWarning)
+        values = whole
     return whole_numbers(values, "array")
 
 
@@ -190,6 +199,26 @@ def _volume(source, spacing, origin, affine, frame, unit, axes, dataset, scale, 
     space = _space(spacing, origin, affine, frame, unit_text, stated)
     make = _array_volume if isinstance(source, np.ndarray) else _region_volume
     return make(unmasked(source), axes, space)
+
+
+def native(array):
+    """Returns a copy of an array in the machine's byte order."""
+    array = np.asarray(unmasked(array))
+    return np.array(array, dtype=array.dtype.newbyteorder("="), order="C")
+
+
+def array_of(source, volume, place):
+    """Returns a copy of the labels of a source, as an array of its own type, and whether that is
+    indexed [z, y, x].  volume: as_volume(source, **place)."""
+    if isinstance(source, (str, os.PathLike, _core.Volume)):
+        labels = volume.labels()
+        stored = labels.astype(volume.dtype)
+        # Scaled numbers need not fit the type of what is stored.
+        return (stored if np.array_equal(stored, labels) else labels), True
+    is_image = _is_image(source)
+    usual = "xyz" if is_image or place.get("affine") is not None else "zyx"
+    array = native(_image_array(source) if is_image else source)
+    return array, (place.get("axes") or usual) == "zyx"
 
 
 def as_volume(source, *, names=None, **place):

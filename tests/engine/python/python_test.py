@@ -4,11 +4,13 @@
 
 import ast
 import concurrent.futures
+import contextlib
 import copy
 import csv
 import doctest
 import gc
 import inspect
+import io
 import json
 import os
 import pathlib
@@ -782,7 +784,8 @@ class Seen(InFolder):
     @needs("vtkmodules")
     def test_pyvista_is_asked_for_what_is_not_around(self):
         pyvista = unittest.mock.MagicMock()
-        with unittest.mock.patch.dict(sys.modules, {"pyvista": pyvista}):
+        with unittest.mock.patch.dict(sys.modules, {"pyvista": pyvista}), \
+                unittest.mock.patch.object(mwmesh._mesh, "_can_draw", lambda: True):
             self.mesh.plot(off_screen=True)
             self.mesh.plot(labels=[1, 2])
             named = mwmesh.Mesh(self.mesh.points, self.mesh.tets, self.mesh.labels, {1: "neg"})
@@ -802,10 +805,34 @@ class Seen(InFolder):
     def test_else_vtk_opens_the_window(self):
         window = unittest.mock.MagicMock()
         with unittest.mock.patch.dict(sys.modules, {"pyvista": None}), \
+                unittest.mock.patch.dict(os.environ, {"DISPLAY": ":0"}), \
+                unittest.mock.patch.object(mwmesh._mesh, "_can_draw", lambda: True), \
                 unittest.mock.patch.object(mwmesh._mesh, "_window", window):
             self.mesh.plot()
         window().Start.assert_called_once()
         self.assertLess(window.call_args_list[0].args[0].GetNumberOfCells(), len(self.mesh.tets))
+
+    @needs("vtkmodules")
+    def test_without_a_display_there_is_a_picture_and_the_interpreter_lives(self):
+        self.mesh.save(self.path("m.vtu"))
+        code = ("import sys, mwmesh\n"
+                "sys.modules['pyvista'] = None\n"
+                "picture = mwmesh.read('m.vtu').plot(labels=1)\n"
+                "assert picture._repr_png_() == picture\n"
+                "open('m.png', 'wb').write(picture)\n")
+        environment = {name: value for name, value in os.environ.items() if name != "DISPLAY"}
+        for display in ({}, {"DISPLAY": ":54321"}):
+            done = subprocess.run([sys.executable, "-c", code], cwd=self.folder,
+                                  env={**environment, **display}, capture_output=True, text=True)
+            self.assertEqual(done.returncode, 0, done.stderr)
+            self.assertIn("no window can be opened here", done.stderr)
+            png = pathlib.Path(self.path("m.png"))
+            self.assertTrue(png.read_bytes().startswith(b"\x89PNG"))
+            png.unlink()
+        with unittest.mock.patch.dict(sys.modules, {"pyvista": None}), \
+                warnings.catch_warnings():
+            warnings.simplefilter("error")
+            self.assertTrue(self.mesh.plot(off_screen=True).startswith(b"\x89PNG"))
 
     def test_a_package_that_is_missing_is_named(self):
         missing = dict.fromkeys(("pyvista", "vtkmodules", "meshio"))
@@ -1001,6 +1028,33 @@ class Runs(InFolder):
         with self.assertRaises(mwmesh.ResourceError):
             mwmesh.mesh(grains(), memory="1M")
 
+    def test_warnings_of_a_run_are_those_of_python(self):
+        labels = grains().astype(np.float32) + np.float32(1e-4)
+        with self.assertWarnsRegex(RuntimeWarning, "within 0.001 of whole ones") as caught:
+            rounded = mwmesh.mesh(labels)
+        self.assertEqual(caught.filename, __file__)
+        self.assertEqual(rounded.digest, mwmesh.mesh(grains().astype(np.float32)).digest)
+        with self.assertWarnsRegex(RuntimeWarning, "1 x 1 x 25 layers.*; spacing sets another"):
+            mwmesh.mesh(grains()[:2, :6, :6], spacing=(1, 1, 25))
+        with warnings.catch_warnings():
+            warnings.simplefilter("error")
+            mwmesh.mesh(grains())
+
+    @needs("zarr")
+    def test_labels_that_are_read_by_box_are_rounded_too(self):
+        import zarr
+        labels = grains().astype(np.float32)
+        with self.assertWarnsRegex(RuntimeWarning, "within 0.001 of whole ones"):
+            rounded = mwmesh.mesh(zarr.array(labels - np.float32(1e-4), chunks=(9, 9, 9)))
+        self.assertEqual(rounded.digest, mwmesh.mesh(labels).digest)
+
+    def test_an_image_is_meshed_by_force_alone(self):
+        random = np.random.default_rng(2)
+        grey = np.round(12 * np.arange(16) + random.normal(0, 8, (12, 14, 16))).astype(np.int16)
+        with self.assertRaisesRegex(mwmesh.UsageError, "or force meshes it"):
+            mwmesh.mesh(grey)
+        self.assertGreater(len(mwmesh.mesh(grey, force=True, certify="off").tets), 1000)
+
     @needs("tqdm")
     def test_bar(self):
         mwmesh.mesh(grains(), progress=True)
@@ -1015,10 +1069,14 @@ class Errors(InFolder):
         self.assertNotIn("--", str(caught.exception))
         self.assertIsInstance(caught.exception, mwmesh.Error)
 
-    def test_a_bar_needs_its_package(self):
-        with unittest.mock.patch.dict(sys.modules, {"tqdm": None, "tqdm.auto": None}):
-            self.check(mwmesh.MissingPackageError, "tqdm", grains(), progress=True)
+    def test_without_the_package_of_the_bar_there_is_a_line(self):
+        with unittest.mock.patch.dict(sys.modules, {"tqdm": None, "tqdm.auto": None}), \
+                contextlib.redirect_stderr(io.StringIO()) as shown:
+            mwmesh.mesh(grains(), progress=True)
+            self.assertRegex(shown.getvalue(), r"\r(\d+)/\1 windows")
+            said = len(shown.getvalue())
             mwmesh.mesh(grains())
+            self.assertEqual(len(shown.getvalue()), said)
 
     def test_values_that_make_no_sense_name_their_argument(self):
         labels = grains()
@@ -1210,6 +1268,52 @@ class Sessions(InFolder):
         self.assertTrue(np.array_equal(session.mesh.points, fresh.points))
         self.assertTrue(np.array_equal(session.mesh.tets, fresh.tets))
         self.assertTrue(np.array_equal(session.mesh.labels, fresh.labels))
+
+    def expect_edits(self, source, array, **settings):
+        """Edits a session of a source and its array, and compares with fresh runs of `array`, which
+        is called with the labels as they are."""
+        session = mwmesh.Session(source, window=8, **settings)
+        for box, label in ((((1, 1, 1), (4, 3, 5)), 3), (((6, 2, 2), (9, 9, 6)), 2)):
+            session.update(box, label)
+            fresh = array(session.array)
+            self.assertEqual(session.mesh.digest, fresh.digest)
+            self.assertEqual(session.mesh.names, fresh.names)
+        return session
+
+    @needs("nibabel")
+    def test_a_session_takes_images_and_files(self):
+        import nibabel
+        affine = np.array([[-1.5, 0, 0, 7], [0, 2, 0, -3], [0, 0, 2.5, 11], [0, 0, 0, 1]])
+        labels = grains((12, 10, 14)).astype(np.uint8)
+        image = nibabel.Nifti1Image(labels, affine)
+        nibabel.save(image, self.path("v.nii"))
+        names = {2: "two"}
+        def of_image(array):
+            return mwmesh.mesh(nibabel.Nifti1Image(array, affine, image.header), names=names,
+                               labels=["two", 3], window=8, order="colour")
+        session = self.expect_edits(image, of_image, names=names, labels=["two", 3])
+        self.assertEqual((session.array.dtype, session.array.shape), (labels.dtype, labels.shape))
+        session = self.expect_edits(self.path("v.nii"), lambda array: of_image(array.T),
+                                    names=names, labels=["two", 3])
+        self.assertEqual((session.array.dtype, session.array.shape), (np.uint8, labels.T.shape))
+        opened = mwmesh.Session(mwmesh.as_volume(image), window=8)
+        self.assertTrue(np.array_equal(opened.array, labels.T))
+        with open(self.path("v.nii"), "r+b") as file:
+            file.seek(112)  # scl_slope
+            file.write(np.float32(300).tobytes())
+        scaled = mwmesh.Session(self.path("v.nii"), window=8)
+        self.assertTrue(np.array_equal(scaled.array, 300 * labels.T.astype(np.int64)))
+        for wrong in ({"values": "probabilities"}, {"overlap": "all"}, {"object": 3}):
+            with self.assertRaisesRegex(mwmesh.UsageError, f"^{[*wrong][0]}: a session"):
+                mwmesh.Session(self.path("v.nii"), **wrong)
+
+    @needs("zarr")
+    def test_a_session_takes_lists_and_arrays_that_are_read_by_box(self):
+        import zarr
+        labels = grains((12, 10, 14))
+        for source in (labels.tolist(), zarr.array(labels, chunks=(4, 5, 6))):
+            self.expect_edits(source, lambda array: mwmesh.mesh(
+                array, spacing=(1, 2, 1), window=8, order="colour"), spacing=(1, 2, 1))
 
     def test_edits_that_change_nothing(self):
         session = mwmesh.Session(grains(), window=8)

@@ -49,7 +49,8 @@ TEST(Floats, WholeNumbersAreLabels) {
 TEST(Floats, TheFirstThatIsNoLabelIsNamed) {
   const TempDir dir;
   const double nan = std::numeric_limits<double>::quiet_NaN();
-  for (const double bad : {1.5, nan, std::numeric_limits<double>::infinity(), 0x1p63, 1e300}) {
+  for (const double bad :
+       {1.5, 1.002, nan, std::numeric_limits<double>::infinity(), 0x1p63, 1e300}) {
     for (std::size_t position = 0; position < 12; ++position) {
       std::vector<double> values(12, 4);
       values[position] = bad;
@@ -62,6 +63,18 @@ TEST(Floats, TheFirstThatIsNoLabelIsNamed) {
       expect_not_read(path, {"a.npy", where, why});
     }
   }
+}
+
+TEST(Floats, NearlyWholeNumbersAreRoundedAndCounted) {
+  const TempDir dir;
+  const std::vector<double> values{0, 0.9991, 2.0009, -3.0001, 1e-7, -1e-7, 5, 7};
+  const std::vector<RawLabel> labels{0, 1, 2, static_cast<RawLabel>(-3), 0, 0, 5, 7};
+  const auto path =
+      dir.file("a.npy", npy_file("<f8", false, "(2, 2, 2)", real_bytes<double>(values, false)));
+  const std::uint64_t before = rounded_voxels();
+  EXPECT_EQ(read_all(*open_volume(path)), labels);
+  EXPECT_GE(rounded_voxels(), before + 5);
+  EXPECT_EQ((rounded_voxels() - before) % 5, 0U);  // of the two that are whole, and of 0, none is
 }
 
 TEST(Scaling, KeepsIntegersOrSaysWhichItDoesNot) {

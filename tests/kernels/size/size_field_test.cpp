@@ -186,6 +186,29 @@ TEST(SizeField, RoundsLimitsToFew) {
   EXPECT_LT(rungs.size(), 150U);
 }
 
+/// An image of sizes keeps them as they are where they are few, and nearly so where their range is
+/// small.
+TEST(SizeField, RoundsManyLimitsByAsLittleAsLeavesFew) {
+  const auto expect_near = [](int limits, double ratio, double least) {
+    SizeField field({400, 1, 1}, Metric({1, 1, 1}), {SizeField::kNoLimit}, 10.0, true);
+    const auto limit = [&](int x) {
+      return 2.5 * std::pow(ratio, static_cast<double>(x * limits / 400) / limits);
+    };
+    for (int x = 0; x < 400; ++x) field.limit_voxel({x, 0, 0}, limit(x));
+    field.spread();
+    for (int x = 0; x < 400; ++x) {
+      const double found = field.at({x * kUnitsPerVoxel, 0, 0});
+      EXPECT_LE(found, limit(x) * (1 + 1e-6));
+      // Neighbours are at no distance.
+      EXPECT_GE(found, limit(std::max(x - 1, 0)) * least * (1 - 1e-6)) << limits << " " << ratio;
+    }
+  };
+  expect_near(50, 3.0, 1.0);
+  expect_near(400, 2.0, 1 / 1.0125);
+  expect_near(400, 4.0, 1 / 1.025);
+  expect_near(400, 20.0, 1 / 1.05);
+}
+
 TEST(SizeField, AllowsCellsWhoseDiagonalFitsAtAllTheirCorners) {
   std::mt19937 random(2202);
   std::array<int, 2> seen{};
