@@ -131,7 +131,7 @@ TEST(Edges, AreCountedAndTheLongestOfEachLabelFound) {
   EXPECT_GT(edges, 0U);
 }
 
-/// Of two tets of two labels that share a triangle, its three edges are at an interface.
+/// The three edges of a triangle that tets of two labels share are at an interface.
 TEST(Edges, AtInterfacesAreThoseBetweenVerticesWhereLabelsMeet) {
   io::MeshData mesh;
   mesh.vertices = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}, {0, 0, -1}};

@@ -79,7 +79,7 @@ TEST(TextureVolume, LetsNumbersInOrderPass) {
   EXPECT_FALSE(is_image(VoxelType::kI16, [](Index3 v) { return std::round(tissue(v) / 9); }));
 }
 
-/// As where an edit gives one voxel of noise a number of its own.
+/// An edit may give one voxel of noise a number of its own.
 TEST(TextureVolume, OneFarLabelMakesNoImageOfNoise) {
   std::mt19937 random(3);
   const auto noise = [&](Index3 v) {
