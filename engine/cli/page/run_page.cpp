@@ -84,8 +84,7 @@ std::string shape_section(const report::FinishedRun& run) {
        .shares = {shape.bend_histogram.begin(), middle}});
   out += histogram_figure(volume_errors(run));
   if (run.sizes.rules.any()) {
-    out += bar_figure("Edges, as shares of the size that was asked",
-                      edge_rows(run.edges->ratios));
+    out += bar_figure("Edges, as shares of the size that was asked", edge_rows(run.edges->ratios));
   }
   return out + "</div></section>\n";
 }
