@@ -27,8 +27,8 @@ class Convert(unittest.TestCase):
     @classmethod
     def setUpClass(cls):
         enter_folder(cls)
-        run("synth", "voronoi", "--shape", "20,18,16", "--labels", 4, "--seed", 3, "-o", "v.npy")
-        labels = np.load("v.npy")
+        x, y, z = np.ogrid[:20, :18, :16]
+        labels = (x + y > 17).astype(np.uint8).T + 2 * (x - y + z > 9).T  # 0 to 3, [z, y, x]
         labels[2:5, 2:5, 2:5] = 9  # two parts of a label that is nowhere else
         labels[11:14, 11:14, 11:14] = 9
         affine = np.diag([1.0, 1.0, 1.0, 1.0])
