@@ -30,9 +30,10 @@ struct FolderService {
 
 namespace {
 
-/// A browser keeps six.  Where a client takes the last one, an older one is closed (note()).  Each
-/// may take two descriptors, of which a process usually gets 1024.
+/// A browser keeps six.  Where there are more, the oldest are closed (note()), some moments later.
+/// Each may take two descriptors, of which a process usually gets 1024.
 constexpr unsigned kMostConnections = 256;
+constexpr unsigned kClosing = 32;                 ///< may wait for that; further ones are refused
 constexpr unsigned kPatience = 20;                ///< seconds that a connection may be idle
 constexpr std::size_t kHeaderBytes = 32U << 10U;  ///< of a request; more of them are refused
 constexpr std::size_t kPieceBytes = 64U << 10U;   ///< are read at a time
@@ -119,9 +120,8 @@ MHD_Result answer_request(const Client& to, const ServedFolder& folder, const ch
   return send_file(to, file, is_get && range != nullptr ? range : "");
 }
 
-/// The library calls this when a connection begins and ends.  If the last one is taken, that which
-/// has asked for nothing for the longest time is closed, so that there is always one for another
-/// client.
+/// The library calls this when a connection begins and ends.  Of too many those are closed that
+/// have asked for nothing for the longest time, so that one client does not keep others out.
 void note(void* to, MHD_Connection* connection, void** /*unused*/,
           MHD_ConnectionNotificationCode code) noexcept {
   auto& open = static_cast<FolderService*>(to)->connections;
@@ -130,10 +130,11 @@ void note(void* to, MHD_Connection* connection, void** /*unused*/,
     return;
   }
   open.push_back(connection);
-  if (open.size() < kMostConnections) return;
-  const auto* const oldest =
-      MHD_get_connection_info(open.front(), MHD_CONNECTION_INFO_CONNECTION_FD);
-  if (oldest != nullptr) (void)::shutdown(oldest->connect_fd, SHUT_RDWR);
+  auto oldest = open.begin();
+  for (std::size_t left = open.size(); left > kMostConnections; --left) {
+    const auto* const info = MHD_get_connection_info(*oldest++, MHD_CONNECTION_INFO_CONNECTION_FD);
+    if (info != nullptr) (void)::shutdown(info->connect_fd, SHUT_RDWR);
+  }
 }
 
 /// The library calls this once before it reads a request's body, for each piece of that, and at the
@@ -184,9 +185,9 @@ FolderServer::FolderServer(const std::filesystem::path& folder, std::uint16_t po
   // ends.
   daemon_.reset(MHD_start_daemon(
       MHD_NO_FLAG, port, nullptr, nullptr, answer, service_.get(), MHD_OPTION_SOCK_ADDR, &loopback,
-      MHD_OPTION_CONNECTION_LIMIT, kMostConnections, MHD_OPTION_CONNECTION_TIMEOUT, kPatience,
-      MHD_OPTION_CONNECTION_MEMORY_LIMIT, kHeaderBytes, MHD_OPTION_UNESCAPE_CALLBACK, unescape,
-      nullptr, MHD_OPTION_NOTIFY_CONNECTION, note, service_.get(), MHD_OPTION_END));
+      MHD_OPTION_CONNECTION_LIMIT, kMostConnections + kClosing, MHD_OPTION_CONNECTION_TIMEOUT,
+      kPatience, MHD_OPTION_CONNECTION_MEMORY_LIMIT, kHeaderBytes, MHD_OPTION_UNESCAPE_CALLBACK,
+      unescape, nullptr, MHD_OPTION_NOTIFY_CONNECTION, note, service_.get(), MHD_OPTION_END));
   if (!daemon_) fail_to_listen(port, errno);
 }
 

@@ -951,7 +951,7 @@ class Runs(InFolder):
         with socket.create_server(("127.0.0.1", 0)) as server:
             server.settimeout(60)
             address = f"http://127.0.0.1:{server.getsockname()[1]}/p"
-            for call in (f"mwmesh.mesh('{address}')", f"mwmesh.mesh(v, sample='hu={address}')"):
+            for call in (f"mwmesh.mesh('{address}')", f"mwmesh.mesh(v, sample={{'hu': '{address}'}})"):
                 with self.subTest(call):
                     script = ("import mwmesh\n"
                               "v = mwmesh.synth('voronoi', (9, 9, 9), 3, 1)\n"
@@ -961,6 +961,7 @@ class Runs(InFolder):
                               "  print('stopped')\n")
                     child = subprocess.Popen([sys.executable, "-c", script], cwd=self.folder,
                                              stdout=subprocess.PIPE, text=True)
+                    self.addCleanup(child.kill)
                     with server.accept()[0]:
                         child.send_signal(signal.SIGINT)
                         start = time.monotonic()
