@@ -38,30 +38,20 @@ constexpr const char* kSpilled = ".blocks.partial-spilled";
 /// Beyond this number of boxes the one around them takes their place, so that the file stays small.
 constexpr std::size_t kMostBoxes = 1 << 14;
 
-}  // namespace
-
-/// Returns the boxes of the file, none if it does not exist.  ERRORS: DamagedWork.
-std::vector<Box3> KeepFolder::incomplete() const {
-  const fs::path path = path_ / kChangingFile;
+/// Returns the boxes of a file, none if it does not exist.  ERRORS: DamagedWork, also for the file
+/// of a folder with another number.
+std::vector<Box3> boxes_in(const fs::path& path, std::uint64_t folder) {
   std::vector<Box3> out;
   if (!fs::exists(path)) return out;
   std::istringstream text(settings_in(path));
   std::uint64_t number = 0;
-  if (text >> number && number != number_) {
+  if (text >> number && number != folder) {
     throw DamagedWork(kChangingFile, "it is of another folder");
   }
   for (Box3 b; text >> b.lo.x >> b.lo.y >> b.lo.z >> b.hi.x >> b.hi.y >> b.hi.z;) out.push_back(b);
   if (out.empty() || !text.eof()) throw DamagedWork(kChangingFile, "it does not list boxes");
   return out;
 }
-
-std::uint64_t KeepFolder::number_of(const fs::path& folder) {
-  std::uint64_t out = 0;
-  std::istringstream(settings_in(folder / kNumberFile)) >> out;
-  return out;
-}
-
-namespace {
 
 bool is_kept_file(std::string_view name) {
   return std::find(kFiles.begin(), kFiles.end(), name) != kFiles.end();
@@ -110,7 +100,10 @@ bool is_folder(const fs::path& path) {
 
 }  // namespace
 
-KeepFolder::KeepFolder(const fs::path& path, KeepUse use) : path_(whole(path)) {
+KeepFolder::KeepFolder(const fs::path& path) : path_(whole(path)) {}
+
+/// What throws behind the other constructor is followed by the destructor.
+KeepFolder::KeepFolder(const fs::path& path, KeepUse use) : KeepFolder(path) {
   if (!path_.has_filename()) path_ = path_.parent_path();
   make(use);
   lock();
@@ -211,6 +204,12 @@ fs::path kept_part(const fs::path& folder, int rank) {
   return rank == 0 ? folder : folder / io::text(kPartPrefix, rank);
 }
 
+std::uint64_t KeepFolder::number_of(const fs::path& folder) {
+  std::uint64_t out = 0;
+  std::istringstream(settings_in(folder / kNumberFile)) >> out;
+  return out;
+}
+
 std::string KeepFolder::text(const char* name) const {
   return settings_in(path_ / name);
 }
@@ -223,7 +222,7 @@ void KeepFolder::put_text(const char* name, const std::string& text) const {
 
 std::vector<Box3> KeepFolder::with_incomplete(const std::vector<Box3>& boxes) const {
   std::vector<Box3> all = boxes;
-  const std::vector<Box3> before = incomplete();
+  const std::vector<Box3> before = boxes_in(path_ / kChangingFile, number_);
   all.insert(all.end(), before.begin(), before.end());
   if (all.size() > kMostBoxes) all = {std::reduce(all.begin(), all.end(), all[0], hull)};
   return all;

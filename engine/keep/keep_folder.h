@@ -80,7 +80,7 @@ class KeepFolder : public WorkFiles {
   void end_change() const;
 
  private:
-  [[nodiscard]] std::vector<Box3> incomplete() const;
+  explicit KeepFolder(const std::filesystem::path& path);
   void make(KeepUse use);
   void lock();
   void remove_files() const;

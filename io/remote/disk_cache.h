@@ -30,9 +30,10 @@ struct CachedAnswer {
 /// Keeps each answer in a file of its own, named by the digest of its key.  A file gets its name
 /// when it is complete and has a digest of its key and its content, so that what a kill, a full
 /// disk or a broken one leaves, and what has another's name, is removed and never taken for an
-/// answer. When the files have more bytes than they may, those that were not used for the longest
-/// time are removed.  An answer that is large against the folder, or that cannot be written, is not
-/// kept. Thread safety: any; several processes may share a folder.
+/// answer.  When the files have more bytes than they may, those that were not used for the longest
+/// time are removed.  An answer that is large against the folder, or that cannot be written, is
+/// not kept.
+/// Thread safety: any; several processes may share a folder.
 class DiskCache {
  public:
   /// Makes the folder, for this user alone, unless it is there.
