@@ -122,7 +122,7 @@ class Materials(unittest.TestCase):
             np.testing.assert_array_equal(found.ravel(), wanted)
             # They come back as values do.
             run("convert", arguments[0], "back.vtu")
-            back = meshio.read("back.vtu").cell_data_dict["hu_material"]["tetra"]
+            back = meshio.read("back.vtu").cell_data_dict["hu_material"]["tetra10"]
             np.testing.assert_array_equal(np.sort(back), np.sort(wanted))
 
     def test_labels_with_the_names_of_sets_get_others(self):
