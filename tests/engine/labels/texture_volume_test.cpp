@@ -36,18 +36,18 @@ bool is_image(const SynthSpec& spec) {
                   [&](Index3 v) { return labels[static_cast<std::size_t>(all.offset(v))]; });
 }
 
-/// Two tissues in air, as a scanner sees them.
+/// Two tissues in air, as a scanner sees them, for a noise of 1.
 double tissue(Index3 v) {
   const double r = std::hypot(static_cast<double>(v.x) - 20, static_cast<double>(v.y) - 18,
                               static_cast<double>(v.z) - 15);
-  return r < 8 ? 120 : (r < 14 ? 40 : -1000);
+  return r < 8 ? 12 : (r < 14 ? 4 : -60);
 }
 
 TEST(TextureVolume, FindsImagesWithAnyNoise) {
   for (const double sigma : {2.0, 10.0, 40.0}) {
     std::mt19937 random(7);
-    std::normal_distribution<double> noise(0, sigma);
-    const auto grey = [&](Index3 v) { return std::round(tissue(v) + noise(random)); };
+    std::normal_distribution<double> noise(0, 1);
+    const auto grey = [&](Index3 v) { return std::round(sigma * (tissue(v) + noise(random))); };
     EXPECT_TRUE(is_image(VoxelType::kI16, grey)) << sigma;
     const auto with_metal = [&](Index3 v) { return v == Index3{20, 18, 15} ? 30'000 : grey(v); };
     EXPECT_TRUE(is_image(VoxelType::kI16, with_metal)) << sigma;
@@ -76,7 +76,7 @@ TEST(TextureVolume, LetsNumbersInOrderPass) {
   EXPECT_FALSE(is_image(VoxelType::kU32, [&](Index3 v) { return all.offset(v); }));
   EXPECT_FALSE(is_image(VoxelType::kU8, [](Index3 v) { return v.x; }));
   EXPECT_FALSE(is_image(VoxelType::kU8, [](Index3 v) { return (v.x + 2 * v.y + v.z) % 20; }));
-  EXPECT_FALSE(is_image(VoxelType::kI16, [](Index3 v) { return std::round(tissue(v) / 9); }));
+  EXPECT_FALSE(is_image(VoxelType::kI16, [](Index3 v) { return tissue(v); }));
 }
 
 /// An edit may give one voxel of noise a number of its own.
