@@ -62,12 +62,12 @@ class Convert(unittest.TestCase):
         run("mesh", "v.nii", "-o", "w.vtu", "--labels", 9, "--parts", "largest")
         self.assertEqual(run("digest", "c.vtu"), run("digest", "w.vtu"))
         self.assertIn("2", said)
-        for options in (("--split", "1|2"), ("--split", "*"), ("--open-hinges",), ("--cohesive", "1|2")):
+        for options in (("--split", "1|3"), ("--split", "*"), ("--open-hinges",), ("--cohesive", "1|3")):
             made, _ = self.expect_same(*options)
             if "--cohesive" in options:
                 self.assertIn("wedge", [block.type for block in made.cells])
         self.assertIn("no label 77", refused("convert", "m.vtu", "c.vtu", "--split", "1|77"))
-        self.assertIn("wedges", refused("convert", "m.vtu", "c.mesh", "--cohesive", "1|2"))
+        self.assertIn("wedges", refused("convert", "m.vtu", "c.mesh", "--cohesive", "1|3"))
 
     def test_samples_images_that_tell_where_they_lie(self):
         made, meshed = self.expect_same("--sample", "grey=grey.nii", "--background", 1)
@@ -90,7 +90,7 @@ class Convert(unittest.TestCase):
 
     def test_curved_tets_are_not_cut_apart(self):
         run("mesh", "v.nii", "-o", "curved.vtu", "--element", "tet10-curved")
-        for options in (("--split", "1|2"), ("--parts", "largest"), ("--sample", "x=grey.nii")):
+        for options in (("--split", "1|3"), ("--parts", "largest"), ("--sample", "x=grey.nii")):
             self.assertIn("--element tet4", refused("convert", "curved.vtu", "c.vtu", *options))
         run("convert", "curved.vtu", "c.vtu", "--background", 1)
         run("mesh", "v.nii", "-o", "w.vtu", "--element", "tet10-curved", "--background", 1)
