@@ -22,7 +22,8 @@ namespace fs = std::filesystem;
 /// A file of ours has one of these near its beginning or its end: the record of its run or the
 /// program's name, or words of the formats, the first lines of the tables and the names of the
 /// figures that have no place for it.
-constexpr std::array<std::string_view, 13> kMarks{"mwmesh",
+constexpr std::array<std::string_view, 14> kMarks{"mwmesh",
+                                                  "Name=\"label\" format=\"appended\" offset=\"",
                                                   io::kOwnNpyStart,
                                                   "$MeshFormat\n",
                                                   "\nTetrahedra of ",
