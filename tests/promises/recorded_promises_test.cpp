@@ -214,7 +214,7 @@ class RecordedPromises : public testing::Test {
     MeshJob job{.folder = folder_.path()};
     job.run.threads = 1;
     job.run.store.memory = kMemory;
-    static_cast<void>(mesh(volume_, job, sink));
+    static_cast<void>(mesh(volume_, job, std::array<io::MeshSink*, 1>{&sink}));
     mesh_ = sink.mesh();
   }
 
@@ -338,7 +338,7 @@ TEST_F(RecordedPromises, TellAFoamFromItsMirror) {
   job.settings.surface = Surface::kVoxel;
   job.settings.max_distance.reset();
   io::MeshDataSink sink;
-  static_cast<void>(mesh(volume, job, sink));
+  static_cast<void>(mesh(volume, job, std::array<io::MeshSink*, 1>{&sink}));
   const VerifyJob verified{
       .volume = volume, .steps = {}, .threads = 1, .memory = kMemory, .folder = folder_.path()};
   const auto passes = [&](const Damage& damage) {
