@@ -18,6 +18,11 @@ from pathlib import Path
 import settings as settings_of
 import volumes
 
+try:
+    from netCDF4 import Dataset
+except ImportError:
+    Dataset = None
+
 TIMEOUT = 600  # s; the slowest of these volumes takes a thirtieth of it on an idle core
 REFUSALS = {  # the only ways in which these settings may be refused
     2: [r"quality-floor .* cannot be promised for voxels", r"--background: it is the only label",
@@ -164,6 +169,24 @@ class Case:
         if self.digest(path) != self.digest("a/" + self.settings.output):
             raise Failed(f"{path} has another digest")
         return path
+
+    def exodus(self):
+        """In Exodus the node set of a name has the id of its side set, and no id has two names."""
+        if Dataset is None or "cohesive" in self.settings.flags or self.random.random() < 0.5:
+            return
+        self.run(["convert", "a/" + self.settings.output, "x.exo", "--element", "tet4"])
+        sets = {}
+        with Dataset(self.folder / "x.exo") as file:
+            for kind in ("ss", "ns"):
+                if kind + "_names" not in file.variables:
+                    continue
+                rows = file[kind + "_names"][:].filled(b"")
+                names = [b"".join(row).decode() for row in rows]
+                sets[kind] = dict(zip(names, file[kind + "_prop1"][:].tolist()))
+        sides, nodes = sets.get("ss", {}), sets.get("ns", {})
+        if len(set(sides.values())) < len(sides) or nodes != {n: sides.get(n) for n in nodes}:
+            raise Failed(f"ids of sets in Exodus: sides {sides}, nodes {nodes}")
+        self.did.append("exodus")
 
     def curved(self):
         """Curved tets of the same mesh are positive, and their labels what they were."""
@@ -435,6 +458,7 @@ class Case:
         self.verify()
         self.check_report()
         self.judged(self.converted())
+        self.exodus()
         self.curved()
         self.disturbed_run()
         if self.random.random() < 0.5:
