@@ -61,7 +61,7 @@ void add_options(OptionSet& options, ServeJob& job) {
                .assign = into(job.port, parse_port)});
   options.add({.name = "viewer",
                .value = "ADDRESS",
-               .help = "the neuroglancer to link to; no other page may read the meshes",
+               .help = "the neuroglancer that alone may read",
                .group = kRunGroup,
                .fallback = "https://neuroglancer-demo.appspot.com/",
                .assign = into(job.viewer, parse_viewer)});
