@@ -89,7 +89,7 @@ TEST_F(MemoryProgramTest, Promise6HoldsForOneLargeChunk) {
              "dtype": "<u8", "order": "C", "fill_value": 0, "filters": null,
              "compressor": {"id": "gzip", "level": 1}})";
   const std::string in = folder().string();
-  const std::string pack = "tail -c +129 " + in + "/v.npy | gzip -1 > " + in + "/v.zarr/0.0.0";
+  const std::string pack = "tail -c +193 " + in + "/v.npy | gzip -1 > " + in + "/v.zarr/0.0.0";
   ASSERT_EQ(std::system(pack.c_str()), 0);
   const json r = under_min_budget("--threads 2 --certify off", "v.zarr");
   ASSERT_FALSE(r.is_null());
