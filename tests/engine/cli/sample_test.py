@@ -282,7 +282,7 @@ class Samples(unittest.TestCase):
             for source in ("m.vtu", "m.vtkhdf", "m.msh", "m.msh2", f"{element}.pvtu",
                            "text.msh"):
                 for ending in endings:
-                    run("convert", source, f"c.{ending}", "--element", element)
+                    run("convert", source, f"c.{ending}", "--element", element, "--force")
                     np.testing.assert_array_equal(values_in_order(f"c.{ending}"), expected,
                                                   f"{source} {ending}")
 
