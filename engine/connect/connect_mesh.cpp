@@ -20,7 +20,11 @@ class ChangedMesh {
   ChangedMesh(io::ScratchMesh& mesh, PartFinder& finder, const ConnectTask& task)
       : mesh_(mesh), finder_(finder), task_(task), out_(mesh.folder()) {
     out_.header() = mesh.header();
-    out_.header().record.cohesive = task.options.cohesive;
+    io::CohesiveRule& cohesive = out_.header().record.cohesive;
+    cohesive.all = cohesive.all || task.options.cohesive.all;
+    for (const auto& pair : task.options.cohesive.pairs) {
+      if (!cohesive.has(pair[0], pair[1])) cohesive.pairs.push_back(pair);
+    }
   }
 
   io::ScratchMesh make(const std::function<void()>& between) {
@@ -29,7 +33,7 @@ class ChangedMesh {
     kept_ = used_ ? used_->count() : mesh_.vertex_count();
     facts.vertices = kept_ + facts.copies;
     out_.header().tets = facts.tets;
-    out_.header().record.has_doubles = facts.copies > 0;
+    out_.header().record.has_doubles = mesh_.header().record.has_doubles || facts.copies > 0;
     add_vertices();
     finder_.each_copied_corner([&](const CopiedCorner& c) { corners_.append(c); });
     mesh_.each_tet_batch([&](const io::TetBatch& batch) {
@@ -42,7 +46,8 @@ class ChangedMesh {
  private:
   /// Marks the vertices of kept tets, and notes the labels of tets that are left out.
   void mark_used() {
-    std::set<RawLabel> partial;
+    const std::vector<RawLabel>& before = mesh_.header().record.partial_labels;
+    std::set<RawLabel> partial(before.begin(), before.end());
     used_ = io::KeptRows::none(mesh_.vertex_count());
     mesh_.each_tet_batch([&](const io::TetBatch& batch) {
       for (std::size_t t = 0; t < batch.tets.size(); ++t) {

@@ -75,10 +75,6 @@ constexpr std::array kPasses{
 
 }  // namespace
 
-std::span<const Pass> all_passes() {
-  return kPasses;
-}
-
 FinishFacts apply_passes(io::ScratchMesh& mesh, const FinishTask& task) {
   FinishFacts out;
   for (const Pass& pass : kPasses) {

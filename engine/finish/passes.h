@@ -4,7 +4,6 @@
 #pragma once
 
 #include <optional>
-#include <span>
 #include <utility>
 #include <vector>
 
@@ -22,8 +21,6 @@ struct Pass {
   /// REQUIRES: it is asked.  ERRORS: those of ScratchMesh, and its own.
   void (*apply)(io::ScratchMesh& mesh, const FinishTask& task, FinishFacts& facts);
 };
-
-[[nodiscard]] std::span<const Pass> all_passes();
 
 /// Applies the passes that are asked, in their order.
 [[nodiscard]] FinishFacts apply_passes(io::ScratchMesh& mesh, const FinishTask& task);
