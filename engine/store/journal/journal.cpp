@@ -109,8 +109,10 @@ T number_at(const WorkFile& file, std::uint64_t offset) {
   return value;
 }
 
-/// True for some first bytes of the magic, or none, then zeros: a run was stopped in begin().
+/// True for some first bytes of the magic, or none, then zeros: a run was stopped in begin().  A
+/// magic that itself ends with zeros is whole.
 bool is_unfinished(std::uint64_t found, std::uint64_t magic) {
+  if (found == magic) return false;
   for (unsigned bits = 0; bits < 8 * kMagicBytes; bits += 8) {
     if (found == (magic & ((std::uint64_t{1} << bits) - 1))) return true;
   }

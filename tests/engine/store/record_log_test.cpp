@@ -109,6 +109,25 @@ TEST(RecordLog, WhatWasReplayedOnceSurvivesAPowerCut) {
   }
 }
 
+/// A magic may end with zeros: that of a folder's log has the folder's own number in it.
+TEST(RecordLog, KeepsItsRecordsWhateverItsMagic) {
+  std::mt19937 random(3513);
+  const TempFolder folder;
+  for (unsigned zeros = 0; zeros <= 8; ++zeros) {
+    const LogKind kind{.magic = zeros == 8 ? 0 : std::uint64_t{0x8DEA7956069FBB11U} << 8 * zeros,
+                       .name = "log",
+                       .expected = "it is another file"};
+    const auto path = folder.path() / std::to_string(zeros);
+    const Records records = random_records(random);
+    {
+      RecordLog log(std::make_unique<MappedFile>(path), kind);
+      for (const auto& record : records) static_cast<void>(log.append(record));
+    }
+    RecordLog again(std::make_unique<MappedFile>(path), kind);
+    EXPECT_EQ(replayed(again), records) << zeros << " zeros at the end";
+  }
+}
+
 TEST(RecordLog, RefusesAnotherFile) {
   const TempFolder folder;
   const auto path = folder.path() / "log";
