@@ -5,7 +5,7 @@
 
 #include <span>
 
-#include "engine/march/window_order.h"
+#include "engine/window/window_order.h"
 
 namespace mw::bench {
 

@@ -8,6 +8,7 @@
 #include "engine/api/jobs.h"
 #include "engine/api/types.h"
 #include "engine/job/verify_job.h"
+#include "engine/settings/together.h"
 #include "engine/version.h"
 #include "io/file/scratch/scratch_file.h"
 #include "io/mesh/digest.h"
@@ -139,8 +140,13 @@ std::string mesh_to_file(const std::filesystem::path& path, const Volume& volume
     const bool has_values = !options.sample.empty() && file.values;
     if (has_values && file.materials.empty()) io::require_place_for_values(path);
     const bool has_wedges = !options.cohesive.empty();
-    if (has_wedges) io::require_place_for_wedges(path, io::parse_element(file.element));
+    const io::Element element = io::parse_element(file.element);
+    if (has_wedges) io::require_place_for_wedges(path, element);
     engine::MeshJob job = job_of(volume, settings, options, hooks);
+    engine::check_together({.periodic = job.settings.periodic != 0,
+                            .curves = element == io::Element::kCurvedTet10,
+                            .doubles = job.connect.double_vertices(),
+                            .pairs = !file.pairs.empty()});
     job.folder = mw::api::checked_path(path).parent_path();
     bool is_delivered = false;
     job.delivered = [&] { is_delivered = true; };

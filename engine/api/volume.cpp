@@ -11,6 +11,7 @@
 #include "io/names/read_names.h"
 #include "io/remote/wait_stop.h"
 #include "io/volume/checks.h"
+#include "io/volume/named_volume.h"
 #include "io/volume/open_volume.h"
 #include "kernels/synth/synth.h"
 

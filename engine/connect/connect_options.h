@@ -44,8 +44,10 @@ struct ConnectOptions {
   std::vector<LabelPair> watched{};
 
   /// True if the mesh that is written may differ from the one that was made.
-  [[nodiscard]] bool change_mesh() const {
-    return parts.leaves_out() || split.any() || open_hinges || cohesive.any();
+  [[nodiscard]] bool change_mesh() const { return parts.leaves_out() || double_vertices(); }
+  /// True if sides of interfaces, or parts that hang at a vertex, get vertices of their own.
+  [[nodiscard]] bool double_vertices() const {
+    return split.any() || open_hinges || cohesive.any();
   }
   /// Returns all interfaces whose vertices are doubled.
   [[nodiscard]] SplitRule all_split() const;

@@ -9,9 +9,9 @@
 
 #include "engine/labels/label_counts.h"
 #include "engine/march/wavefront.h"
-#include "engine/march/window_order.h"
 #include "engine/settings/settings.h"
 #include "engine/store/run_layout.h"
+#include "engine/window/window_order.h"
 
 namespace mw::engine {
 

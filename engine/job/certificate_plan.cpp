@@ -6,10 +6,10 @@
 #include <limits>
 
 #include "engine/job/verify_job.h"
-#include "engine/march/march.h"
 #include "engine/report/figures.h"
 #include "engine/report/mesh_facts.h"
 #include "engine/settings/promises.h"
+#include "engine/system/crew.h"
 #include "engine/verify/verify_mesh.h"
 #include "io/file/errors.h"
 #include "io/file/text_numbers.h"

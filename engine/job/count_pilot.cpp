@@ -13,6 +13,7 @@
 #include "engine/labels/prepared_labels.h"
 #include "engine/labels/voxel_lattice.h"
 #include "engine/output/label_selection.h"
+#include "engine/system/crew.h"
 #include "engine/window/window_visitor.h"
 #include "io/mesh/mesh_sink.h"
 #include "io/volume/cropped_volume.h"

@@ -11,6 +11,7 @@
 #include "engine/keep/keep_options.h"
 #include "engine/labels/label_scan.h"
 #include "engine/labels/reading_tiles.h"
+#include "engine/system/crew.h"
 #include "engine/verify/verify_mesh.h"
 #include "io/file/errors.h"
 #include "io/volume/volume_readers.h"

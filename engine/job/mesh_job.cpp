@@ -25,7 +25,9 @@
 #include "engine/labels/voxel_lattice.h"
 #include "engine/settings/number_text.h"
 #include "engine/settings/promises.h"
+#include "engine/settings/together.h"
 #include "engine/store/journal/workdir.h"
+#include "engine/system/crew.h"
 #include "engine/system/memory.h"
 #include "engine/verify/verify_mesh.h"
 #include "engine/version.h"
@@ -182,30 +184,6 @@ io::ReadingRoom reading_room(const MeshJob& job, bool has_scores = false) {
           .beside = program + preparation_bytes(job.settings, has_scores)};
 }
 
-/// ERRORS: mw::Error(kUsage) for what does not go with labels that come from scores.
-void check_scored(const MeshJob& job) {
-  if (!job.steps.merge.empty()) {
-    io::fail_usage(
-        "--merge: merged labels have no probabilities or distances; merge these (the sum of "
-        "probabilities, the least distance) before they are meshed");
-  }
-  if (!job.steps.weld.empty()) {
-    io::fail_usage(
-        "--weld: voxels that it fills have no probabilities or distances; mesh a volume of "
-        "labels, or without it");
-  }
-  if (!job.run.keep.folder.empty()) {
-    io::fail_usage(
-        "--keep: what is kept is known by its labels alone, and interfaces depend on "
-        "probabilities and distances, too; mesh without it, or a volume of labels");
-  }
-  if (job.run.processes != nullptr && job.run.processes->count() > 1) {
-    io::fail_usage(
-        "--values: probabilities and distances are meshed in one process only, run mwmesh "
-        "without mpirun");
-  }
-}
-
 /// Says how to go on after an error of usage that was found once work had been saved: what is
 /// written was refused, and the same command would be refused again.
 std::string way_after_refusal(const RunHooks& hooks) {
@@ -324,11 +302,14 @@ JobSizes settle_sizes(const io::VolumeInfo& volume, const MeshJob& asked, MeshJo
 /// Checks before any label is read that the job can be done.
 void check_job(const io::LabelVolume& opened, const MeshJob& job) {
   check(opened.info(), job.settings);
-  check_keep(job.run, job.settings);
+  const bool has_scores = opened.scores() != nullptr;
+  Asked asked = asked_of(job.run, job.settings);
+  asked.scores = has_scores;
+  asked.merge = !job.steps.merge.empty();
+  asked.weld = !job.steps.weld.empty();
+  check_together(asked);
   check_object_box(opened.info(), job);
   warn(job, many_layers_text(opened.info()));
-  const bool has_scores = opened.scores() != nullptr;
-  if (has_scores) check_scored(job);
   io::check_unpacking(opened, reading_room(job, has_scores));
   for (const SampleImage& sample : job.samples) {
     io::check_unpacking(*sample.image, reading_room(job));

@@ -9,9 +9,9 @@
 
 #include "engine/labels/label_scan.h"
 #include "engine/labels/reading_tiles.h"
-#include "engine/march/march.h"
 #include "engine/report/mesh_facts.h"
 #include "engine/settings/promises.h"
+#include "engine/system/crew.h"
 #include "engine/verify/verify_mesh.h"
 #include "io/file/errors.h"
 #include "io/file/text_numbers.h"

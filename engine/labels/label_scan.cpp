@@ -7,7 +7,6 @@
 
 #include <algorithm>
 
-#include "engine/march/march.h"
 #include "engine/system/crew.h"
 #include "io/labels/label_table.h"
 

@@ -13,7 +13,7 @@
 #include <vector>
 
 #include "engine/march/wavefront.h"
-#include "engine/march/window_order.h"
+#include "engine/window/window_order.h"
 
 namespace mw::engine {
 

@@ -4,7 +4,6 @@
 #include "engine/march/march.h"
 
 #include <algorithm>
-#include <thread>
 
 #include "engine/system/crew.h"
 #include "engine/system/stopwatch.h"
@@ -67,11 +66,6 @@ void march_by_choice(const WindowOrder& order, const VisitWindow& visit, const P
       if (--missing[order.rank(s)] == 0) ready.push_back(s);
     }
   }
-}
-
-int thread_count(int threads) {
-  if (threads > 0) return threads;
-  return std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
 }
 
 }  // namespace mw::engine

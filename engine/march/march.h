@@ -75,9 +75,6 @@ void march(const WindowOrder& order, const VisitWindow& visit, const MarchOption
 /// The result is the same for every pick (promise P5).  For tests: its memory grows with windows.
 void march_by_choice(const WindowOrder& order, const VisitWindow& visit, const PickReady& pick);
 
-/// Returns the number of threads that `threads` asks for: itself, or the number of cores for 0.
-[[nodiscard]] int thread_count(int threads);
-
 /// Visits the window and says when.  ERRORS: what visit throws.
 [[nodiscard]] Visited timed_visit(const VisitWindow& visit, Index3 window, int slot);
 

@@ -10,7 +10,7 @@
 #include <utility>
 #include <vector>
 
-#include "engine/march/window_order.h"
+#include "engine/window/window_order.h"
 
 namespace mw::engine {
 

@@ -13,6 +13,7 @@
 #include "engine/output/finish.h"
 #include "engine/run/processes.h"
 #include "engine/settings/settings.h"
+#include "engine/settings/together.h"
 #include "engine/store/run_store.h"
 #include "engine/window/window_visitor.h"
 #include "io/labels/label_table.h"
@@ -89,7 +90,7 @@ struct RunHooks {
   const SizeImage* sizes = nullptr;  ///< of SizeRules::image; outlives the run
   StoreOptions store;                ///< memory and disk
   /// If it names a folder, that takes the place of the work folder: what memory does not hold, and
-  /// what a later run can go on from, is there.  See check_keep().
+  /// what a later run can go on from, is there.
   KeepOptions keep;
   codt::PoolOptions workers;  ///< of Optimizer::kTetgen
   /// The processes that the run is divided among; null if it is this one alone.  All of them call
@@ -116,9 +117,8 @@ struct RunHooks {
 [[nodiscard]] std::uint64_t standing_bytes(const io::DenseVolume& volume,
                                            const MeshSettings& settings, const RunHooks& hooks);
 
-/// Checks before any work that a run can keep what KeepOptions ask for.
-/// ERRORS: mw::Error(kUsage) where it cannot.
-void check_keep(const RunHooks& hooks, const MeshSettings& settings);
+/// Returns what a run is asked for, as far as hooks and settings tell it.
+[[nodiscard]] Asked asked_of(const RunHooks& hooks, const MeshSettings& settings);
 
 /// Meshes the whole box of the volume into `sink`, on its VoxelLattice, in whose voxels the windows
 /// and bounds of the settings are counted.
@@ -126,7 +126,7 @@ void check_keep(const RunHooks& hooks, const MeshSettings& settings);
 ///          A run that ends early, by an error or because progress throws, leaves what it has done
 ///          in the work folder, if there is one and anything was done; otherwise the folder goes.
 /// ERRORS: whatever volume and sink throw; those of check(volume, settings) (voxel_lattice.h),
-///         check_keep(), Workdir and RunStore.
+///         check_together(asked_of()), Workdir and RunStore.
 RunReport mesh_volume(const io::DenseVolume& volume, const MeshSettings& settings,
                       io::MeshSink& sink, const RunHooks& hooks = {});
 

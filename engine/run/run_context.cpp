@@ -9,6 +9,7 @@
 #include "engine/labels/periodic_labels.h"
 #include "engine/settings/promises.h"
 #include "engine/store/journal/workdir.h"
+#include "engine/system/crew.h"
 #include "engine/window/window_memory.h"
 #include "io/file/errors.h"
 #include "io/file/text_numbers.h"
@@ -31,10 +32,7 @@ RunHooks settled(RunHooks hooks, const MeshSettings& settings, Index3 layers) {
   hooks.output.layers = layers;
   hooks.threads = hooks.pick ? 1 : thread_count(hooks.threads);
   if (hooks.processes == nullptr) hooks.processes = &one_process();
-  check_keep(hooks, settings);
-  if (settings.periodic != 0 && hooks.processes->count() > 1) {
-    io::fail_usage("periodic: works in one process only, run mwmesh without mpirun");
-  }
+  check_together(asked_of(hooks, settings));
   if (!hooks.keep.folder.empty()) hooks.store.workdir.clear();
   return hooks;
 }
@@ -153,28 +151,15 @@ std::string way_on(const RunHooks& hooks) {
                               : ", add --resume to go on");
 }
 
-void check_keep(const RunHooks& hooks, const MeshSettings& settings) {
-  if (hooks.keep.folder.empty()) {
-    if (!hooks.keep.bytes) return;
-    io::fail_usage("--keep-bytes: is the size of a folder, name it with --keep");
-  }
-  if (settings.order != Order::kColour) {
-    io::fail_usage(
-        "keep: needs order colour: in raster order an edit changes what all later windows "
-        "see, so nothing could be used again");
-  }
-  if (settings.periodic != 0) {
-    io::fail_usage("keep: works without periodic");
-  }
-  if (settings.sizes.count > 0) {
-    io::fail_usage(
-        "count: looks at the whole volume, so that an edit anywhere could change sizes "
-        "everywhere; with keep give size instead");
-  }
-  const bool are_many = hooks.processes != nullptr && hooks.processes->count() > 1;
-  if (are_many && hooks.keep.use == KeepUse::kUpdate) {
-    io::fail_usage("from: works in one process only, run mwmesh without mpirun");
-  }
+Asked asked_of(const RunHooks& hooks, const MeshSettings& settings) {
+  const bool is_kept = !hooks.keep.folder.empty();
+  return {.keep = is_kept,
+          .keep_bytes = hooks.keep.bytes.has_value(),
+          .update = is_kept && hooks.keep.use == KeepUse::kUpdate,
+          .colour = settings.order == Order::kColour,
+          .periodic = settings.periodic != 0,
+          .count = settings.sizes.count > 0,
+          .many = hooks.processes != nullptr && hooks.processes->count() > 1};
 }
 
 std::uint64_t prepared_bytes(const io::DenseVolume& volume, const MeshSettings& settings,

@@ -7,10 +7,10 @@
 #include <optional>
 #include <vector>
 
-#include "engine/march/window_order.h"
 #include "engine/settings/settings.h"
 #include "engine/store/codec/block_codec.h"
 #include "engine/window/window_grid.h"
+#include "engine/window/window_order.h"
 
 namespace mw::engine {
 

@@ -13,6 +13,7 @@
 #include <tbb/task_arena.h>
 
 #include <algorithm>
+#include <thread>
 
 #include "io/remote/wait_stop.h"
 
@@ -23,6 +24,11 @@ namespace {
 constexpr std::size_t kStackBytes = std::size_t{4} << 20U;
 
 }  // namespace
+
+int thread_count(int threads) {
+  if (threads > 0) return threads;
+  return std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
+}
 
 /// A thread that takes part in the arena's work until this is destroyed.  Its waits for servers end
 /// as those of the thread that made it, which outlives it.

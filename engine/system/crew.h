@@ -14,6 +14,9 @@
 
 namespace mw::engine {
 
+/// Returns the number of threads that `threads` asks for: itself, or the number of cores for 0.
+[[nodiscard]] int thread_count(int threads);
+
 /// The caller's thread and helpers in an arena of oneTBB.  This class starts the helpers itself,
 /// because oneTBB ends the process where the system refuses it a thread.
 /// ENSURES: oneTBB starts no thread for the work.

@@ -7,10 +7,10 @@
 
 #include "engine/labels/label_counts.h"
 #include "engine/labels/prepared_labels.h"
-#include "engine/march/window_order.h"
 #include "engine/settings/settings.h"
 #include "engine/window/block_store.h"
 #include "engine/window/window.h"
+#include "engine/window/window_order.h"
 #include "io/labels/label_table.h"
 #include "kernels/odt/codt.h"
 #include "kernels/optimise/optimise.h"

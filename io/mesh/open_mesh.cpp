@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <array>
 #include <functional>
+#include <type_traits>
 
 #include "io/file/errors.h"
 #include "io/file/source/inflated_source.h"
@@ -29,8 +30,15 @@
 namespace mw::io {
 namespace {
 
-/// One format: a file ending, how to read it and how to write it.  It is read where `read` or
-/// `stream` is there, and written where `open` is.
+/// Wedges of no thickness that a format has a place for.
+enum class WedgePlace : std::uint8_t {
+  kNowhere,
+  kSix,     ///< of six nodes, between tets of four
+  kTwelve,  ///< also of twelve nodes, between tets of ten
+};
+
+/// One format: a file ending, how to read it, how to write it, and what it has a place for.  It is
+/// read where `read` or `stream` is there, and written where `open` is.
 struct MeshFormat {
   const char* extension;
   /// Reads it whole; null where `stream` is there.
@@ -38,36 +46,21 @@ struct MeshFormat {
   /// Reads it in bounded memory; null where `read` is there.
   void (*stream)(const std::filesystem::path&, MeshSink&) = nullptr;
   /// Opens a sink; null where it is written in another way (open_mesh_pieces()).
-  std::unique_ptr<MeshSink> (*open)(const std::filesystem::path&, Element) = nullptr;
+  std::unique_ptr<MeshSink> (*open)(const std::filesystem::path&, Element,
+                                    const MeshExtras&) = nullptr;
   /// Endings of the files beside it, which replace its own ending; null behind the last.
   std::array<const char*, 4> beside{};
-  /// Opens a sink that writes extras; null where the format has room for none.
-  std::unique_ptr<MeshSink> (*open_with)(const std::filesystem::path&, Element,
-                                         const MeshExtras&) = nullptr;
-  /// Opens a sink for a mesh that is known to have wedges; null where the other sinks take them.
-  std::unique_ptr<MeshSink> (*open_wedges)(const std::filesystem::path&, Element) = nullptr;
   bool corners_alone = false;  ///< tets have four nodes
-  bool has_text = false;       ///< numbers are written in two ways
+  bool has_values = false;     ///< tets have numbers (MeshHeader::values)
+  WedgePlace wedges = WedgePlace::kNowhere;
+  bool has_text = false;  ///< numbers are written in two ways
   bool takes_materials = false;
   bool takes_deck = false;
 
   [[nodiscard]] bool is_read() const { return read != nullptr || stream != nullptr; }
   [[nodiscard]] bool is_written() const { return open != nullptr; }
-  [[nodiscard]] bool has_values() const {
-    constexpr std::array<std::string_view, 6> kWithValues{".vtkhdf", ".vtu", ".msh",
-                                                          ".msh2",   ".exo", ".xdmf"};
-    return std::find(kWithValues.begin(), kWithValues.end(), extension) != kWithValues.end();
-  }
-  /// Return whether the format has a place for wedges of six nodes, and of twelve.
-  [[nodiscard]] bool has_wedges6() const {
-    constexpr std::array<std::string_view, 4> kWithSixAlone{".msh", ".msh2", ".inp", ".exo"};
-    return has_wedges12() ||
-           std::find(kWithSixAlone.begin(), kWithSixAlone.end(), extension) != kWithSixAlone.end();
-  }
-  [[nodiscard]] bool has_wedges12() const {
-    constexpr std::array<std::string_view, 2> kWithTwelve{".vtkhdf", ".vtu"};
-    return std::find(kWithTwelve.begin(), kWithTwelve.end(), extension) != kWithTwelve.end();
-  }
+  [[nodiscard]] bool has_wedges6() const { return wedges != WedgePlace::kNowhere; }
+  [[nodiscard]] bool has_wedges12() const { return wedges == WedgePlace::kTwelve; }
   [[nodiscard]] bool has_wedges(Element element) const {
     return has_middles(element) ? has_wedges12() : has_wedges6();
   }
@@ -75,99 +68,46 @@ struct MeshFormat {
 
 /// Opens a sink that writes corners alone.
 template <class Sink>
-std::unique_ptr<MeshSink> open_corners(const std::filesystem::path& path, Element element) {
+std::unique_ptr<MeshSink> open_corners(const std::filesystem::path& path, Element element,
+                                       const MeshExtras&) {
   if (element == Element::kTet4) return std::make_unique<Sink>(path);
   fail_usage(why_no_middles(path, false));
 }
 
-/// Opens a sink that groups the mesh and then writes its cells.
+/// Opens a sink that writes tets of four nodes as they come.  It groups a mesh with wedges or
+/// with nodes on edges before it writes cells.
 template <class Sink>
-std::unique_ptr<MeshSink> open_cells(const std::filesystem::path& path, Element element) {
+std::unique_ptr<MeshSink> open_streamed(const std::filesystem::path& path, Element element,
+                                        const MeshExtras& extras) {
+  if (!has_middles(element) && !extras.wedges) return std::make_unique<Sink>(path);
   auto writer = std::make_unique<CellWriter>(std::make_unique<Sink>(path, element));
   return std::make_unique<GroupedSink>(path.parent_path(), std::move(writer), element);
 }
 
-/// Passes a mesh on as it comes.
-class PassingSink : public MeshSink {
- public:
-  explicit PassingSink(std::unique_ptr<MeshSink> below) : below_(std::move(below)) {}
-
-  void begin(const MeshHeader& header) override { below_->begin(header); }
-  void write_vertices(std::span<const Position> positions) override {
-    below_->write_vertices(positions);
-  }
-  void write_tets(std::span<const TetRows> tets, std::span<const RawLabel> labels) override {
-    below_->write_tets(tets, labels);
-  }
-  void write_values(std::span<const double> rows) override { below_->write_values(rows); }
-  void finish() override { below_->finish(); }
-  [[nodiscard]] std::uint64_t buffer_bytes() const override { return below_->buffer_bytes(); }
-
- protected:
-  std::unique_ptr<MeshSink> below_;
-};
-
-/// Where begin() tells of wedges, another sink takes the place of the one below; what opens that
-/// one may refuse them.
-class UnlessWedges : public PassingSink {
- public:
-  using Open = std::function<std::unique_ptr<MeshSink>()>;
-
-  UnlessWedges(std::unique_ptr<MeshSink> below, Open open_for_wedges)
-      : PassingSink(std::move(below)), open_for_wedges_(std::move(open_for_wedges)) {}
-
-  void begin(const MeshHeader& header) override {
-    if (header.record.cohesive.any()) below_ = open_for_wedges_();
-    below_->begin(header);
-  }
-
- private:
-  Open open_for_wedges_;
-};
-
-/// Takes the floor out of the record where the tets are parts of curved ones, whose floor it is.
-class StraightSink : public PassingSink {
- public:
-  using PassingSink::PassingSink;
-
-  void begin(const MeshHeader& header) override {
-    MeshHeader straight = header;
-    if (header.in_parts && straight.record.promises) straight.record.promises->quality_floor = 0;
-    below_->begin(straight);
-  }
-};
-
-/// Opens a sink of a format that has tets of four and of ten nodes.
-template <class Sink>
-std::unique_ptr<MeshSink> open_streamed(const std::filesystem::path& path, Element element) {
-  if (has_middles(element)) return open_cells<Sink>(path, element);
-  // A mesh with wedges is grouped, and its tets do not go through as they come.
-  return std::make_unique<UnlessWedges>(std::make_unique<Sink>(path),
-                                        [path] { return open_cells<Sink>(path, Element::kTet4); });
-}
-
 /// Opens a sink of a format that needs the whole mesh.
 template <class Writer>
-std::unique_ptr<MeshSink> open_grouped(const std::filesystem::path& path, Element element) {
-  return std::make_unique<GroupedSink>(path.parent_path(), std::make_unique<Writer>(path), element);
-}
-
-template <class Writer>
-std::unique_ptr<MeshSink> open_extras(const std::filesystem::path& path, Element element,
-                                      const MeshExtras& extras) {
-  return std::make_unique<GroupedSink>(path.parent_path(), std::make_unique<Writer>(path, extras),
-                                       element);
+std::unique_ptr<MeshSink> open_grouped(const std::filesystem::path& path, Element element,
+                                       const MeshExtras& extras) {
+  std::unique_ptr<Writer> writer;
+  if constexpr (std::is_constructible_v<Writer, std::filesystem::path, MeshExtras>) {
+    writer = std::make_unique<Writer>(path, extras);
+  } else {
+    writer = std::make_unique<Writer>(path);
+  }
+  return std::make_unique<GroupedSink>(path.parent_path(), std::move(writer), element);
 }
 
 const std::array kFormats{
     MeshFormat{.extension = ".vtkhdf",
                .stream = &read_vtkhdf,
                .open = &open_streamed<VtkhdfSink>,
-               .open_wedges = &open_cells<VtkhdfSink>},
+               .has_values = true,
+               .wedges = WedgePlace::kTwelve},
     MeshFormat{.extension = ".vtu",
                .read = [](const auto& path) { return read_vtu(*open_bytes(path)); },
                .open = &open_streamed<VtuSink>,
-               .open_wedges = &open_cells<VtuSink>},
+               .has_values = true,
+               .wedges = WedgePlace::kTwelve},
     MeshFormat{.extension = ".mesh",
                .read = [](const auto& path) { return read_medit(*open_bytes(path)); },
                .open = &open_corners<MeditSink>,
@@ -176,37 +116,40 @@ const std::array kFormats{
                .read = &read_msh,
                .open = &open_grouped<MshWriter>,
                .beside = {".msh.labels.csv"},
-               .open_with = &open_extras<MshWriter>,
+               .has_values = true,
+               .wedges = WedgePlace::kSix,
                .has_text = true,
                .takes_materials = true},
     MeshFormat{.extension = ".msh2",
                .read = &read_msh,
                .open = &open_grouped<Msh2Writer>,
                .beside = {".msh2.labels.csv"},
-               .open_with = &open_extras<Msh2Writer>,
+               .has_values = true,
+               .wedges = WedgePlace::kSix,
                .takes_materials = true},
     MeshFormat{.extension = ".exo",
                .open = &open_grouped<ExodusWriter>,
                .beside = {".exo.labels.csv"},
-               .open_with = &open_extras<ExodusWriter>,
+               .has_values = true,
+               .wedges = WedgePlace::kSix,
                .takes_materials = true},
     MeshFormat{
         .extension = ".bdf", .open = &open_grouped<BdfWriter>, .beside = {".bdf.labels.csv"}},
     MeshFormat{.extension = ".inp",
                .open = &open_grouped<InpWriter>,
-               .open_with = &open_extras<InpWriter>,
+               .wedges = WedgePlace::kSix,
                .takes_materials = true,
                .takes_deck = true},
     MeshFormat{.extension = ".xdmf",
                .open = &open_grouped<XdmfWriter>,
-               .beside = {".h5", ".cells.xdmf", ".facets.csv", ".xdmf.labels.csv"}},
+               .beside = {".h5", ".cells.xdmf", ".facets.csv", ".xdmf.labels.csv"},
+               .has_values = true},
     MeshFormat{.extension = ".k", .open = &open_grouped<LsdynaWriter>, .beside = {".k.labels.csv"}},
     MeshFormat{
         .extension = ".cdb", .open = &open_grouped<CdbWriter>, .beside = {".cdb.labels.csv"}},
     MeshFormat{.extension = ".feb",
                .open = &open_grouped<FebioWriter>,
                .beside = {".feb.labels.csv"},
-               .open_with = &open_extras<FebioWriter>,
                .takes_deck = true},
     MeshFormat{.extension = kPiecesExtension, .read = &read_pvtu},
 };
@@ -270,14 +213,60 @@ const MeshFormat& read_format(const std::filesystem::path& path) {
              "the place of --cohesive");
 }
 
-/// Returns a sink that refuses wedges, for which the format or a deck has no place.
-std::unique_ptr<MeshSink> without_wedges(const std::filesystem::path& path, Element element,
-                                         std::unique_ptr<MeshSink> below) {
-  return std::make_unique<UnlessWedges>(std::move(below), [=]() -> std::unique_ptr<MeshSink> {
-    require_place_for_wedges(path, element);
-    refuse_wedges_in_deck(path);
-  });
+/// Throws, because curves follow the sides of interfaces, which would come apart or overlap.
+[[noreturn]] void refuse_curves(const std::filesystem::path& path) {
+  fail_usage(path.string(), ": vertices of the mesh were doubled (--split, --cohesive, ",
+             "--open-hinges), so its tets cannot be curved; write tet10");
 }
+
+/// Opens what writes a file, for a mesh with wedges or without.
+using OpenFile = std::function<std::unique_ptr<MeshSink>(bool has_wedges)>;
+
+/// Writes a file.  It settles what only the mesh's header tells: whether there are wedges, and
+/// whether the tets are parts of curved ones.
+class FileSink : public MeshSink {
+ public:
+  struct File {
+    std::filesystem::path path;
+    Element element;
+    MeshExtras extras;
+    OpenFile open;
+  };
+
+  explicit FileSink(File file) : file_(std::move(file)), below_(file_.open(file_.extras.wedges)) {}
+
+  void begin(const MeshHeader& header) override {
+    if (header.record.cohesive.any()) take_wedges();
+    const bool is_curved = file_.element == Element::kCurvedTet10;
+    if (is_curved && header.record.has_doubles) refuse_curves(file_.path);
+    MeshHeader written = header;
+    // Parts that are written as tets of their own do not hold the floor of the curved tets.
+    if (header.in_parts && !is_curved && written.record.promises)
+      written.record.promises->quality_floor = 0;
+    below_->begin(written);
+  }
+  void write_vertices(std::span<const Position> positions) override {
+    below_->write_vertices(positions);
+  }
+  void write_tets(std::span<const TetRows> tets, std::span<const RawLabel> labels) override {
+    below_->write_tets(tets, labels);
+  }
+  void write_values(std::span<const double> rows) override { below_->write_values(rows); }
+  void finish() override { below_->finish(); }
+  [[nodiscard]] std::uint64_t buffer_bytes() const override { return below_->buffer_bytes(); }
+
+ private:
+  void take_wedges() {
+    require_place_for_wedges(file_.path, file_.element);
+    if (file_.extras.deck) refuse_wedges_in_deck(file_.path);
+    if (file_.extras.wedges) return;
+    below_.reset();
+    below_ = file_.open(true);
+  }
+
+  File file_;
+  std::unique_ptr<MeshSink> below_;
+};
 
 /// Writes a mesh and the pairs of its nodes.
 class PairedSink : public TeeSink {
@@ -289,16 +278,6 @@ class PairedSink : public TeeSink {
   std::unique_ptr<MeshSink> mesh_;
   std::unique_ptr<MeshSink> pairs_;
 };
-
-/// Opens a sink that writes tets as they come.
-std::unique_ptr<MeshSink> open_tets(const MeshFormat& format, const std::filesystem::path& path,
-                                    Element element, const MeshExtras& extras) {
-  if (extras.wedges && format.open_wedges != nullptr) return format.open_wedges(path, element);
-  auto sink = format.open_with != nullptr ? format.open_with(path, element, extras)
-                                          : format.open(path, element);
-  if (format.has_wedges(element) && !extras.deck) return sink;
-  return without_wedges(path, element, std::move(sink));
-}
 
 }  // namespace
 
@@ -328,7 +307,7 @@ void require_place_for_values(const std::filesystem::path& path) {
 
 std::string why_no_values(const std::filesystem::path& path) {
   const MeshFormat* const format = find_format(path);
-  if (format == nullptr || format->has_values() || !format->is_written()) return {};
+  if (format == nullptr || format->has_values || !format->is_written()) return {};
   return text(path.string(), ": ", format->extension, " has no place for values of tets; ",
               extensions_where(&MeshFormat::has_values), " have, and ",
               extensions_where(&MeshFormat::takes_materials), " take sets by --materials");
@@ -418,9 +397,12 @@ std::unique_ptr<MeshSink> open_mesh_sink(const std::filesystem::path& path, Elem
                extensions_where(&MeshFormat::takes_deck));
   }
   if (extras.deck && extras.wedges) refuse_wedges_in_deck(path);
-  auto sink = open_tets(format, path, element, extras);
-  if (element == Element::kCurvedTet10) return sink;
-  return std::make_unique<StraightSink>(std::move(sink));
+  const OpenFile open = [&format, path, element, extras](bool has_wedges) {
+    MeshExtras taken = extras;
+    taken.wedges = has_wedges;
+    return format.open(path, element, taken);
+  };
+  return std::make_unique<FileSink>(FileSink::File{path, element, extras, open});
 }
 
 std::unique_ptr<MeshSink> open_mesh_pieces(const std::filesystem::path& path,
@@ -429,8 +411,8 @@ std::unique_ptr<MeshSink> open_mesh_pieces(const std::filesystem::path& path,
     fail_usage(path.string(), ": pieces are written as ", kPiecesExtension, " and files beside it");
   }
   if (pieces == 0) fail_usage(path.string(), ": no pieces are no mesh");
-  return std::make_unique<StraightSink>(
-      without_wedges(path, Element::kTet4, std::make_unique<PvtuSink>(path, pieces)));
+  const OpenFile open = [path, pieces](bool) { return std::make_unique<PvtuSink>(path, pieces); };
+  return std::make_unique<FileSink>(FileSink::File{path, Element::kTet4, {}, open});
 }
 
 std::unique_ptr<SharedMesh> open_shared_mesh(const std::filesystem::path& path, Element element) {

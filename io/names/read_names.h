@@ -1,15 +1,13 @@
 // SPDX-FileCopyrightText: The mwmesh authors
 // SPDX-License-Identifier: Apache-2.0
-// Reads what labels are called from a file (--names), and gives a volume these names.
+// Reads what labels are called from a file (--names).
 #pragma once
 
 #include <filesystem>
-#include <memory>
 #include <string>
 #include <string_view>
 
 #include "io/names/label_names.h"
-#include "io/volume/label_volume.h"
 
 namespace mw::io {
 
@@ -27,21 +25,5 @@ inline constexpr std::uint64_t kMaxNamesBytes = 64 << 20;
 /// Reads names from text, which errors call `file`.
 [[nodiscard]] LabelNames parse_names(std::string_view text, std::string_view file,
                                      std::string* note = nullptr);
-
-/// The volume with these names added to its own; where both name a label, these win.
-/// Thread safety: as the volume below.
-class NamedVolume : public VolumeView {
- public:
-  NamedVolume(std::shared_ptr<const LabelVolume> volume, const LabelNames& names)
-      : VolumeView(std::move(volume)), info_(below().info()) {
-    info_.names = info_.names.merged_with(names);
-  }
-
-  [[nodiscard]] const VolumeInfo& info() const override { return info_; }
-  void read(const Box3& box, std::span<RawLabel> out) const override { below().read(box, out); }
-
- private:
-  VolumeInfo info_;
-};
 
 }  // namespace mw::io

@@ -36,6 +36,12 @@ struct Point {
   friend bool operator==(const Point&, const Point&) = default;
 };
 
+/// A box in lattice units, closed.
+struct LatticeBox {
+  Point lo;
+  Point hi;
+};
+
 /// A position's coordinate along an axis: 0 for x, 1 for y, 2 for z.
 [[nodiscard]] constexpr std::int32_t along(Point p, unsigned axis) {
   return axis == 0 ? p.x : axis == 1 ? p.y : p.z;

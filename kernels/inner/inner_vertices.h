@@ -3,11 +3,11 @@
 // New vertices for tets that have none inside their label.
 #pragma once
 
+#include "kernels/core/lattice.h"
 #include "kernels/distance/carried_samples.h"
 #include "kernels/inner/cavity.h"
 #include "kernels/inner/inner_demand.h"
 #include "kernels/odt/codt.h"
-#include "kernels/optimise/optimise.h"
 
 namespace mw {
 

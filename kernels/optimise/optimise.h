@@ -14,12 +14,6 @@
 
 namespace mw {
 
-/// A box in lattice units, closed.
-struct LatticeBox {
-  Point lo;
-  Point hi;
-};
-
 struct OptimiseOptions {
   int sweeps = 1;
   /// Boxes that earlier calls of this march have seen.  The first sweep, and fit_interfaces(),

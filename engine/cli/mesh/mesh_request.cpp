@@ -10,6 +10,7 @@
 #include "engine/cli/options/values.h"
 #include "engine/codt/worker_pool.h"
 #include "engine/settings/size_text.h"
+#include "engine/settings/together.h"
 #include "engine/system/memory.h"
 #include "io/file/errors.h"
 #include "io/file/text_numbers.h"
@@ -243,25 +244,16 @@ void require_room_for_wedges(const MeshRequest& request) {
   io::require_place_for_wedges(request.output, request.element);
 }
 
-void require_single_vertices_for_curves(const MeshRequest& request) {
-  const engine::ConnectOptions& connect = request.job.connect;
-  if (request.element != io::Element::kCurvedTet10) return;
-  if (!connect.split.any() && !connect.cohesive.any() && !connect.open_hinges) return;
-  io::fail_usage(
-      "--element tet10-curved: not with --split, --cohesive or --open-hinges, which double "
-      "vertices; tet10 is");
-}
-
-void check_pairs(const MeshRequest& request) {
-  if (request.extras.pairs.empty()) return;
-  if (request.job.settings.periodic == 0) {
-    io::fail_usage("--pairs: only a cell that repeats itself has some, give --periodic");
-  }
-  const engine::ConnectOptions& connect = request.job.connect;
-  if (!connect.split.any() && !connect.cohesive.any() && !connect.open_hinges) return;
-  io::fail_usage(
-      "--pairs: are not known where vertices are doubled; leave out --split, --cohesive and "
-      "--open-hinges");
+void check_request_together(const MeshRequest& request) {
+  const engine::KeepOptions& keep = request.job.run.keep;
+  engine::check_together({.update = !request.from.empty(),
+                          .changed = !keep.changed.empty(),
+                          .delta = !request.delta.empty(),
+                          .periodic = request.job.settings.periodic != 0,
+                          .object = !request.volume.open.object.empty(),
+                          .curves = request.element == io::Element::kCurvedTet10,
+                          .doubles = request.job.connect.double_vertices(),
+                          .pairs = !request.extras.pairs.empty()});
 }
 
 /// Settles what is done with the folder: --from updates what an earlier run left there, --resume
@@ -271,13 +263,6 @@ void settle_keep(MeshRequest& request) {
   const bool updates = !request.from.empty();
   if (updates && !request.keep.empty() && request.keep != request.from) {
     io::fail_usage("--keep: --from updates the folder that it names, give one of the two");
-  }
-  if (!updates && !(keep.changed.empty() && request.delta.empty())) {
-    io::fail_usage(std::string(keep.changed.empty() ? "--delta" : "--changed") +
-                   ": says what changed since a run, give --from as well");
-  }
-  if (!keep.changed.empty() && !request.volume.open.object.empty()) {
-    io::fail_usage("--changed: says nothing where --object finds the box anew, leave it out");
   }
   request.job.delta = request.delta.empty() ? engine::Delta::kNo : engine::Delta::kOn;
   keep.folder = updates ? request.from : request.keep;
@@ -323,6 +308,7 @@ void add_mesh_options(OptionSet& options, MeshRequest& request) {
 void check_mesh_request(MeshRequest& request) {
   settle_job(request);
   settle_keep(request);
+  check_request_together(request);
   (void)open_options(request.volume);
   engine::check_choice(request.job.choice);
   require_paths_apart(request);
@@ -330,8 +316,6 @@ void check_mesh_request(MeshRequest& request) {
   require_memory_for_page(request);
   require_room_for_values(request);
   require_room_for_wedges(request);
-  require_single_vertices_for_curves(request);
-  check_pairs(request);
   engine::check(request.job.settings);
   if (request.job.settings.optimizer == engine::Optimizer::kTetgen)
     (void)engine::codt::find_worker();

@@ -7,7 +7,7 @@
 #include <algorithm>
 
 #include "engine/cli/log.h"
-#include "engine/march/march.h"
+#include "engine/system/crew.h"
 #include "io/file/errors.h"
 #include "io/mesh/open_mesh.h"
 

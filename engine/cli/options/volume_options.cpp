@@ -15,6 +15,7 @@
 #include "io/remote/address.h"
 #include "io/volume/checks.h"
 #include "io/volume/decode.h"
+#include "io/volume/named_volume.h"
 #include "io/volume/open_volume.h"
 
 namespace mw::cli {

@@ -3,7 +3,7 @@
 // Grids by their number of windows, and relations among windows, for tests of the march.
 #pragma once
 
-#include "engine/march/window_order.h"
+#include "engine/window/window_order.h"
 #include "tests/testing.h"
 
 namespace mw::engine::test {

@@ -40,11 +40,6 @@ TEST(March, OneThreadVisitsInSequence) {
   }
 }
 
-TEST(March, NoThreadsMeansAllCores) {
-  EXPECT_EQ(thread_count(0), static_cast<int>(std::max(1U, std::thread::hardware_concurrency())));
-  EXPECT_EQ(thread_count(5), 5);
-}
-
 /// The eight windows of the first colour meet, even on a machine of fewer cores.
 TEST(March, UsesAllThreads) {
   const WindowOrder order(grid_of({4, 4, 4}), Order::kColour);

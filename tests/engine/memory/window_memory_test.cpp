@@ -5,9 +5,9 @@
 // settings.
 #include "engine/window/window_memory.h"
 
-#include "engine/march/window_order.h"
 #include "engine/store/run_store.h"
 #include "engine/system/crew.h"
+#include "engine/window/window_order.h"
 #include "engine/window/window_visitor.h"
 #include "tests/engine/memory/counted_memory.h"
 #include "tests/engine/memory_run.h"

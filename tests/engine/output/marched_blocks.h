@@ -3,9 +3,9 @@
 // What a march leaves in the store.
 #pragma once
 
-#include "engine/march/window_order.h"
 #include "engine/output/finish.h"
 #include "engine/store/run_store.h"
+#include "engine/window/window_order.h"
 #include "engine/window/window_visitor.h"
 #include "tests/engine/memory_run.h"
 

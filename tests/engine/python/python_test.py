@@ -194,6 +194,15 @@ class SameMesh(InFolder):
         self.assertIn("P2 Jacobians", [check[0] for check in verdict.checks])
         self.assertTrue(pickle.loads(pickle.dumps(read)).verify(labels))
 
+    def test_curves_and_pairs_need_single_vertices(self):
+        labels, file = grains(), self.path("no.vtu")
+        with self.assertRaisesRegex(mwmesh.UsageError, "write tet10"):
+            mwmesh.mesh(labels, split="*").save(file, element="tet10-curved")
+        for options in ({"element": "tet10-curved"}, {"periodic": "x", "pairs": self.path("p.csv")}):
+            with self.assertRaisesRegex(mwmesh.UsageError, "vertices"):
+                mwmesh.mesh_to_file(labels, file, split="*", progress=lambda *_: self.fail("it began"),
+                                    **options)
+
     @needs("nibabel")
     def test_images_lie_where_their_files_do(self):
         import nibabel

@@ -53,6 +53,11 @@ bool all_meet(Crew& crew) {
   return !late;
 }
 
+TEST(Crew, NoThreadsMeansAllCores) {
+  EXPECT_EQ(thread_count(0), static_cast<int>(std::max(1U, std::thread::hardware_concurrency())));
+  EXPECT_EQ(thread_count(5), 5);
+}
+
 TEST(Crew, IsAsManyThreadsAsWereAskedFor) {
   for (const int threads : {1, 2, 3, 8}) {
     Crew crew(threads);

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: The mwmesh authors
 // SPDX-License-Identifier: Apache-2.0
 // Names of labels in volumes: segments of Slicer, label tables of Workbench, names given beside.
-#include "io/names/read_names.h"
+#include "io/volume/named_volume.h"
 #include "io/volume/open_volume.h"
 #include "tests/io/names/random_names.h"
 #include "tests/io/volume/sample_files.h"

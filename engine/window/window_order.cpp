@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: The mwmesh authors
 // SPDX-License-Identifier: Apache-2.0
 // Sequence and edges of the raster and of the colour order.
-#include "engine/march/window_order.h"
+#include "engine/window/window_order.h"
 
 #include <algorithm>
 #include <array>

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: The mwmesh authors
 // SPDX-License-Identifier: Apache-2.0
 // Both orders by brute force: windows that share a block are ordered, and nothing else is claimed.
-#include "engine/march/window_order.h"
+#include "engine/window/window_order.h"
 #include "engine/march/march.h"
 #include "tests/engine/march/grids.h"
 #include "tests/engine/march/watched_march.h"
