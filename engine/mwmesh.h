@@ -136,17 +136,17 @@ struct VolumeFile {
   /// "all" makes a label for each set of masks; if empty, such a voxel is an error.
   std::string overlap{};
   /// Voxels to keep, as the data set counts them: the first one of a store with an offset is that
-  /// many voxels from 0 (io/README.md).  They stay in place unless origin is given.
+  /// many voxels from 0 (engine/MANUAL.md).  They stay in place unless origin is given.
   std::optional<Box> crop{};
   bool trust_paths = false;  ///< lets headers name files outside of their own folder
   /// What the numbers are: "labels", "probabilities" (one for each class), or "distances" (one for
   /// each label, signed, negative inside).
   std::string values = "labels";
   /// The labels that matter, or empty if all do.  All others become 0, and the volume ends around
-  /// these labels, which are found by coarser scales where there are some (io/README.md).
+  /// these labels, which are found by coarser scales where there are some (engine/MANUAL.md).
   std::vector<std::uint64_t> object{};
   /// "DIR" or "DIR,SIZE": a folder that keeps what servers send for later runs, and the most bytes
-  /// that it may hold (io/README.md); if empty, nothing is kept.
+  /// that it may hold (io/FORMATS.md); if empty, nothing is kept.
   std::string cache{};
   /// Which place of a NIfTI file counts, "sform" or "qform"; if empty, the sform where there is
   /// one. Images of Options::sample lie by theirs.
@@ -362,8 +362,9 @@ std::string mesh_to(MeshWriter& writer, const Volume& volume, const Settings& se
 
 /// How a mesh is written into a file.
 struct FileOptions {
-  std::string element = "tet4";  ///< or "tet10", or "tet10-curved" (io/README.md, "Curved tets")
-  bool values = true;            ///< whether the values of tets are written
+  /// "tet4", "tet10" or "tet10-curved" (engine/MANUAL.md, "Curved tets").
+  std::string element = "tet4";
+  bool values = true;  ///< whether the values of tets are written
   /// Materials by equal ranges of a value, as `mwmesh mesh --materials` has them: "NAME=N" or
   /// "NAME=N:LO:HI"; empty for none.  A file that has a place for values has them, too.
   std::string materials{};

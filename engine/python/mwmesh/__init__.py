@@ -261,7 +261,7 @@ def mesh(volume, *, progress=None, **arguments):
         Labels are given by number or by name, wherever they are, except for object.
     dataset, scale, crop, overlap, values, object, trust_paths, cache, use_form
         for files: the array to read, the level of a pyramid, the box ((x0, y0, z0), (x1, y1, z1))
-        to keep, as the data set counts voxels (io/README.md), which label a voxel of several masks gets ("first", "last", or "all": one for each
+        to keep, as the data set counts voxels (engine/MANUAL.md), which label a voxel of several masks gets ("first", "last", or "all": one for each
         set of masks), what the numbers are ("labels", or "probabilities" of classes or signed
         "distances" of labels, whose crossings then place the interfaces), labels that alone matter
         and that the mesh is to have (a number or a list of numbers; all others become 0; coarser scales tell

@@ -422,7 +422,7 @@ class Pull(unittest.TestCase):
 
     @unittest.skipUnless(shutil.which("ccx"), "no CalculiX")
     def test_calculix_has_tied_contact_in_their_place(self):
-        """As io/README.md tells its users."""
+        """As engine/MANUAL.md tells its users."""
         run("mesh", "two.npy", "-o", "split.inp", "--split", "1|2")
         stiffness = 200.0
         found = pull("split", (

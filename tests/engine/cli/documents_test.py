@@ -1,6 +1,7 @@
 # SPDX-FileCopyrightText: The mwmesh authors
 # SPDX-License-Identifier: Apache-2.0
-"""What documents tell users to type works: commands and Python of README.md, options elsewhere."""
+"""What documents tell users to type works: commands and Python of README.md, options elsewhere;
+the manual names each option, and io/FORMATS.md each format."""
 import os
 import pathlib
 import re
@@ -20,6 +21,21 @@ ROOT = pathlib.Path(__file__).resolve().parents[3]
 DOCUMENTS = [ROOT / "README.md", *sorted(
     path for folder in ("engine", "kernels", "io", "tests", "bench", "configs")
     for path in (ROOT / folder).rglob("*.md"))]
+MANUAL = ROOT / "engine" / "MANUAL.md"
+FORMATS = ROOT / "io" / "FORMATS.md"
+COMMANDS = ("mesh", "convert", "verify", "info", "surface", "picture", "serve", "digest", "synth")
+
+
+def help_of(command):
+    """All options of a command."""
+    done = start(command, "--help-all")
+    done = done if done.returncode == 0 else start(command, "--help")
+    return done.stdout
+
+
+def slug(title):
+    """The anchor of a heading, as GitHub makes it."""
+    return re.sub(r"[^\w -]", "", title.lower()).replace(" ", "-")
 
 
 def blocks(document):
@@ -47,15 +63,49 @@ class Documents(unittest.TestCase):
         helps, seen = {}, 0
         for document in DOCUMENTS:
             for command, *words in all_commands(document):
-                if command not in helps:
-                    done = start(command, "--help-all")
-                    done = done if done.returncode == 0 else start(command, "--help")
-                    helps[command] = done.stdout
+                helps.setdefault(command, help_of(command))
                 for flag in re.findall(r"--[a-z][a-z-]*", " ".join(words)):
                     with self.subTest(document=document.name, command=command, flag=flag):
                         self.assertRegex(helps[command], re.escape(flag) + r"\b")
                         seen += 1
         self.assertGreater(seen, 10)
+
+    def test_the_manual_names_each_option(self):
+        manual = MANUAL.read_text() + FORMATS.read_text()
+        seen = 0
+        for command in COMMANDS:
+            for flag in re.findall(r"^  (?:-\w, )?(--[a-z][a-z-]*)", help_of(command), re.M):
+                with self.subTest(command=command, flag=flag):
+                    seen += 1
+                    if flag != "--output":  # -o is in every example
+                        self.assertTrue(re.search(re.escape(flag) + r"(?![\w-])", manual))
+        self.assertGreater(seen, 100)
+
+    def test_formats_that_are_read_or_written_are_described(self):
+        formats = FORMATS.read_text()
+        last = [line for command in ("mesh", "convert") for line in help_of(command).splitlines()
+                if line.startswith((".", "OUT", "MESH:"))]
+        endings = set(re.findall(r"\.[a-z][a-z0-9]+", " ".join(last)))
+        self.assertGreater(len(endings), 20)
+        for ending in sorted(endings) + [".stl", ".ply"]:
+            with self.subTest(ending=ending):
+                self.assertTrue(f"`{ending}`" in formats)
+
+    def test_links_between_documents_lead_somewhere(self):
+        seen = 0
+        for document in DOCUMENTS:
+            for target in re.findall(r"\]\(([^)\s]+)\)", document.read_text()):
+                if re.match(r"[a-z]+:", target):
+                    continue
+                with self.subTest(document=str(document.relative_to(ROOT)), target=target):
+                    name, _, anchor = target.partition("#")
+                    path = (document.parent / name).resolve() if name else document
+                    self.assertTrue(path.exists())
+                    if anchor:
+                        titles = re.findall(r"^#+ (.*)$", path.read_text(), re.M)
+                        self.assertIn(anchor, map(slug, titles))
+                    seen += 1
+        self.assertGreater(seen, 50)
 
     def make_volumes(self):
         enter_folder(self)
