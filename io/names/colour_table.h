@@ -2,6 +2,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // Tables that have one label a line and numbers between blanks (ITK-SNAP, FreeSurfer, 3D Slicer),
 // and the numbers in the text of all tables of names.
+// Format: http://www.itksnap.org/docs/fullmanual.php
+// Format: https://surfer.nmr.mgh.harvard.edu/fswiki/LabelsClutsAnnotationFiles
+// Format: https://slicer.readthedocs.io/en/latest/user_guide/modules/colors.html
 #pragma once
 
 #include <cstdint>

@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: The mwmesh authors
 // SPDX-License-Identifier: Apache-2.0
 // Names of labels in a table of separated values.
+// Format: https://www.rfc-editor.org/rfc/rfc4180
 #pragma once
 
 #include <string>

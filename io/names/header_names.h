@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Names of labels in headers of volumes: 3D Slicer's segments in .seg.nrrd files, and
 // the label table of Connectome Workbench in NIfTI files.
+// Format: https://slicer.readthedocs.io/en/latest/developer_guide/modules/segmentations.html
 #pragma once
 
 #include <cstdint>

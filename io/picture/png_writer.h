@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: The mwmesh authors
 // SPDX-License-Identifier: Apache-2.0
 // Writes a PNG picture row by row.
+// Format: https://www.w3.org/TR/png/
 #pragma once
 
 #include <cstddef>

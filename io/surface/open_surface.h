@@ -1,6 +1,8 @@
 // SPDX-FileCopyrightText: The mwmesh authors
 // SPDX-License-Identifier: Apache-2.0
 // Writes surfaces in every format there is.
+// Format: https://www.loc.gov/preservation/digital/formats/fdd/fdd000505.shtml (.stl)
+// Format: https://www.loc.gov/preservation/digital/formats/fdd/fdd000501.shtml (.ply)
 #pragma once
 
 #include <filesystem>

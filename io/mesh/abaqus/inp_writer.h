@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: The mwmesh authors
 // SPDX-License-Identifier: Apache-2.0
 // Writes a grouped mesh as the mesh of an Abaqus input file.
+// Format: https://www.dhondt.de/ccx_2.20.pdf
 #pragma once
 
 #include <filesystem>

@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: The mwmesh authors
 // SPDX-License-Identifier: Apache-2.0
 // Writes a grouped mesh as a blocked database file of Ansys Mechanical APDL.
+// Format: https://ansyshelp.ansys.com/public/Views/Secured/corp/v242/en/ans_prog/Hlp_P_INT3_3.html
 #pragma once
 
 #include "io/mesh/grouped/facet_nodes.h"

@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: The mwmesh authors
 // SPDX-License-Identifier: Apache-2.0
 // Writes a grouped mesh as Exodus II, which MOOSE, Sierra, MFEM and ParaView read.
+// Format: https://sandialabs.github.io/seacas-docs/exodusII-new.pdf
 #pragma once
 
 #include "io/mesh/exodus/netcdf_output.h"

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Writes netCDF files of the classic model.  The library itself is not used, because it crashes
 // where memory is refused.
+// Format: https://docs.unidata.ucar.edu/netcdf-c/current/file_format_specifications.html
 #pragma once
 
 #include <cstdint>

@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: The mwmesh authors
 // SPDX-License-Identifier: Apache-2.0
 // Writes the geometry of an FEBio model.
+// Format: https://help.febio.org/docs/FEBioUser-4-0/UM40.html
 #pragma once
 
 #include "io/mesh/grouped/facet_nodes.h"

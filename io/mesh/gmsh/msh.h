@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: The mwmesh authors
 // SPDX-License-Identifier: Apache-2.0
 // Reads Gmsh's .msh files of versions 4.1 and 2.2, and writes them as .msh and .msh2.
+// Format: https://gmsh.info/doc/texinfo/gmsh.html#MSH-file-format
 #pragma once
 
 #include <filesystem>

@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: The mwmesh authors
 // SPDX-License-Identifier: Apache-2.0
 // Writes a grouped mesh as a keyword file of LS-DYNA.
+// Format: https://lsdyna.ansys.com/manuals/
 #pragma once
 
 #include "io/mesh/grouped/facet_nodes.h"

@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: The mwmesh authors
 // SPDX-License-Identifier: Apache-2.0
 // Reads and writes ASCII MEDIT .mesh files.
+// Format: https://hal.inria.fr/inria-00069921
 #pragma once
 
 #include <filesystem>

@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: The mwmesh authors
 // SPDX-License-Identifier: Apache-2.0
 // Writes a grouped mesh as Nastran bulk data.
+// Format: https://docs.plm.automation.siemens.com/tdoc/nxnastran/10/help/#uid:index
 #pragma once
 
 #include "io/mesh/grouped/facet_nodes.h"

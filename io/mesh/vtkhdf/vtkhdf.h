@@ -1,6 +1,8 @@
 // SPDX-FileCopyrightText: The mwmesh authors
 // SPDX-License-Identifier: Apache-2.0
 // Reads tetrahedral .vtkhdf files, and writes them by one process or by several together.
+// Format:
+// https://docs.vtk.org/en/latest/vtk_file_formats/vtkhdf_file_format/vtkhdf_specifications.html
 #pragma once
 
 #include <filesystem>

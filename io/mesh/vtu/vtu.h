@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Reads and writes tetrahedral .vtu files: the XML of a file written here, with names of labels and
 // the record of the run, and where its arrays are.
+// Format: https://docs.vtk.org/en/latest/vtk_file_formats/vtkxml_file_format.html
 #pragma once
 
 #include <array>

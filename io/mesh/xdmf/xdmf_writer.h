@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: The mwmesh authors
 // SPDX-License-Identifier: Apache-2.0
 // Writes a mesh as XDMF over HDF5, with tags as dolfinx reads them.
+// Format: https://www.xdmf.org/index.php/XDMF_Model_and_Format
 #pragma once
 
 #include <string>

@@ -1,6 +1,8 @@
 // SPDX-FileCopyrightText: The mwmesh authors
 // SPDX-License-Identifier: Apache-2.0
 // One segment of neuroglancer's multi-resolution meshes.
+// Format: https://github.com/google/neuroglancer/blob/master/src/datasource/precomputed/meshes.md
+// Format: https://google.github.io/draco/spec/
 #pragma once
 
 #include <cstdint>

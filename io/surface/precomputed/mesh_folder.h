@@ -2,6 +2,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // A folder of neuroglancer's precomputed meshes, and what a viewer may sort its segments by,
 // measured while a surface is written.
+// Format: https://github.com/google/neuroglancer/blob/master/src/datasource/precomputed/meshes.md
+// Format:
+// https://github.com/google/neuroglancer/blob/master/src/datasource/precomputed/segment_properties.md
 #pragma once
 
 #include <algorithm>

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // What a DICOM segmentation says: its segments, its frames and the slices on which these lie; and
 // opens it as a volume of labels.
+// Format: https://dicom.nema.org/medical/dicom/current/output/chtml/part03/sect_A.51.html
 #pragma once
 
 #include <array>

@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // Opens a data set of an HDF5 file as a volume, whose chunks are read and unpacked without the HDF5
 // library.
+// Format: https://support.hdfgroup.org/documentation/hdf5/latest/_f_m_t3.html
+// Format: https://cremi.org/data/ (labels of CREMI)
 #pragma once
 
 #include <cstddef>

@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: The mwmesh authors
 // SPDX-License-Identifier: Apache-2.0
 // The text header of a MetaImage volume (.mha, .mhd), as ITK and VTK write it.
+// Format: https://itk.org/Wiki/ITK/MetaIO/Documentation
 #pragma once
 
 #include <cstdint>

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Opens an array of an N5 container, looked for where the caller did not name it: what its
 // attributes.json describes, and its blocks, a file each.
+// Format: https://github.com/saalfeldlab/n5
 #pragma once
 
 #include <array>

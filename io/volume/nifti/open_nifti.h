@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: The mwmesh authors
 // SPDX-License-Identifier: Apache-2.0
 // Opens a single-file NIfTI-1 or NIfTI-2 volume, with the names that it has for labels.
+// Format: https://nifti.nimh.nih.gov/nifti-1 and https://nifti.nimh.nih.gov/nifti-2
 #pragma once
 
 #include <cstddef>

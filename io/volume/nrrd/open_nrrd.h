@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: The mwmesh authors
 // SPDX-License-Identifier: Apache-2.0
 // The text header of an NRRD volume, inline or detached.
+// Format: https://teem.sourceforge.net/nrrd/format.html
 #pragma once
 
 #include <cstdint>

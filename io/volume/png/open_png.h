@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: The mwmesh authors
 // SPDX-License-Identifier: Apache-2.0
 // Opens PNG pictures, one or a slice each, as a volume: grey values, or indices of a palette.
+// Format: https://www.w3.org/TR/png/
 #pragma once
 
 #include <cstdint>

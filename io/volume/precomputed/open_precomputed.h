@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // One scale of a precomputed volume, from its `info` file, and its encoding
 // compressed_segmentation.
+// Format: https://github.com/google/neuroglancer/blob/master/src/datasource/precomputed/volume.md
 #pragma once
 
 #include <cstddef>

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Where chunks are in "neuroglancer_uint64_sharded_v1", and a folder of such shards, from which
 // they are read by their numbers.
+// Format: https://github.com/google/neuroglancer/blob/master/src/datasource/precomputed/sharded.md
 #pragma once
 
 #include <cstddef>

@@ -1,6 +1,9 @@
 // SPDX-FileCopyrightText: The mwmesh authors
 // SPDX-License-Identifier: Apache-2.0
 // Opens a TIFF, BigTIFF or OME-TIFF stack as a volume, as its ImageDescription says.
+// Format: https://www.itu.int/itudoc/itu-t/com16/tiff-fx/docs/tiff6.pdf
+// Format: https://www.awaresystems.be/imaging/tiff/bigtiff.html
+// Format: https://docs.openmicroscopy.org/ome-model/latest/ome-tiff/specification.html
 #pragma once
 
 #include <array>

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // A multiscale image of OME-NGFF, one volume at several resolutions, and which axes of its arrays
 // are x, y and z.
+// Format: https://ngff.openmicroscopy.org/0.5/
 #pragma once
 
 #include <array>

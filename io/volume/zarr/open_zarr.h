@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Opens an array or a multiscale image of a Zarr store as a volume, looked for among the groups and
 // arrays of the store.
+// Format: https://zarr-specs.readthedocs.io/en/latest/v3/core/index.html
 #pragma once
 
 #include <optional>

@@ -1,6 +1,9 @@
 // SPDX-FileCopyrightText: The mwmesh authors
 // SPDX-License-Identifier: Apache-2.0
 // A Zarr array: what its metadata say, in both versions of the format, and its chunks.
+// Format: https://zarr-specs.readthedocs.io/en/latest/v2/v2.0.html
+// Format: https://zarr-specs.readthedocs.io/en/latest/v3/core/index.html
+// Format: https://zarr-specs.readthedocs.io/en/latest/v3/codecs/sharding-indexed/index.html
 #pragma once
 
 #include <cstdint>

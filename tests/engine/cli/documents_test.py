@@ -107,6 +107,14 @@ class Documents(unittest.TestCase):
                     seen += 1
         self.assertGreater(seen, 50)
 
+    def test_headers_link_the_specifications_that_formats_name(self):
+        headers = "".join(path.read_text() for path in (ROOT / "io").rglob("*.h"))
+        links = set(re.findall(r"\]\((https?://[^)]*)\)", FORMATS.read_text()))
+        self.assertGreater(len(links), 30)
+        for link in sorted(links):
+            with self.subTest(link=link):
+                self.assertTrue(re.search(re.escape(link) + r"(\s|$)", headers))
+
     def make_volumes(self):
         enter_folder(self)
         labels = np.zeros((24, 20, 18), np.uint8)
