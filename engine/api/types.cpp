@@ -74,6 +74,28 @@ bool is_in_floats(const std::array<std::array<double, 4>, 3>& affine) {
   });
 }
 
+/// Writes points, tets and values in batches, between which a sink may ask whether to go on.
+void write_rows(const mwmesh::Mesh& mesh, bool values, io::MeshSink& sink) {
+  constexpr std::size_t kBatch = 1 << 16;  // a multiple of the parts of a curved tet
+  const std::span points(mesh.points);
+  for (std::size_t at = 0; at < points.size(); at += kBatch) {
+    sink.write_vertices(points.subspan(at, std::min(kBatch, points.size() - at)));
+  }
+  const std::span tets(mesh.tets);
+  const std::span labels(mesh.labels);
+  std::vector<double> rows;
+  for (std::size_t at = 0; at < tets.size(); at += kBatch) {
+    const std::size_t count = std::min(kBatch, tets.size() - at);
+    sink.write_tets(tets.subspan(at, count), labels.subspan(at, count));
+    if (!values) continue;
+    rows.clear();
+    for (std::size_t t = at; t < at + count; ++t) {
+      for (const auto& [name, column] : mesh.values) rows.push_back(column[t]);
+    }
+    sink.write_values(rows);
+  }
+}
+
 }  // namespace
 
 io::VolumeSpace io_space(const mwmesh::Space& space) {
@@ -156,32 +178,6 @@ std::unique_ptr<io::MeshSink> open_file(const std::filesystem::path& path,
   }
   return sink;
 }
-
-namespace {
-
-/// Writes points, tets and values in batches, between which a sink may ask whether to go on.
-void write_rows(const mwmesh::Mesh& mesh, bool values, io::MeshSink& sink) {
-  constexpr std::size_t kBatch = 1 << 16;  // a multiple of the parts of a curved tet
-  const std::span points(mesh.points);
-  for (std::size_t at = 0; at < points.size(); at += kBatch) {
-    sink.write_vertices(points.subspan(at, std::min(kBatch, points.size() - at)));
-  }
-  const std::span tets(mesh.tets);
-  const std::span labels(mesh.labels);
-  std::vector<double> rows;
-  for (std::size_t at = 0; at < tets.size(); at += kBatch) {
-    const std::size_t count = std::min(kBatch, tets.size() - at);
-    sink.write_tets(tets.subspan(at, count), labels.subspan(at, count));
-    if (!values) continue;
-    rows.clear();
-    for (std::size_t t = at; t < at + count; ++t) {
-      for (const auto& [name, column] : mesh.values) rows.push_back(column[t]);
-    }
-    sink.write_values(rows);
-  }
-}
-
-}  // namespace
 
 void deliver(const mwmesh::Mesh& mesh, io::MeshSink& sink, bool values) {
   if (mesh.labels.size() != mesh.tets.size()) {

@@ -241,42 +241,6 @@ void refuse_changed_input(const io::LabelVolume& volume, std::uint64_t first, in
   if (again.sum() != first) io::fail_input_changed();
 }
 
-}  // namespace
-
-std::vector<LabelPair> sized_interfaces(const MeshJob& job, const io::LabelTable& table) {
-  std::vector<LabelPair> out;
-  const LabelSelection kept(wanted_labels(job.choice, table), table);
-  // A label that the volume does not have is refused by the marches.
-  const auto is_written = [&](RawLabel label) {
-    return table.contains(label) && kept.keeps(table.dense(label));
-  };
-  for (const InterfaceSize& s : job.settings.sizes.rules.interfaces) {
-    if (is_written(s.low) && is_written(s.high)) out.emplace_back(s.low, s.high);
-  }
-  return out;
-}
-
-FinishTask looking_task(const MeshJob& job, const report::FinishedRun& run) {
-  const std::size_t sort_bytes = ConnectTask::memory_of(job.run.store.memory);
-  FinishTask out{.connect = {.options = {.watched = sized_interfaces(job, run.labels)},
-                             .memory_bytes = sort_bytes},
-                 .finds_parts = job.finds_parts,
-                 .between = job.stop};
-  if (run.sizes.rules.any()) {
-    out.edges.emplace(
-        EdgesTask{.table = run.labels, .sizes = edge_sizes(run.sizes.rules, run.labels)});
-  }
-  if (!job.is_measured) return out;
-  const io::VolumeSpace& space = run.volume.space;
-  out.figures.emplace(FiguresTask{.table = run.labels,
-                                  .space = space,
-                                  .layers = layers_of(space.spacing),
-                                  .sort_bytes = sort_bytes});
-  return out;
-}
-
-namespace {
-
 /// The image of sizes as the marches take it, and what follows from it.
 struct JobSizes {
   std::optional<SizeImage> image;
@@ -480,6 +444,38 @@ class MeshRun {
 };
 
 }  // namespace
+
+std::vector<LabelPair> sized_interfaces(const MeshJob& job, const io::LabelTable& table) {
+  std::vector<LabelPair> out;
+  const LabelSelection kept(wanted_labels(job.choice, table), table);
+  // A label that the volume does not have is refused by the marches.
+  const auto is_written = [&](RawLabel label) {
+    return table.contains(label) && kept.keeps(table.dense(label));
+  };
+  for (const InterfaceSize& s : job.settings.sizes.rules.interfaces) {
+    if (is_written(s.low) && is_written(s.high)) out.emplace_back(s.low, s.high);
+  }
+  return out;
+}
+
+FinishTask looking_task(const MeshJob& job, const report::FinishedRun& run) {
+  const std::size_t sort_bytes = ConnectTask::memory_of(job.run.store.memory);
+  FinishTask out{.connect = {.options = {.watched = sized_interfaces(job, run.labels)},
+                             .memory_bytes = sort_bytes},
+                 .finds_parts = job.finds_parts,
+                 .between = job.stop};
+  if (run.sizes.rules.any()) {
+    out.edges.emplace(
+        EdgesTask{.table = run.labels, .sizes = edge_sizes(run.sizes.rules, run.labels)});
+  }
+  if (!job.is_measured) return out;
+  const io::VolumeSpace& space = run.volume.space;
+  out.figures.emplace(FiguresTask{.table = run.labels,
+                                  .space = space,
+                                  .layers = layers_of(space.spacing),
+                                  .sort_bytes = sort_bytes});
+  return out;
+}
 
 report::FinishedRun mesh(const io::LabelVolume& opened, const MeshJob& job,
                          std::span<io::MeshSink* const> sinks) {

@@ -24,6 +24,12 @@ std::int64_t halved(std::int64_t voxels) {
   return std::max(kBrick, whole_bricks(voxels / 2));
 }
 
+int sharers(const io::LabelVolume& volume, std::uint64_t memory) {
+  const io::VolumeInfo& info = volume.info();
+  const bool is_in_order = info.scaled || is_float(info.type);
+  return info.is_far && !is_in_order ? scanner_count(volume, 1, memory) : 1;
+}
+
 }  // namespace
 
 ReadingTiles::ReadingTiles(const io::VolumeInfo& volume) : shape_(volume.shape) {
@@ -93,16 +99,6 @@ void for_each_brick(const LabelBox& tile, const OnBrick& visit) {
     visit(brick, box, one);
   });
 }
-
-namespace {
-
-int sharers(const io::LabelVolume& volume, std::uint64_t memory) {
-  const io::VolumeInfo& info = volume.info();
-  const bool is_in_order = info.scaled || is_float(info.type);
-  return info.is_far && !is_in_order ? scanner_count(volume, 1, memory) : 1;
-}
-
-}  // namespace
 
 SharedReads::SharedReads(const io::LabelVolume& volume, std::uint64_t memory)
     : VolumeView(volume), readers_(sharers(volume, memory)) {}

@@ -23,6 +23,9 @@ namespace {
 /// The stack that oneTBB gives its own threads, whatever `ulimit -s` says.
 constexpr std::size_t kStackBytes = std::size_t{4} << 20U;
 
+constexpr std::size_t kRangesAThread = 4;
+constexpr std::size_t kShortestRange = 1024;
+
 }  // namespace
 
 int thread_count(int threads) {
@@ -83,13 +86,6 @@ Crew::Crew(int threads) : arena_(threads, static_cast<unsigned>(threads)) {
 }
 
 Crew::~Crew() = default;
-
-namespace {
-
-constexpr std::size_t kRangesAThread = 4;
-constexpr std::size_t kShortestRange = 1024;
-
-}  // namespace
 
 void tbb_for(std::size_t n, const RangeBody& body) {
   const auto threads = static_cast<std::size_t>(tbb::this_task_arena::max_concurrency());

@@ -47,44 +47,6 @@ std::vector<double> row_costs(const RunLayout& layout, const MeshSettings& setti
   return costs;
 }
 
-}  // namespace
-
-void agree(Team& team, const std::string& identity) {
-  const std::vector<std::string> all = team.gather(identity);
-  for (std::size_t rank = 1; rank < all.size(); ++rank) {
-    if (all[rank] == all[0]) continue;
-    io::fail_usage("the processes of this run do not mesh the same: " +
-                   difference(all[0], all[rank], static_cast<int>(rank)) +
-                   "; start all of them with one command line and one version");
-  }
-}
-
-void wait_for_all(Team& team) {
-  static_cast<void>(team.gather(std::string()));
-}
-
-Partition deal_windows(Team& team, const RunLayout& layout, const MeshSettings& settings,
-                       const BoundaryFaces& faces) {
-  std::vector<std::byte> mine;
-  if (team.is_first()) {
-    const Partition dealt(layout, settings.order, team.ranks(), row_costs(layout, settings, faces));
-    mine = bytes_of(dealt.owners().data(), dealt.owners().size());
-  }
-  return {layout, list_of<std::uint32_t>(team.gather(std::move(mine)).at(0))};
-}
-
-VisitStats sum_of_all(Team& team, const VisitStats& mine) {
-  VisitStats sum;
-  for (const VisitStats& one : of_all(team, mine)) sum += one;
-  return sum;
-}
-
-std::vector<ProcessFacts> facts_of_all(Team& team, const ProcessFacts& mine) {
-  return of_all(team, mine);
-}
-
-namespace {
-
 /// Returns an error as text that begins with its kind.
 std::string text_of(const Error& error) {
   return static_cast<char>('0' + static_cast<int>(error.kind())) + std::string(error.what());
@@ -154,6 +116,40 @@ std::vector<std::uint64_t> sum_of_all(Team& team, const std::vector<std::uint64_
 }
 
 }  // namespace
+
+void agree(Team& team, const std::string& identity) {
+  const std::vector<std::string> all = team.gather(identity);
+  for (std::size_t rank = 1; rank < all.size(); ++rank) {
+    if (all[rank] == all[0]) continue;
+    io::fail_usage("the processes of this run do not mesh the same: " +
+                   difference(all[0], all[rank], static_cast<int>(rank)) +
+                   "; start all of them with one command line and one version");
+  }
+}
+
+void wait_for_all(Team& team) {
+  static_cast<void>(team.gather(std::string()));
+}
+
+Partition deal_windows(Team& team, const RunLayout& layout, const MeshSettings& settings,
+                       const BoundaryFaces& faces) {
+  std::vector<std::byte> mine;
+  if (team.is_first()) {
+    const Partition dealt(layout, settings.order, team.ranks(), row_costs(layout, settings, faces));
+    mine = bytes_of(dealt.owners().data(), dealt.owners().size());
+  }
+  return {layout, list_of<std::uint32_t>(team.gather(std::move(mine)).at(0))};
+}
+
+VisitStats sum_of_all(Team& team, const VisitStats& mine) {
+  VisitStats sum;
+  for (const VisitStats& one : of_all(team, mine)) sum += one;
+  return sum;
+}
+
+std::vector<ProcessFacts> facts_of_all(Team& team, const ProcessFacts& mine) {
+  return of_all(team, mine);
+}
 
 io::LabelTable collect_together(Team& team, FingerprintVolume& volume, int threads) {
   std::vector<RawLabel> labels;

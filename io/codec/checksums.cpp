@@ -29,18 +29,6 @@ constexpr std::array<std::uint32_t, 256> table() {
 
 constexpr std::array<std::uint32_t, 256> kTable = table();
 
-}  // namespace
-
-std::uint32_t crc32c(std::span<const std::byte> bytes, std::uint32_t before) {
-  std::uint32_t rest = ~before;
-  for (const std::byte byte : bytes) {
-    rest = (rest >> 8U) ^ kTable[(rest ^ std::to_integer<std::uint32_t>(byte)) & 0xffU];
-  }
-  return ~rest;
-}
-
-namespace {
-
 constexpr std::uint32_t kPrime1 = 0x9e3779b1, kPrime2 = 0x85ebca77, kPrime3 = 0xc2b2ae3d,
                         kPrime4 = 0x27d4eb2f, kPrime5 = 0x165667b1;
 constexpr std::size_t kStripeBytes = 16;
@@ -62,7 +50,20 @@ std::uint32_t converge_stripes(std::span<const std::byte>& bytes, std::uint32_t 
          std::rotl(lanes[3], 18);
 }
 
+/// Folds a sum to one that is equal modulo 65535, and 0 only if the sum is, as the definition does.
+std::uint32_t folded(std::uint32_t sum) {
+  return (sum & 0xffffU) + (sum >> 16U);
+}
+
 }  // namespace
+
+std::uint32_t crc32c(std::span<const std::byte> bytes, std::uint32_t before) {
+  std::uint32_t rest = ~before;
+  for (const std::byte byte : bytes) {
+    rest = (rest >> 8U) ^ kTable[(rest ^ std::to_integer<std::uint32_t>(byte)) & 0xffU];
+  }
+  return ~rest;
+}
 
 std::uint32_t xxhash32(std::span<const std::byte> bytes, std::uint32_t seed) {
   const auto length = static_cast<std::uint32_t>(bytes.size());
@@ -79,15 +80,6 @@ std::uint32_t xxhash32(std::span<const std::byte> bytes, std::uint32_t seed) {
   hash = (hash ^ (hash >> 13U)) * kPrime3;
   return hash ^ (hash >> 16U);
 }
-
-namespace {
-
-/// Folds a sum to one that is equal modulo 65535, and 0 only if the sum is, as the definition does.
-std::uint32_t folded(std::uint32_t sum) {
-  return (sum & 0xffffU) + (sum >> 16U);
-}
-
-}  // namespace
 
 std::uint32_t fletcher32(std::span<const std::byte> bytes) {
   std::uint32_t sum = 0, sums = 0;

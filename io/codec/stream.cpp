@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <string>
 
+#include "io/codec/codec.h"
 #include "io/file/errors.h"
 #include "io/file/scratch/scratch_file.h"
 #include "io/file/source/file_source.h"
@@ -164,6 +165,23 @@ std::shared_ptr<const ByteSource> unpack_streams(StreamDecoder& decoder, const B
   FileOutput output;
   unpack({decoder, max, name}, input, output);
   return output.take(std::string(name.file));
+}
+
+std::unique_ptr<StreamDecoder> stream_decoder(Codec codec, const PackedName& name) {
+  switch (codec) {
+    case Codec::kGzip:
+      return gzip_decoder(name);
+    case Codec::kZlib:
+      return zlib_decoder(name);
+    case Codec::kBzip2:
+      return bzip2_decoder(name);
+    case Codec::kXz:
+      return xz_decoder(name);
+    case Codec::kZstd:
+      return zstd_decoder(name);
+    default:
+      return nullptr;
+  }
 }
 
 }  // namespace mw::io

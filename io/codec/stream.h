@@ -49,6 +49,13 @@ class StreamDecoder {
   virtual void restart() = 0;
 };
 
+/// Return a decoder of the format.  ERRORS: those of fail_no_memory().
+[[nodiscard]] std::unique_ptr<StreamDecoder> gzip_decoder(const PackedName& name);
+[[nodiscard]] std::unique_ptr<StreamDecoder> zlib_decoder(const PackedName& name);
+[[nodiscard]] std::unique_ptr<StreamDecoder> bzip2_decoder(const PackedName& name);
+[[nodiscard]] std::unique_ptr<StreamDecoder> xz_decoder(const PackedName& name);
+[[nodiscard]] std::unique_ptr<StreamDecoder> zstd_decoder(const PackedName& name);
+
 /// The most bytes given to a step, since libraries count bytes in 32 bits.
 inline constexpr std::size_t kMaxStreamStep = std::size_t{1} << 30U;
 

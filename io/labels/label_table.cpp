@@ -15,6 +15,10 @@ namespace {
 
 constexpr std::uint64_t kDirectRange = 1 << 16;
 
+std::size_t first_slot(RawLabel label, std::size_t slots) {
+  return static_cast<std::size_t>(spread_bits(label) >> (64 - std::countr_zero(slots)));
+}
+
 }  // namespace
 
 LabelTable::LabelTable(std::vector<RawLabel> labels, bool is_signed)
@@ -86,14 +90,6 @@ void DenseVolume::read(const Box3& box, std::span<Label> out) const {
     }
   });
 }
-
-namespace {
-
-std::size_t first_slot(RawLabel label, std::size_t slots) {
-  return static_cast<std::size_t>(spread_bits(label) >> (64 - std::countr_zero(slots)));
-}
-
-}  // namespace
 
 void LabelSet::insert(std::span<const RawLabel> labels) {
   if (labels.empty()) return;

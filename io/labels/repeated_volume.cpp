@@ -24,6 +24,19 @@ void spread(const RawLabel* from, std::int64_t lo, std::int64_t hi, std::int64_t
   }
 }
 
+/// Returns a / b rounded down.
+std::int64_t quotient(std::int64_t a, std::int64_t b) {
+  return a >= 0 ? a / b : -((b - 1 - a) / b);
+}
+
+/// Returns the copies of a cell that a box meets; copy c begins at c * shape.
+Box3 copies_over(const Box3& box, Index3 shape) {
+  const Index3 last = box.hi - Index3{1, 1, 1};
+  return {{quotient(box.lo.x, shape.x), quotient(box.lo.y, shape.y), quotient(box.lo.z, shape.z)},
+          {quotient(last.x, shape.x) + 1, quotient(last.y, shape.y) + 1,
+           quotient(last.z, shape.z) + 1}};
+}
+
 }  // namespace
 
 LayeredVolume::LayeredVolume(const LabelVolume& volume, Index3 layers)
@@ -57,23 +70,6 @@ void LayeredVolume::read(const Box3& box, std::span<RawLabel> out) const {
     }
   }
 }
-
-namespace {
-
-/// Returns a / b rounded down.
-std::int64_t quotient(std::int64_t a, std::int64_t b) {
-  return a >= 0 ? a / b : -((b - 1 - a) / b);
-}
-
-/// Returns the copies of a cell that a box meets; copy c begins at c * shape.
-Box3 copies_over(const Box3& box, Index3 shape) {
-  const Index3 last = box.hi - Index3{1, 1, 1};
-  return {{quotient(box.lo.x, shape.x), quotient(box.lo.y, shape.y), quotient(box.lo.z, shape.z)},
-          {quotient(last.x, shape.x) + 1, quotient(last.y, shape.y) + 1,
-           quotient(last.z, shape.z) + 1}};
-}
-
-}  // namespace
 
 PeriodicVolume::PeriodicVolume(const LabelVolume& volume, Index3 margin)
     : VolumeView(volume), margin_(margin), info_(volume.info()) {

@@ -56,6 +56,18 @@ std::pair<std::size_t, std::string_view> number_of_segment(std::string_view segm
   return {segment.size(), segment};
 }
 
+std::optional<Colour> colour_of(pugi::xml_node label) {
+  constexpr std::array<const char*, 4> kParts{"Red", "Green", "Blue", "Alpha"};
+  Colour colour{};
+  for (std::size_t i = 0; i < kParts.size(); ++i) {
+    const auto share = number_of(label.attribute(kParts[i]).as_string());
+    const auto byte = share ? byte_of_share(*share) : std::nullopt;
+    if (!byte) return std::nullopt;
+    colour[i] = *byte;
+  }
+  return colour;
+}
+
 }  // namespace
 
 bool has_segment_names(const NrrdKeys& keys) {
@@ -88,22 +100,6 @@ LabelNames names_of(const std::vector<Segment>& segments) {
   for (const Segment& segment : segments) rows.push_back(segment.name);
   return LabelNames(std::move(rows));
 }
-
-namespace {
-
-std::optional<Colour> colour_of(pugi::xml_node label) {
-  constexpr std::array<const char*, 4> kParts{"Red", "Green", "Blue", "Alpha"};
-  Colour colour{};
-  for (std::size_t i = 0; i < kParts.size(); ++i) {
-    const auto share = number_of(label.attribute(kParts[i]).as_string());
-    const auto byte = share ? byte_of_share(*share) : std::nullopt;
-    if (!byte) return std::nullopt;
-    colour[i] = *byte;
-  }
-  return colour;
-}
-
-}  // namespace
 
 LabelNames parse_label_table(std::string_view xml) {
   if (xml.find("<LabelTable") == std::string_view::npos) return {};

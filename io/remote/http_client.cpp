@@ -105,6 +105,49 @@ void append_header(HeaderList& list, const std::string& header) {
   list.reset(longer);
 }
 
+/// A request of a chain of redirects, and the address at which the chain began.
+struct Hop {
+  const std::string& address;
+  const std::string& first;
+};
+
+/// Makes the settings of all requests.  The library does not follow redirects itself, as it would
+/// look up the hosts that these lead to in .netrc, too.
+void set_up(CURL* curl, const HttpLimits& limits, const Hop& hop) {
+  static const std::string kCertificates = certificates();
+  const bool is_safe = hop.first.starts_with("https://");
+  const bool may_know = is_same_server(hop.address, hop.first) && !is_open_to_all(hop.address);
+  curl_easy_reset(curl);
+  curl_easy_setopt(curl, CURLOPT_URL, hop.address.c_str());
+  curl_easy_setopt(curl, CURLOPT_PROTOCOLS_STR, is_safe ? "https" : "http,https");
+  // What is for this machine, a password perhaps, must not go to another one that is a proxy.
+  if (is_on_this_machine(hop.address)) curl_easy_setopt(curl, CURLOPT_NOPROXY, "*");
+  curl_easy_setopt(curl, CURLOPT_NOSIGNAL, 1L);
+  curl_easy_setopt(curl, CURLOPT_CONNECTTIMEOUT, limits.connect_seconds);
+  curl_easy_setopt(curl, CURLOPT_LOW_SPEED_LIMIT, 1024L);
+  curl_easy_setopt(curl, CURLOPT_LOW_SPEED_TIME, limits.stalled_seconds);
+  curl_easy_setopt(curl, CURLOPT_USERAGENT, "mwmesh");
+  curl_easy_setopt(curl, CURLOPT_NETRC,
+                   static_cast<long>(may_know ? CURL_NETRC_OPTIONAL : CURL_NETRC_IGNORED));
+  if (!kCertificates.empty()) curl_easy_setopt(curl, CURLOPT_CAINFO, kCertificates.c_str());
+}
+
+/// Returns where the answer redirects; empty when it does not.
+std::string redirect_of(CURL* curl) {
+  const char* next = nullptr;
+  curl_easy_getinfo(curl, CURLINFO_REDIRECT_URL, &next);
+  return next == nullptr ? std::string() : next;
+}
+
+/// ERRORS: what WaitStop throws meanwhile.
+void wait_for(std::chrono::milliseconds left) {
+  constexpr std::chrono::milliseconds kSlice{100};
+  for (; left.count() > 0; left -= kSlice) {
+    WaitStop::ask();
+    std::this_thread::sleep_for(std::min(left, kSlice));
+  }
+}
+
 }  // namespace
 
 /// Handles of the library, each of which keeps its connection open between requests.
@@ -422,44 +465,6 @@ HttpClient::HttpClient(const HttpLimits& limits)
 
 HttpClient::~HttpClient() = default;
 
-namespace {
-
-/// A request of a chain of redirects, and the address at which the chain began.
-struct Hop {
-  const std::string& address;
-  const std::string& first;
-};
-
-/// Makes the settings of all requests.  The library does not follow redirects itself, as it would
-/// look up the hosts that these lead to in .netrc, too.
-void set_up(CURL* curl, const HttpLimits& limits, const Hop& hop) {
-  static const std::string kCertificates = certificates();
-  const bool is_safe = hop.first.starts_with("https://");
-  const bool may_know = is_same_server(hop.address, hop.first) && !is_open_to_all(hop.address);
-  curl_easy_reset(curl);
-  curl_easy_setopt(curl, CURLOPT_URL, hop.address.c_str());
-  curl_easy_setopt(curl, CURLOPT_PROTOCOLS_STR, is_safe ? "https" : "http,https");
-  // What is for this machine, a password perhaps, must not go to another one that is a proxy.
-  if (is_on_this_machine(hop.address)) curl_easy_setopt(curl, CURLOPT_NOPROXY, "*");
-  curl_easy_setopt(curl, CURLOPT_NOSIGNAL, 1L);
-  curl_easy_setopt(curl, CURLOPT_CONNECTTIMEOUT, limits.connect_seconds);
-  curl_easy_setopt(curl, CURLOPT_LOW_SPEED_LIMIT, 1024L);
-  curl_easy_setopt(curl, CURLOPT_LOW_SPEED_TIME, limits.stalled_seconds);
-  curl_easy_setopt(curl, CURLOPT_USERAGENT, "mwmesh");
-  curl_easy_setopt(curl, CURLOPT_NETRC,
-                   static_cast<long>(may_know ? CURL_NETRC_OPTIONAL : CURL_NETRC_IGNORED));
-  if (!kCertificates.empty()) curl_easy_setopt(curl, CURLOPT_CAINFO, kCertificates.c_str());
-}
-
-/// Returns where the answer redirects; empty when it does not.
-std::string redirect_of(CURL* curl) {
-  const char* next = nullptr;
-  curl_easy_getinfo(curl, CURLINFO_REDIRECT_URL, &next);
-  return next == nullptr ? std::string() : next;
-}
-
-}  // namespace
-
 std::size_t HttpClient::Exchange::on_body(char* bytes, std::size_t /*one*/, std::size_t count,
                                           void* target) noexcept {
   const auto arrived = std::as_bytes(std::span<const char>(bytes, count));
@@ -516,19 +521,6 @@ HttpClient::Verdict HttpClient::attempt(Exchange& exchange) const {
   const Connections::Loan loan(*connections_);
   return exchange.perform(loan.handle(), limits_, authorization_);
 }
-
-namespace {
-
-/// ERRORS: what WaitStop throws meanwhile.
-void wait_for(std::chrono::milliseconds left) {
-  constexpr std::chrono::milliseconds kSlice{100};
-  for (; left.count() > 0; left -= kSlice) {
-    WaitStop::ask();
-    std::this_thread::sleep_for(std::min(left, kSlice));
-  }
-}
-
-}  // namespace
 
 void HttpClient::run(Exchange& exchange) const {
   if (!authorization_.empty() && is_open_to_all(exchange.address)) {

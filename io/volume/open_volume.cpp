@@ -265,6 +265,39 @@ std::unique_ptr<LabelVolume> open_whole(const std::filesystem::path& path,
   return format.open_file(std::move(source), options);
 }
 
+std::size_t count_scales(const std::filesystem::path& path, const OpenOptions& options) {
+  const bool is_remote = is_remote_address(path.string());
+  if (options.raw || (!is_remote && !is_folder(path))) return 0;
+  const Place place = is_remote ? remote_place(path.string(), cache_of(options)) : Place(path);
+  const VolumeFormat& format = is_remote ? format_of_remote(place) : format_of_folder(path);
+  return format.count_scales == nullptr ? 0 : format.count_scales(place, options);
+}
+
+/// Opens the object that the options name, in a box around it.
+std::unique_ptr<LabelVolume> open_object_of(const std::filesystem::path& path,
+                                            const OpenOptions& options) {
+  constexpr std::uint64_t kCacheShares = 4;  // a volume keeps a quarter of memory at most
+  std::vector<VolumeScale> coarser = scales_of(path, options);
+  std::erase_if(
+      coarser, [&](const VolumeScale& scale) { return scale.number <= options.scale.value_or(0); });
+  ScaledVolume scaled{.name = path.string(),
+                      .volume = open_whole(path, options),
+                      .copies = static_cast<int>(coarser.size()),
+                      .memory = kCacheShares * options.cache_bytes,
+                      .at_once = options.at_once};
+  scaled.open_copy = [&](int copy) {
+    OpenOptions one = options;
+    one.scale = coarser[coarser.size() - 1 - static_cast<std::size_t>(copy)].number;
+    return open_whole(path, one);
+  };
+  Box3 bounds{{0, 0, 0}, scaled.volume->info().shape};
+  if (options.crop) {
+    bounds = voxels_of_crop(path.string(), *options.crop, scaled.volume->info());
+  }
+  ObjectView view = open_object(std::move(scaled), options.object, bounds);
+  return std::make_unique<CroppedVolume>(std::move(view.volume), view.box, !options.origin);
+}
+
 }  // namespace
 
 std::string volume_endings() {
@@ -305,18 +338,6 @@ void check_place(const std::optional<Vector3>& spacing, const std::optional<Vect
   }
 }
 
-namespace {
-
-std::size_t count_scales(const std::filesystem::path& path, const OpenOptions& options) {
-  const bool is_remote = is_remote_address(path.string());
-  if (options.raw || (!is_remote && !is_folder(path))) return 0;
-  const Place place = is_remote ? remote_place(path.string(), cache_of(options)) : Place(path);
-  const VolumeFormat& format = is_remote ? format_of_remote(place) : format_of_folder(path);
-  return format.count_scales == nullptr ? 0 : format.count_scales(place, options);
-}
-
-}  // namespace
-
 std::vector<VolumeScale> scales_of(const std::filesystem::path& path, const OpenOptions& options) {
   std::vector<VolumeScale> out;
   const std::size_t count = count_scales(path, options);
@@ -332,35 +353,6 @@ std::vector<VolumeScale> scales_of(const std::filesystem::path& path, const Open
   }
   return out;
 }
-
-namespace {
-
-/// Opens the object that the options name, in a box around it.
-std::unique_ptr<LabelVolume> open_object_of(const std::filesystem::path& path,
-                                            const OpenOptions& options) {
-  constexpr std::uint64_t kCacheShares = 4;  // a volume keeps a quarter of memory at most
-  std::vector<VolumeScale> coarser = scales_of(path, options);
-  std::erase_if(
-      coarser, [&](const VolumeScale& scale) { return scale.number <= options.scale.value_or(0); });
-  ScaledVolume scaled{.name = path.string(),
-                      .volume = open_whole(path, options),
-                      .copies = static_cast<int>(coarser.size()),
-                      .memory = kCacheShares * options.cache_bytes,
-                      .at_once = options.at_once};
-  scaled.open_copy = [&](int copy) {
-    OpenOptions one = options;
-    one.scale = coarser[coarser.size() - 1 - static_cast<std::size_t>(copy)].number;
-    return open_whole(path, one);
-  };
-  Box3 bounds{{0, 0, 0}, scaled.volume->info().shape};
-  if (options.crop) {
-    bounds = voxels_of_crop(path.string(), *options.crop, scaled.volume->info());
-  }
-  ObjectView view = open_object(std::move(scaled), options.object, bounds);
-  return std::make_unique<CroppedVolume>(std::move(view.volume), view.box, !options.origin);
-}
-
-}  // namespace
 
 std::unique_ptr<LabelVolume> open_volume(const std::filesystem::path& path,
                                          const OpenOptions& options) {

@@ -109,6 +109,11 @@ void read_rows(const ByteSource& source, const Rows& rows, Use use) {
   }
 }
 
+VolumeInfo info_of(const RawLayout& layout, std::string_view file) {
+  const auto [x, y, z] = layout.shape;
+  return {.shape = checked_shape(file, "shape", {x, y, z}), .type = layout.type, .format = "raw"};
+}
+
 }  // namespace
 
 void read_array(const ByteSource& source, const StoredArray& array, const Box3& part,
@@ -152,15 +157,6 @@ void RawArrayVolume::read_numbers(const Box3& box, std::span<double> out) const 
   read_array(*source_, array, box, {box, bits});
   numbers_of_bits(bits, out);
 }
-
-namespace {
-
-VolumeInfo info_of(const RawLayout& layout, std::string_view file) {
-  const auto [x, y, z] = layout.shape;
-  return {.shape = checked_shape(file, "shape", {x, y, z}), .type = layout.type, .format = "raw"};
-}
-
-}  // namespace
 
 std::unique_ptr<ByteSource> open_raw_bytes(const std::filesystem::path& path,
                                            const RawLayout& layout) {

@@ -56,6 +56,13 @@ std::uint8_t clamped(double value) {
   return static_cast<std::uint8_t>(std::clamp(value + 0.5, 0.0, 255.0));
 }
 
+/// Where the edge from a point that stays to one that goes meets the plane.  The ends always come
+/// in this order, so that all tets and triangles that share the edge get the same point.
+Vec3 crossing(const Vec3& stays, const Vec3& goes, const CutPlane& plane) {
+  const double a = plane.height(stays), b = plane.height(goes);
+  return stays + (goes - stays) * (a / (a - b));
+}
+
 }  // namespace
 
 View view_from(double azimuth, double elevation) {
@@ -117,17 +124,6 @@ Colour lit(const Colour& colour, const Vec3& normal, const View& view) {
   const double facing = std::max(normal.dot(light) / lengths, 0.0);
   return mixed({0, 0, 0}, colour, kAmbient + (kBrightest - kAmbient) * facing);
 }
-
-namespace {
-
-/// Where the edge from a point that stays to one that goes meets the plane.  The ends always come
-/// in this order, so that all tets and triangles that share the edge get the same point.
-Vec3 crossing(const Vec3& stays, const Vec3& goes, const CutPlane& plane) {
-  const double a = plane.height(stays), b = plane.height(goes);
-  return stays + (goes - stays) * (a / (a - b));
-}
-
-}  // namespace
 
 Piece clipped(const std::array<Vec3, 3>& triangle, const CutPlane& plane) {
   Piece out;

@@ -1,15 +1,12 @@
 // SPDX-FileCopyrightText: The mwmesh authors
 // SPDX-License-Identifier: Apache-2.0
-// Quality floor and Eq (3), then exact positivity, over the changed tets of a contraction; bend
-// energies before and after it.
+// Quality floor and Eq (3), then exact positivity, over the changed tets of a contraction.
 #include "kernels/simplify/contraction_filters.h"
 
 #include <algorithm>
 #include <cstdlib>
 
-#include "kernels/core/assert.h"
 #include "kernels/quality/quality.h"
-#include "kernels/surface/flat_plane.h"
 
 namespace mw {
 namespace {
@@ -131,73 +128,6 @@ void ShapeFilter::mark_poor(const Contraction& c) {
       }
     }
   }
-}
-
-namespace {
-
-/// A contraction must take out a fifth of the present bends, beside what is free
-/// (bench/parameters.md, "Constants").
-constexpr double kShareOfPresent = 0.8;
-/// A junction that leaves its place to absorb a vertex of lower order must take out two fifths, and
-/// nothing is free, because most junctions lie well (bench/parameters.md, "Constants").
-constexpr double kShareOfMoved = 0.6;
-/// The bend energy that other contractions may leave: between two labels, where surfaces are
-/// smooth, and where more meet (bench/parameters.md, "Constants").
-constexpr double kFreeBetweenTwo = 0.5;
-constexpr double kFreeElsewhere = 1.0;
-
-}  // namespace
-
-bool BendFilter::stays_smooth(const Contraction& c) {
-  Gathered &keep = star_of(c.keep, c.drop), &drop = star_of(c.drop, c.keep);
-  if (leaves_plane(c, keep.star.fan(), drop.star.fan())) return false;
-  merged_.merge(keep.star, metric_.vector(mesh_.position(c.keep), c.position), drop.star,
-                metric_.vector(mesh_.position(c.drop), c.position));
-  const bool two = mesh_.order(c.keep) == 2 && mesh_.order(c.drop) == 2;
-  const bool leaves = c.moves && mesh_.order(c.keep) != mesh_.order(c.drop);
-  const double free = leaves ? 0.0 : two ? kFreeBetweenTwo : kFreeElsewhere;
-  const double share = leaves ? kShareOfMoved : kShareOfPresent;
-  const double after = merged_.bends_at(Vec3::Zero());
-  if (after <= free) return true;
-  return after <= share * (present_bends(keep) + present_bends(drop)) + free;
-}
-
-/// True if the interface triangles at both ends lie in one plane across an axis and the survivor
-/// would not.  Shapes may keep it from ever coming back.
-bool BendFilter::leaves_plane(const Contraction& c, std::span<const FanTriangle> keep,
-                              std::span<const FanTriangle> drop) const {
-  if (keep.empty() || drop.empty()) return false;
-  for (unsigned axis = 0; axis < 3; ++axis) {
-    const FlatPlane plane{.axis = axis, .place = along(mesh_.position(c.keep), axis)};
-    if (along(c.position, axis) == plane.place) continue;
-    if (has_ring(plane, mesh_, keep) && has_ring(plane, mesh_, drop)) return true;
-  }
-  return false;
-}
-
-double BendFilter::present_bends(Gathered& g) {
-  if (!g.bends) g.bends = g.star.bends_at(Vec3::Zero());
-  return *g.bends;
-}
-
-std::span<const FanTriangle> BendFilter::fan(LocalVertex end) const {
-  const bool first = gathered_[0].is(end, mesh_.changes() + 1);
-  MW_ASSERT(first || gathered_[1].is(end, mesh_.changes() + 1));
-  return gathered_[first ? 0 : 1].star.fan();
-}
-
-/// Returns the star of v.  Keeps that of `other`, because candidates of a vertex share its star.
-BendFilter::Gathered& BendFilter::star_of(LocalVertex v, LocalVertex other) {
-  const std::uint64_t now = mesh_.changes() + 1;
-  for (Gathered& g : gathered_) {
-    if (g.is(v, now)) return g;
-  }
-  Gathered& g = gathered_[gathered_[0].is(other, now) ? 1 : 0];
-  g.at = now;
-  g.bends.reset();
-  g.star.collect(mesh_, metric_, v);
-  g.star.collect_rims(mesh_, metric_);
-  return g;
 }
 
 }  // namespace mw

@@ -47,6 +47,32 @@ Vec3 upwards(const Vec3& direction, unsigned axis) {
   return direction / length;
 }
 
+/// Weights of four values in the value and in the slope between the second and the third.
+struct CubicWeights {
+  std::array<double, 4> value;
+  std::array<double, 4> slope;
+};
+
+CubicWeights weights_at(double t) {
+  const double t2 = t * t, t3 = t2 * t;
+  return {{0.5 * (-t3 + 2 * t2 - t), 0.5 * (3 * t3 - 5 * t2 + 2), 0.5 * (-3 * t3 + 4 * t2 + t),
+           0.5 * (t3 - t2)},
+          {0.5 * (-3 * t2 + 4 * t - 1), 0.5 * (9 * t2 - 10 * t), 0.5 * (-9 * t2 + 8 * t + 1),
+           0.5 * (3 * t2 - 2 * t)}};
+}
+
+/// Interpolates where a point is, in voxels from the first corner.
+ValueAndSlope look_at(const CubicField& field, const Vec3& point) {
+  std::array<std::int64_t, 3> below{};
+  Vec3 at;
+  for (int k = 0; k < 3; ++k) {
+    const double from_centre = point[k] - 0.5, floor = std::floor(from_centre);
+    below[static_cast<std::size_t>(k)] = static_cast<std::int64_t>(floor);
+    at[k] = from_centre - floor;
+  }
+  return interpolate(field.values_from({below[0] - 1, below[1] - 1, below[2] - 1}), at);
+}
+
 }  // namespace
 
 SourcePlane find_crossing(const ScoreDifference& difference, unsigned axis) {
@@ -79,36 +105,6 @@ SourcePlane on_lattice(const SourcePlane& crossing, const LayeredFace& face) {
   const double reach = crossing_form(face.layers).reach;
   return {normal, std::clamp(height, -reach, reach)};
 }
-
-namespace {
-
-/// Weights of four values in the value and in the slope between the second and the third.
-struct CubicWeights {
-  std::array<double, 4> value;
-  std::array<double, 4> slope;
-};
-
-CubicWeights weights_at(double t) {
-  const double t2 = t * t, t3 = t2 * t;
-  return {{0.5 * (-t3 + 2 * t2 - t), 0.5 * (3 * t3 - 5 * t2 + 2), 0.5 * (-3 * t3 + 4 * t2 + t),
-           0.5 * (t3 - t2)},
-          {0.5 * (-3 * t2 + 4 * t - 1), 0.5 * (9 * t2 - 10 * t), 0.5 * (-9 * t2 + 8 * t + 1),
-           0.5 * (3 * t2 - 2 * t)}};
-}
-
-/// Interpolates where a point is, in voxels from the first corner.
-ValueAndSlope look_at(const CubicField& field, const Vec3& point) {
-  std::array<std::int64_t, 3> below{};
-  Vec3 at;
-  for (int k = 0; k < 3; ++k) {
-    const double from_centre = point[k] - 0.5, floor = std::floor(from_centre);
-    below[static_cast<std::size_t>(k)] = static_cast<std::int64_t>(floor);
-    at[k] = from_centre - floor;
-  }
-  return interpolate(field.values_from({below[0] - 1, below[1] - 1, below[2] - 1}), at);
-}
-
-}  // namespace
 
 ValueAndSlope interpolate(const CubicValues& values, const Vec3& at) {
   const CubicWeights x = weights_at(at[0]), y = weights_at(at[1]), z = weights_at(at[2]);

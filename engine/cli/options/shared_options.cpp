@@ -54,6 +54,18 @@ int parse_threads(const std::string& text) {
   return static_cast<int>(threads);
 }
 
+/// Takes what is known before the first row, and ends the reading by throwing Enough.
+struct NamesSink : io::NoSink {
+  struct Enough {};
+
+  void begin(const io::MeshHeader& header) override {
+    names = header.names;
+    throw Enough();
+  }
+
+  io::LabelNames names;
+};
+
 }  // namespace
 
 void add_setting_options(OptionSet& options, engine::MeshSettings& settings) {
@@ -123,22 +135,6 @@ void add_mesh_option(OptionSet& options, std::filesystem::path& mesh, const std:
                .required = true,
                .assign = into(mesh)});
 }
-
-namespace {
-
-/// Takes what is known before the first row, and ends the reading by throwing Enough.
-struct NamesSink : io::NoSink {
-  struct Enough {};
-
-  void begin(const io::MeshHeader& header) override {
-    names = header.names;
-    throw Enough();
-  }
-
-  io::LabelNames names;
-};
-
-}  // namespace
 
 io::LabelNames names_of(const std::filesystem::path& mesh) {
   NamesSink sink;

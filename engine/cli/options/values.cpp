@@ -24,40 +24,6 @@ std::vector<std::string_view> split(std::string_view text) {
   return parts;
 }
 
-}  // namespace
-
-std::array<double, 3> parse_numbers(std::string_view text) {
-  const std::vector<std::string_view> parts = split(text);
-  if (parts.size() != 1 && parts.size() != 3) fail_expected("three numbers X,Y,Z, or one", text);
-  std::array<double, 3> out{};
-  for (std::size_t i = 0; i < 3; ++i) out[i] = parse_number(parts[i % parts.size()]);
-  return out;
-}
-
-Index3 parse_shape(std::string_view text) {
-  const std::vector<std::string_view> parts = split(text);
-  std::array<std::int64_t, 3> out{};
-  for (std::size_t i = 0; i < 3; ++i) {
-    if (parts.size() != 3 || !read_all(parts[i], out[i]) || out[i] < 1) {
-      fail_expected("three positive integers X,Y,Z", text);
-    }
-  }
-  return {out[0], out[1], out[2]};
-}
-
-Box3 parse_box(std::string_view text) {
-  const std::vector<std::string_view> parts = split(text);
-  std::array<std::int64_t, 6> out{};
-  for (std::size_t i = 0; i < out.size(); ++i) {
-    if (parts.size() != out.size() || !read_all(parts[i], out[i])) {
-      fail_expected("six integers X0,Y0,Z0,X1,Y1,Z1", text);
-    }
-  }
-  return {{out[0], out[1], out[2]}, {out[3], out[4], out[5]}};
-}
-
-namespace {
-
 /// Adds a label, or all those of a range such as "1-3" or "-2-5".
 void add_labels(std::string_view part, std::vector<RawLabel>& labels) {
   constexpr RawLabel kMost = 1U << 20U;
@@ -71,16 +37,6 @@ void add_labels(std::string_view part, std::vector<RawLabel>& labels) {
   }
   for (RawLabel i = 0; i <= last - first; ++i) labels.push_back(first + i);
 }
-
-}  // namespace
-
-std::vector<RawLabel> parse_labels(std::string_view text) {
-  std::vector<RawLabel> labels;
-  for (const std::string_view part : split(text)) add_labels(part, labels);
-  return labels;
-}
-
-namespace {
 
 constexpr const char* kNone = "none";
 
@@ -132,6 +88,42 @@ std::optional<std::string> string_of_toml(const toml::node& node) {
 }
 
 }  // namespace
+
+std::array<double, 3> parse_numbers(std::string_view text) {
+  const std::vector<std::string_view> parts = split(text);
+  if (parts.size() != 1 && parts.size() != 3) fail_expected("three numbers X,Y,Z, or one", text);
+  std::array<double, 3> out{};
+  for (std::size_t i = 0; i < 3; ++i) out[i] = parse_number(parts[i % parts.size()]);
+  return out;
+}
+
+Index3 parse_shape(std::string_view text) {
+  const std::vector<std::string_view> parts = split(text);
+  std::array<std::int64_t, 3> out{};
+  for (std::size_t i = 0; i < 3; ++i) {
+    if (parts.size() != 3 || !read_all(parts[i], out[i]) || out[i] < 1) {
+      fail_expected("three positive integers X,Y,Z", text);
+    }
+  }
+  return {out[0], out[1], out[2]};
+}
+
+Box3 parse_box(std::string_view text) {
+  const std::vector<std::string_view> parts = split(text);
+  std::array<std::int64_t, 6> out{};
+  for (std::size_t i = 0; i < out.size(); ++i) {
+    if (parts.size() != out.size() || !read_all(parts[i], out[i])) {
+      fail_expected("six integers X0,Y0,Z0,X1,Y1,Z1", text);
+    }
+  }
+  return {{out[0], out[1], out[2]}, {out[3], out[4], out[5]}};
+}
+
+std::vector<RawLabel> parse_labels(std::string_view text) {
+  std::vector<RawLabel> labels;
+  for (const std::string_view part : split(text)) add_labels(part, labels);
+  return labels;
+}
 
 std::string canonical_text(ValueKind kind, const std::string& text) {
   switch (kind) {

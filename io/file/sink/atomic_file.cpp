@@ -40,6 +40,35 @@ std::filesystem::path resolve(const std::filesystem::path& target) {
   return file;
 }
 
+using Files = std::span<const std::reference_wrapper<AtomicFile>>;
+
+/// Removes the old files down to the second; the new first one replaces the old in one step.
+void remove_old(Files files) {
+  for (std::size_t i = files.size(); i-- > 1;) files[i].get().remove_named();
+}
+
+/// Removes new files after an error, which the caller reports; what cannot be removed stays.
+void take_back(Files files) {
+  try {
+    for (std::size_t i = files.size(); i-- > 0;) files[i].get().remove_named();
+  } catch (const Error&) {
+    return;
+  }
+}
+
+/// Returns the target without a '/' at its end.  Only an empty folder may be there.
+std::filesystem::path free_target(const std::filesystem::path& target) {
+  std::filesystem::path name = target.has_filename() ? target : target.parent_path();
+  std::error_code failed;
+  const bool exists = std::filesystem::exists(name, failed);
+  const bool is_free = !exists || (std::filesystem::is_directory(name, failed) &&
+                                   std::filesystem::is_empty(name, failed));
+  if (is_free && !failed && name.has_filename()) return name;
+  fail_usage(target.string() +
+             ": is written as a new folder, and there is something already; "
+             "remove it or give another name");
+}
+
 }  // namespace
 
 AtomicFile::AtomicFile(const std::filesystem::path& target) : target_(resolve(target)) {
@@ -134,26 +163,6 @@ void AtomicFile::give_name() {
   sync_folder(folder_of(target_));
 }
 
-namespace {
-
-using Files = std::span<const std::reference_wrapper<AtomicFile>>;
-
-/// Removes the old files down to the second; the new first one replaces the old in one step.
-void remove_old(Files files) {
-  for (std::size_t i = files.size(); i-- > 1;) files[i].get().remove_named();
-}
-
-/// Removes new files after an error, which the caller reports; what cannot be removed stays.
-void take_back(Files files) {
-  try {
-    for (std::size_t i = files.size(); i-- > 0;) files[i].get().remove_named();
-  } catch (const Error&) {
-    return;
-  }
-}
-
-}  // namespace
-
 void commit_together(std::initializer_list<std::reference_wrapper<AtomicFile>> list) {
   const Files files(list.begin(), list.size());
   for (AtomicFile& file : files) file.sync();
@@ -166,23 +175,6 @@ void commit_together(std::initializer_list<std::reference_wrapper<AtomicFile>> l
     throw;
   }
 }
-
-namespace {
-
-/// Returns the target without a '/' at its end.  Only an empty folder may be there.
-std::filesystem::path free_target(const std::filesystem::path& target) {
-  std::filesystem::path name = target.has_filename() ? target : target.parent_path();
-  std::error_code failed;
-  const bool exists = std::filesystem::exists(name, failed);
-  const bool is_free = !exists || (std::filesystem::is_directory(name, failed) &&
-                                   std::filesystem::is_empty(name, failed));
-  if (is_free && !failed && name.has_filename()) return name;
-  fail_usage(target.string() +
-             ": is written as a new folder, and there is something already; "
-             "remove it or give another name");
-}
-
-}  // namespace
 
 AtomicFolder::AtomicFolder(const std::filesystem::path& target) : target_(free_target(target)) {
   PartialOutput partial = make_partial(target_, PartialKind::kFolder);

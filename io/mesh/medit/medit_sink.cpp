@@ -17,6 +17,35 @@ constexpr std::string_view kHead = "MeshVersionFormatted 2\nDimension 3\n";
 /// Room for any number of vertices, which is known last.
 constexpr std::size_t kCountWidth = 20;
 
+constexpr std::string_view kWord = "label ";
+
+/// Takes the name up to the quote that closes it; what is behind it stays in `rest`.
+std::optional<std::string> take_name(std::string_view& rest) {
+  std::string name;
+  for (std::size_t i = 0; i < rest.size(); ++i) {
+    if (rest[i] == '"') {
+      rest.remove_prefix(i + 1);
+      return name;
+    }
+    if (rest[i] == '\\') ++i;
+    if (i < rest.size()) name.push_back(rest[i]);
+  }
+  return std::nullopt;
+}
+
+/// Reads a colour of four numbers; returns nothing where it is none.
+std::optional<Colour> parse_colour(std::string_view numbers) {
+  const std::vector<std::string_view> words = words_of(numbers);
+  if (words.size() != 4) return std::nullopt;
+  Colour colour{};
+  for (std::size_t i = 0; i < 4; ++i) {
+    const auto byte = byte_of(words[i]);
+    if (!byte) return std::nullopt;
+    colour[i] = *byte;
+  }
+  return colour;
+}
+
 }  // namespace
 
 void MeditSink::begin(const MeshHeader& header) {
@@ -68,39 +97,6 @@ void MeditSink::finish() {
   file_.write_at(count_at_, std::as_bytes(std::span(count)));
   file_.commit();
 }
-
-namespace {
-
-constexpr std::string_view kWord = "label ";
-
-/// Takes the name up to the quote that closes it; what is behind it stays in `rest`.
-std::optional<std::string> take_name(std::string_view& rest) {
-  std::string name;
-  for (std::size_t i = 0; i < rest.size(); ++i) {
-    if (rest[i] == '"') {
-      rest.remove_prefix(i + 1);
-      return name;
-    }
-    if (rest[i] == '\\') ++i;
-    if (i < rest.size()) name.push_back(rest[i]);
-  }
-  return std::nullopt;
-}
-
-/// Reads a colour of four numbers; returns nothing where it is none.
-std::optional<Colour> parse_colour(std::string_view numbers) {
-  const std::vector<std::string_view> words = words_of(numbers);
-  if (words.size() != 4) return std::nullopt;
-  Colour colour{};
-  for (std::size_t i = 0; i < 4; ++i) {
-    const auto byte = byte_of(words[i]);
-    if (!byte) return std::nullopt;
-    colour[i] = *byte;
-  }
-  return colour;
-}
-
-}  // namespace
 
 std::string medit_comment(const LabelName& row, bool is_signed) {
   std::string line = text("# ", kWord, label_text(row.label, is_signed), " \"");

@@ -112,6 +112,21 @@ Place array_or_pyramid(const Place& container, const OpenOptions& options) {
   return kind_of(folder) == Kind::kGroup ? only_one(folder) : folder;
 }
 
+/// Calls take for the attributes; the place of a level of a pyramid needs the metadata of the
+/// finest one and of the group.
+void with_attributes(const Place& folder, const N5Document& own,
+                     const std::function<void(const N5Attributes&)>& take) {
+  const auto level = level_of(folder);
+  const auto above = level ? folder.parent() : std::nullopt;
+  if (!above) return take({.own = own});
+  const auto group = read_attributes(above->first);
+  const auto finest = *level == 0 ? std::nullopt : read_attributes(above->first / "s0");
+  take({.own = own,
+        .group = group ? &*group : nullptr,
+        .finest = finest ? &*finest : nullptr,
+        .level = *level});
+}
+
 }  // namespace
 
 std::optional<N5Document> read_attributes(const Place& folder) {
@@ -136,25 +151,6 @@ Place find_n5_array(const Place& container, const OpenOptions& options) {
   if (options.scale.value_or(0) == 0) return folder;
   fail_usage("--scale ", *options.scale, ": ", folder.string(), " has one resolution");
 }
-
-namespace {
-
-/// Calls take for the attributes; the place of a level of a pyramid needs the metadata of the
-/// finest one and of the group.
-void with_attributes(const Place& folder, const N5Document& own,
-                     const std::function<void(const N5Attributes&)>& take) {
-  const auto level = level_of(folder);
-  const auto above = level ? folder.parent() : std::nullopt;
-  if (!above) return take({.own = own});
-  const auto group = read_attributes(above->first);
-  const auto finest = *level == 0 ? std::nullopt : read_attributes(above->first / "s0");
-  take({.own = own,
-        .group = group ? &*group : nullptr,
-        .finest = finest ? &*finest : nullptr,
-        .level = *level});
-}
-
-}  // namespace
 
 bool is_n5(const Place& folder) {
   return (folder / "attributes.json").is_document() ||

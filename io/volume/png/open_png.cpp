@@ -92,6 +92,47 @@ void check_kind(const ByteSource& source, int depth, int kind) {
   }
 }
 
+/// A slice is a chunk.
+class PngChunks : public ChunkSource {
+ public:
+  PngChunks(std::vector<std::filesystem::path> files, const PngHeader& header)
+      : files_(std::move(files)), header_(header) {}
+
+  [[nodiscard]] std::string name() const override { return files_.front().parent_path().string(); }
+  [[nodiscard]] std::string name_of(Index3 chunk) const override {
+    return files_[static_cast<std::size_t>(chunk.z)].string();
+  }
+  [[nodiscard]] std::optional<Chunk> load(Index3 chunk, const Box3& /*box*/,
+                                          ChunkPlace /*place*/) const override {
+    const FileSource file(files_[static_cast<std::size_t>(chunk.z)]);
+    if (read_png_header(file) != header_) {
+      fail_input(file.name(), "PNG header", "changed while it was read");
+    }
+    return Chunk{.bytes = read_png(file, header_), .strides = {1, header_.width, 0}};
+  }
+  /// The memory of the rows' addresses, and of libpng's window and rows.
+  [[nodiscard]] std::uint64_t scratch_bytes() const override {
+    constexpr std::uint64_t kLibrary = 1 << 20;
+    return kLibrary + 8 * static_cast<std::uint64_t>(header_.height) + 4 * header_.row_bytes();
+  }
+
+ private:
+  std::vector<std::filesystem::path> files_;
+  PngHeader header_;
+};
+
+void check_alike(const std::vector<std::filesystem::path>& files, const PngHeader& first) {
+  for (const std::filesystem::path& path : files) {
+    const PngHeader header = read_png_header(FileSource(path));
+    if (header == first) continue;
+    fail_input(
+        path.string(), "PNG header",
+        text(header.width, " x ", header.height, " pixels of ", name(header.type),
+             ", the first slice is ", first.width, " x ", first.height, " of ", name(first.type)),
+        "save all slices of one size and type");
+  }
+}
+
 }  // namespace
 
 bool has_png_magic(std::span<const std::byte> head) {
@@ -138,51 +179,6 @@ std::vector<std::byte> read_png(const ByteSource& source, const PngHeader& heade
   }
   return pixels;
 }
-
-namespace {
-
-/// A slice is a chunk.
-class PngChunks : public ChunkSource {
- public:
-  PngChunks(std::vector<std::filesystem::path> files, const PngHeader& header)
-      : files_(std::move(files)), header_(header) {}
-
-  [[nodiscard]] std::string name() const override { return files_.front().parent_path().string(); }
-  [[nodiscard]] std::string name_of(Index3 chunk) const override {
-    return files_[static_cast<std::size_t>(chunk.z)].string();
-  }
-  [[nodiscard]] std::optional<Chunk> load(Index3 chunk, const Box3& /*box*/,
-                                          ChunkPlace /*place*/) const override {
-    const FileSource file(files_[static_cast<std::size_t>(chunk.z)]);
-    if (read_png_header(file) != header_) {
-      fail_input(file.name(), "PNG header", "changed while it was read");
-    }
-    return Chunk{.bytes = read_png(file, header_), .strides = {1, header_.width, 0}};
-  }
-  /// The memory of the rows' addresses, and of libpng's window and rows.
-  [[nodiscard]] std::uint64_t scratch_bytes() const override {
-    constexpr std::uint64_t kLibrary = 1 << 20;
-    return kLibrary + 8 * static_cast<std::uint64_t>(header_.height) + 4 * header_.row_bytes();
-  }
-
- private:
-  std::vector<std::filesystem::path> files_;
-  PngHeader header_;
-};
-
-void check_alike(const std::vector<std::filesystem::path>& files, const PngHeader& first) {
-  for (const std::filesystem::path& path : files) {
-    const PngHeader header = read_png_header(FileSource(path));
-    if (header == first) continue;
-    fail_input(
-        path.string(), "PNG header",
-        text(header.width, " x ", header.height, " pixels of ", name(header.type),
-             ", the first slice is ", first.width, " x ", first.height, " of ", name(first.type)),
-        "save all slices of one size and type");
-  }
-}
-
-}  // namespace
 
 std::unique_ptr<LabelVolume> open_png(std::unique_ptr<ByteSource> source,
                                       const OpenOptions& options) {

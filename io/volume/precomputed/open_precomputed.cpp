@@ -28,6 +28,18 @@ void refuse_packed_otherwise(const Place& path) {
   }
 }
 
+Place folder_of(const Place& volume, const PrecomputedScale& scale, bool is_trusted) {
+  const std::string info = (volume / "info").string();
+  static_cast<void>(named_path(info, scale.key_field, scale.key, is_trusted));  // checks the name
+  Place folder = volume / scale.key;
+  if (!folder.is_folder().value_or(true)) {
+    fail_input(info, scale.key_field,
+               text("the folder of the chunks, ", folder.string(), ", is missing"),
+               "get a whole copy of the store, or choose a scale that is there with --scale");
+  }
+  return folder;
+}
+
 }  // namespace
 
 PrecomputedChunks::PrecomputedChunks(Place folder, PrecomputedScale scale)
@@ -138,22 +150,6 @@ std::uint64_t PrecomputedChunks::scratch_bytes() const {
   return unpacking + (scale_.block ? encoded : 0) +
          (shards_ ? shards_->scratch_bytes() : folder_.held_bytes(packed));
 }
-
-namespace {
-
-Place folder_of(const Place& volume, const PrecomputedScale& scale, bool is_trusted) {
-  const std::string info = (volume / "info").string();
-  static_cast<void>(named_path(info, scale.key_field, scale.key, is_trusted));  // checks the name
-  Place folder = volume / scale.key;
-  if (!folder.is_folder().value_or(true)) {
-    fail_input(info, scale.key_field,
-               text("the folder of the chunks, ", folder.string(), ", is missing"),
-               "get a whole copy of the store, or choose a scale that is there with --scale");
-  }
-  return folder;
-}
-
-}  // namespace
 
 bool is_precomputed(const Place& folder) {
   return (folder / "info").is_document();

@@ -48,45 +48,6 @@ void check_others(std::string_view file, const std::vector<std::int64_t>& shape,
   }
 }
 
-}  // namespace
-
-Index3 AxisMap::pick(const std::vector<std::int64_t>& of_axes, std::int64_t missing) const {
-  const auto along = [&](std::size_t i) { return axes[i] ? of_axes[*axes[i]] : missing; };
-  return {along(0), along(1), along(2)};
-}
-
-std::vector<std::int64_t> AxisMap::spread(Index3 index, std::size_t count) const {
-  std::vector<std::int64_t> out(count, 0);
-  if (axes[0]) out[*axes[0]] = index.x;
-  if (axes[1]) out[*axes[1]] = index.y;
-  if (axes[2]) out[*axes[2]] = index.z;
-  return out;
-}
-
-AxisMap map_axes(std::string_view file, const std::vector<std::int64_t>& shape,
-                 const std::vector<std::string>& names, std::string_view way_out) {
-  const AxisMap named{{axis_named(names, "x"), axis_named(names, "y"), axis_named(names, "z")}};
-  if (named.axes[0] && named.axes[1]) {
-    check_others(file, shape, names, named, way_out);
-    return named;
-  }
-  if (shape.size() < 2) {
-    fail_input(file, "shape", text(shape.size(), " axes, and a volume has three (a slice two)"),
-               "is it the array that was meant?");
-  }
-  const std::vector<std::size_t> kept = last_three(shape);
-  if (kept.size() > 3) {
-    fail_input(file, "shape",
-               text(shape_text(shape), " has ", kept.size(), " axes of more than one entry"),
-               way_out);
-  }
-  AxisMap map{{kept[kept.size() - 1], kept[kept.size() - 2], std::nullopt}};
-  if (kept.size() == 3) map.axes[2] = kept[0];
-  return map;
-}
-
-namespace {
-
 /// Returns the object that has the metadata: from version 0.5 on it is "ome".
 const Json& ome_of(const Json& attributes) {
   const Json* found = attributes.find("ome");
@@ -215,6 +176,41 @@ std::string common_unit(const Multiscale& multiscale, const AxisMap& axes, std::
 }
 
 }  // namespace
+
+Index3 AxisMap::pick(const std::vector<std::int64_t>& of_axes, std::int64_t missing) const {
+  const auto along = [&](std::size_t i) { return axes[i] ? of_axes[*axes[i]] : missing; };
+  return {along(0), along(1), along(2)};
+}
+
+std::vector<std::int64_t> AxisMap::spread(Index3 index, std::size_t count) const {
+  std::vector<std::int64_t> out(count, 0);
+  if (axes[0]) out[*axes[0]] = index.x;
+  if (axes[1]) out[*axes[1]] = index.y;
+  if (axes[2]) out[*axes[2]] = index.z;
+  return out;
+}
+
+AxisMap map_axes(std::string_view file, const std::vector<std::int64_t>& shape,
+                 const std::vector<std::string>& names, std::string_view way_out) {
+  const AxisMap named{{axis_named(names, "x"), axis_named(names, "y"), axis_named(names, "z")}};
+  if (named.axes[0] && named.axes[1]) {
+    check_others(file, shape, names, named, way_out);
+    return named;
+  }
+  if (shape.size() < 2) {
+    fail_input(file, "shape", text(shape.size(), " axes, and a volume has three (a slice two)"),
+               "is it the array that was meant?");
+  }
+  const std::vector<std::size_t> kept = last_three(shape);
+  if (kept.size() > 3) {
+    fail_input(file, "shape",
+               text(shape_text(shape), " has ", kept.size(), " axes of more than one entry"),
+               way_out);
+  }
+  AxisMap map{{kept[kept.size() - 1], kept[kept.size() - 2], std::nullopt}};
+  if (kept.size() == 3) map.axes[2] = kept[0];
+  return map;
+}
 
 bool has_multiscale(const Json& attributes) {
   const Json* found = ome_of(attributes).find("multiscales");

@@ -63,19 +63,6 @@ std::vector<std::int64_t> strides_of(const ChunkCoding& coding) {
   return strides;
 }
 
-}  // namespace
-
-void strip_crc32c(std::vector<std::byte>& bytes, std::string_view name) {
-  const PackedName named{"crc32c", name};
-  if (bytes.size() < 4) fail_packed(named, "truncated: no whole checksum");
-  const auto end = std::span(bytes).last<4>();
-  const auto sum = load<std::uint32_t>(end.data(), ByteOrder::kLittle);
-  bytes.resize(bytes.size() - 4);
-  if (crc32c(bytes) != sum) fail_packed(named, "damaged: the checksum is wrong");
-}
-
-namespace {
-
 /// Returns the most bytes that undoing a step may give: the voxels, or what a step before packed.
 std::uint64_t max_of_step(const ZarrArray& array, std::size_t step) {
   const std::uint64_t size = chunk_bytes(array);
@@ -113,7 +100,22 @@ std::shared_ptr<const ByteSource> without_crc32c(std::shared_ptr<const ByteSourc
   return std::make_shared<BytesPart>(bytes, 0, end, bytes->name());
 }
 
+/// Counts the bytes of a chunk that belong to axes that are left out.
+std::uint64_t unused_bytes(const ZarrArray& array, const AxisMap& axes) {
+  const auto used = static_cast<std::uint64_t>(axes.pick(array.chunk.shape, 1).product());
+  return chunk_bytes(array) - used * static_cast<std::uint64_t>(byte_size(array.type));
+}
+
 }  // namespace
+
+void strip_crc32c(std::vector<std::byte>& bytes, std::string_view name) {
+  const PackedName named{"crc32c", name};
+  if (bytes.size() < 4) fail_packed(named, "truncated: no whole checksum");
+  const auto end = std::span(bytes).last<4>();
+  const auto sum = load<std::uint32_t>(end.data(), ByteOrder::kLittle);
+  bytes.resize(bytes.size() - 4);
+  if (crc32c(bytes) != sum) fail_packed(named, "damaged: the checksum is wrong");
+}
 
 Chunk unpack_chunk(const ZarrArray& array, const AxisMap& axes, std::vector<std::byte> packed,
                    std::string_view name) {
@@ -154,16 +156,6 @@ std::optional<std::uint64_t> unpack_streaming(const ZarrArray& array) {
 std::uint64_t max_packed(const ZarrArray& array) {
   return max_packed_bytes(chunk_bytes(array));
 }
-
-namespace {
-
-/// Counts the bytes of a chunk that belong to axes that are left out.
-std::uint64_t unused_bytes(const ZarrArray& array, const AxisMap& axes) {
-  const auto used = static_cast<std::uint64_t>(axes.pick(array.chunk.shape, 1).product());
-  return chunk_bytes(array) - used * static_cast<std::uint64_t>(byte_size(array.type));
-}
-
-}  // namespace
 
 std::uint64_t unpack_scratch(const ZarrArray& array, const AxisMap& axes) {
   const std::uint64_t size = chunk_bytes(array);

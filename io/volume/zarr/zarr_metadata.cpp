@@ -92,22 +92,6 @@ RawLabel parse_integer(const Json& value, VoxelType type, std::string_view file)
   fail_fill(value, type, file);
 }
 
-}  // namespace
-
-ChunkFill parse_fill_value(const Json& value, VoxelType type, std::string_view file) {
-  if (value.is_null()) return {};
-  if (is_float(type)) {
-    const double number = parse_float(value, type, file);
-    return {.label = label_of(number), .number = number};
-  }
-  const RawLabel label = parse_integer(value, type, file);
-  return {.label = label,
-          .number = is_signed(type) ? static_cast<double>(static_cast<std::int64_t>(label))
-                                    : static_cast<double>(label)};
-}
-
-namespace {
-
 struct TypeName {
   std::string_view kind_and_bytes;
   VoxelType type;
@@ -191,6 +175,18 @@ void check_filters(const JsonFields& fields) {
 }
 
 }  // namespace
+
+ChunkFill parse_fill_value(const Json& value, VoxelType type, std::string_view file) {
+  if (value.is_null()) return {};
+  if (is_float(type)) {
+    const double number = parse_float(value, type, file);
+    return {.label = label_of(number), .number = number};
+  }
+  const RawLabel label = parse_integer(value, type, file);
+  return {.label = label,
+          .number = is_signed(type) ? static_cast<double>(static_cast<std::int64_t>(label))
+                                    : static_cast<double>(label)};
+}
 
 ZarrArray parse_zarr_v2(const Json& document, const std::string& file) {
   const JsonFields fields(document, file);

@@ -55,6 +55,28 @@ ZarrNode read_v2(const Place& folder) {
   return node;
 }
 
+constexpr std::size_t kMaxVolumes = 100;
+constexpr int kMaxDepth = 5;
+
+/// Looks through groups only, so that the folders of chunks are never listed.
+void search(const Place& group, const std::string& prefix, int depth,
+            std::vector<std::string>& found) {
+  if (depth == 0) return;
+  const auto names = group.folders();
+  if (!names) return;
+  for (const std::string& name : *names) {
+    if (found.size() >= kMaxVolumes) return;
+    const Place folder = group / name;
+    const auto node = read_zarr_node(folder);
+    if (!node) continue;
+    if (node->is_array || has_multiscale(node->attributes)) {
+      found.push_back(prefix + name);
+    } else {
+      search(folder, prefix + name + "/", depth - 1, found);
+    }
+  }
+}
+
 }  // namespace
 
 bool is_zarr_node(const Place& folder) {
@@ -80,32 +102,6 @@ std::optional<Place> path_in_store(const Place& folder, std::string_view path) {
   }
   return out;
 }
-
-namespace {
-
-constexpr std::size_t kMaxVolumes = 100;
-constexpr int kMaxDepth = 5;
-
-/// Looks through groups only, so that the folders of chunks are never listed.
-void search(const Place& group, const std::string& prefix, int depth,
-            std::vector<std::string>& found) {
-  if (depth == 0) return;
-  const auto names = group.folders();
-  if (!names) return;
-  for (const std::string& name : *names) {
-    if (found.size() >= kMaxVolumes) return;
-    const Place folder = group / name;
-    const auto node = read_zarr_node(folder);
-    if (!node) continue;
-    if (node->is_array || has_multiscale(node->attributes)) {
-      found.push_back(prefix + name);
-    } else {
-      search(folder, prefix + name + "/", depth - 1, found);
-    }
-  }
-}
-
-}  // namespace
 
 std::vector<std::string> volumes_below(const Place& group) {
   std::vector<std::string> found;

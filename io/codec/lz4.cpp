@@ -1,7 +1,6 @@
 // SPDX-FileCopyrightText: The mwmesh authors
 // SPDX-License-Identifier: Apache-2.0
-// Unpacks what comes in blocks: LZ4 in its three framings, Blosc and LZF.
-#include <blosc.h>
+// Unpacks LZ4 in its three framings: plain, of lz4-java, of HDF5.
 #include <lz4.h>
 
 #include <algorithm>
@@ -85,6 +84,17 @@ void append_java_block(std::vector<std::byte>& out, const JavaBlock& block,
   if (sum != block.checksum) fail_packed(name, "damaged: the checksum of a block is wrong");
 }
 
+constexpr std::size_t kHdf5HeaderBytes = 12;
+
+void append_block(std::vector<std::byte>& out, std::span<const std::byte> block, std::size_t size,
+                  const PackedName& name) {
+  if (block.size() == size) {
+    out.insert(out.end(), block.begin(), block.end());
+    return;
+  }
+  append_lz4_block(out, block, size, name);
+}
+
 }  // namespace
 
 std::vector<std::byte> unpack_lz4(std::span<const std::byte> packed, std::size_t max,
@@ -113,21 +123,6 @@ std::vector<std::byte> unpack_lz4_java(std::span<const std::byte> packed, std::s
   return out;
 }
 
-namespace {
-
-constexpr std::size_t kHdf5HeaderBytes = 12;
-
-void append_block(std::vector<std::byte>& out, std::span<const std::byte> block, std::size_t size,
-                  const PackedName& name) {
-  if (block.size() == size) {
-    out.insert(out.end(), block.begin(), block.end());
-    return;
-  }
-  append_lz4_block(out, block, size, name);
-}
-
-}  // namespace
-
 std::vector<std::byte> unpack_lz4_hdf5(std::span<const std::byte> packed, std::size_t max,
                                        std::string_view name) {
   const PackedName named{"lz4", name};
@@ -148,109 +143,6 @@ std::vector<std::byte> unpack_lz4_hdf5(std::span<const std::byte> packed, std::s
     packed = packed.subspan(length);
   }
   return out;
-}
-
-namespace {
-
-/// Blosc's header has its version, that of the codec, flags, the bytes of an element, and three
-/// sizes of 32 bits: unpacked, of a block, packed.
-constexpr std::size_t kBlockSizeAt = 8;
-
-}  // namespace
-
-std::optional<std::uint64_t> blosc_block(std::span<const std::byte> packed) {
-  if (packed.size() < BLOSC_MIN_HEADER_LENGTH) return std::nullopt;
-  return size_at(packed, kBlockSizeAt);
-}
-
-std::vector<std::byte> unpack_blosc(std::span<const std::byte> packed, std::size_t max,
-                                    std::string_view name) {
-  const PackedName named{"blosc", name};
-  if (packed.size() < BLOSC_MIN_HEADER_LENGTH) fail_packed(named, "truncated: no whole header");
-  std::size_t size = 0;
-  if (blosc_cbuffer_validate(packed.data(), packed.size(), &size) < 0) {
-    fail_packed(named, "damaged or truncated: the sizes in its header are wrong");
-  }
-  if (size > max) fail_too_much(named, max);
-  // The library takes memory for its blocks before it looks at anything else.
-  const auto block = load<std::uint32_t>(packed.data() + kBlockSizeAt, ByteOrder::kLittle);
-  if (size > 0 && (block == 0 || block > size)) {
-    fail_packed(named, "damaged: the block size in its header is wrong");
-  }
-  std::vector<std::byte> out(size);
-  const int count = blosc_decompress_ctx(packed.data(), out.data(), size, /*threads=*/1);
-  if (count < 0 || static_cast<std::size_t>(count) != size) {
-    fail_packed(named, "damaged, or packed by a codec that Blosc was built without");
-  }
-  return out;
-}
-
-namespace {
-
-/// A first byte below this is the length of a run less 1.  Otherwise its upper 3 bits are the
-/// length of a copy less 2 (if they are 7, another byte adds to it), and its lower 5 bits with the
-/// next byte are the distance less 1.
-constexpr std::size_t kFirstCopy = 32;
-constexpr std::size_t kLongCopy = 7;
-
-class Decoder {
- public:
-  Decoder(std::span<const std::byte> packed, std::size_t max, std::string_view name)
-      : packed_(packed), max_(max), name_{"lzf", name} {}
-
-  [[nodiscard]] std::vector<std::byte> decode() {
-    while (at_ < packed_.size()) {
-      const std::size_t first = next();
-      if (first < kFirstCopy) {
-        run(first + 1);
-      } else {
-        copy(first);
-      }
-    }
-    return std::move(out_);
-  }
-
- private:
-  [[nodiscard]] std::size_t next() {
-    if (at_ == packed_.size()) fail_packed(name_, "truncated");
-    return std::to_integer<std::size_t>(packed_[at_++]);
-  }
-
-  void make_room(std::size_t length) {
-    if (length > max_ - out_.size()) fail_too_much(name_, max_);
-  }
-
-  void run(std::size_t length) {
-    if (length > packed_.size() - at_) fail_packed(name_, "truncated");
-    make_room(length);
-    const auto begin = packed_.begin() + static_cast<std::ptrdiff_t>(at_);
-    out_.insert(out_.end(), begin, begin + static_cast<std::ptrdiff_t>(length));
-    at_ += length;
-  }
-
-  void copy(std::size_t first) {
-    std::size_t length = first >> 5U;
-    if (length == kLongCopy) length += next();
-    length += 2;
-    const std::size_t distance = ((first & 31U) << 8U) + next() + 1;
-    if (distance > out_.size()) fail_packed(name_, "damaged: a copy begins before the data");
-    make_room(length);
-    // It goes byte by byte, since a copy may overlap itself.
-    for (std::size_t i = 0; i < length; ++i) out_.push_back(out_[out_.size() - distance]);
-  }
-
-  std::span<const std::byte> packed_;
-  std::size_t max_;
-  PackedName name_;
-  std::size_t at_ = 0;
-  std::vector<std::byte> out_;
-};
-
-}  // namespace
-
-std::vector<std::byte> unpack_lzf(std::span<const std::byte> packed, std::size_t max,
-                                  std::string_view name) {
-  return Decoder(packed, max, name).decode();
 }
 
 }  // namespace mw::io
