@@ -7,6 +7,7 @@
 #include <optional>
 
 #include "io/file/byte_order.h"
+#include "io/file/errors.h"
 
 namespace mw::io {
 namespace {
