@@ -95,7 +95,7 @@ class KeepFolder : public WorkFiles {
 
 /// The version of what is in the files.  It is one of the settings, so a folder of another version
 /// is refused.
-inline constexpr int kFolderFormat = 5;
+inline constexpr int kFolderFormat = 6;
 
 /// Returns where a process of a run keeps what it does: in `folder` itself if it is rank 0.
 [[nodiscard]] std::filesystem::path kept_part(const std::filesystem::path& folder, int rank);

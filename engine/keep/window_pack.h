@@ -11,16 +11,15 @@
 
 namespace mw::engine {
 
-/// Packs kept blocks (kept_block.h) of one window.  The vertices that two of them share are written
-/// once, and values of one kind stand together, in columns, since Zstandard packs these by a third
-/// better than blocks as they are.
+/// Packs kept blocks (kept_block.h) of one window.  Values of one kind stand together, in columns,
+/// since Zstandard packs these by a fifth better than blocks as they are.
 ///
 ///     CRC-32 of everything that follows, 4 bytes
-///     for each column: bytes var; if it is long (kLongColumn), also bytes of its frame var
-///     frames of Zstandard: one for each long column, then one of all others behind one another
+///     for each column: bytes var
+///     frames of Zstandard, which together have the columns behind one another
 ///
 /// A column has the values of one kind of all blocks in their order: see Column in window_pack.cpp.
-/// REQUIRES: bytes of to_kept().  Cost: linear.  Memory: twice the blocks.
+/// REQUIRES: bytes of to_kept().  Cost: linear.  Memory: three times the blocks.
 [[nodiscard]] std::vector<std::byte> pack_blocks(std::span<const std::vector<std::byte>> blocks,
                                                  io::ZstdPacker& packer);
 
