@@ -64,6 +64,7 @@ struct Mover {
     const std::uint64_t codes = bytes(kQuadricCodes, 5);
     for (std::size_t i = 0; i < kKindOf.size(); ++i) {
       const std::size_t code = codes >> 4 * i & 15, size = code == kSameAsFirst ? 0 : code;
+      if (size > kDoubleBytes) throw BadBytes{"a number has more than 8 bytes"};
       bytes(kOtherBytes, std::max<std::size_t>(size, 2) - 2);
       if (size > 1) bytes(kSecondBytes + kKindOf[i], 1);
       if (size > 0) bytes(kFirstBytes + kKindOf[i], 1);
@@ -117,11 +118,10 @@ std::vector<std::byte> pack_blocks(std::span<const std::vector<std::byte>> block
     packer.append(frame, frames);
     frame.clear();
   }
-  head.append(frames);
   std::vector<std::byte> out(kSumBytes);
-  const std::span<const std::byte> summed = head.written();
-  io::store_little<std::uint32_t>(io::checksum(summed), out.data());
-  out.insert(out.end(), summed.begin(), summed.end());
+  out.insert(out.end(), head.written().begin(), head.written().end());
+  out.insert(out.end(), frames.begin(), frames.end());
+  io::store_little<std::uint32_t>(io::checksum(std::span(out).subspan(kSumBytes)), out.data());
   return out;
 }
 

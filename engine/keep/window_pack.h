@@ -19,7 +19,7 @@ namespace mw::engine {
 ///     frames of Zstandard, which together have the columns behind one another
 ///
 /// A column has the values of one kind of all blocks in their order: see Column in window_pack.cpp.
-/// REQUIRES: bytes of to_kept().  Cost: linear.  Memory: three times the blocks.
+/// REQUIRES: bytes of to_kept().  Cost: linear.  Memory: twice the blocks.
 [[nodiscard]] std::vector<std::byte> pack_blocks(std::span<const std::vector<std::byte>> blocks,
                                                  io::ZstdPacker& packer);
 
