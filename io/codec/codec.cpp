@@ -24,7 +24,10 @@ const char* name(Codec codec) {
       return "blosc";
     case Codec::kLz4:
     case Codec::kLz4Java:
+    case Codec::kLz4Hdf5:
       return "lz4";
+    case Codec::kLzf:
+      return "lzf";
     case Codec::kBzip2:
       return "bzip2";
     case Codec::kXz:
@@ -51,6 +54,10 @@ std::vector<std::byte> unpack(Codec codec, std::span<const std::byte> packed, st
       return unpack_lz4(packed, max, name);
     case Codec::kLz4Java:
       return unpack_lz4_java(packed, max, name);
+    case Codec::kLz4Hdf5:
+      return unpack_lz4_hdf5(packed, max, name);
+    case Codec::kLzf:
+      return unpack_lzf(packed, max, name);
     case Codec::kBzip2:
       return unpack_bzip2(packed, max, name);
     case Codec::kXz:

@@ -26,6 +26,8 @@ enum class Codec {
   kBlosc,
   kLz4,      ///< numcodecs' framing
   kLz4Java,  ///< lz4-java's framing
+  kLz4Hdf5,  ///< that of HDF5's registered filter
+  kLzf,      ///< h5py's filter
   kBzip2,
   kXz,
 };

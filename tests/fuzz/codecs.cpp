@@ -61,8 +61,8 @@ constexpr std::array kPackings{
             [](const std::string& p) { return io::lz4_java_packed(p); }},
     Packing{unpack_as<io::Codec::kBzip2>, [](const std::string& p) { return io::bzip2_packed(p); }},
     Packing{unpack_as<io::Codec::kXz>, [](const std::string& p) { return io::xz_packed(p, 0); }},
-    Packing{io::unpack_lzf, lzf_packed},
-    Packing{io::unpack_lz4_hdf5, lz4_hdf5_packed},
+    Packing{unpack_as<io::Codec::kLzf>, lzf_packed},
+    Packing{unpack_as<io::Codec::kLz4Hdf5>, lz4_hdf5_packed},
 };
 
 Bytes bytes_of(const std::string& text) {

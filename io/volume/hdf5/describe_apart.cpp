@@ -178,15 +178,12 @@ class Describer {
     out_.edges_unfiltered = (options & H5D_CHUNK_DONT_FILTER_PARTIAL_CHUNKS) != 0;
     const int count = H5Pget_nfilters(list);
     for (int i = 0; i < count; ++i) {
-      std::array<unsigned, 64> values{};
-      std::size_t used = values.size();
-      unsigned flags = 0;
-      const H5Z_filter_t id = H5Pget_filter2(list, static_cast<unsigned>(i), &flags, &used,
-                                             values.data(), 0, nullptr, nullptr);
+      unsigned flags = 0, parameter = 0;
+      std::size_t parameters = 1;
+      const H5Z_filter_t id = H5Pget_filter2(list, static_cast<unsigned>(i), &flags, &parameters,
+                                             &parameter, 0, nullptr, nullptr);
       if (id < 0) fail_library("its filters are unknown");
-      const std::size_t kept = std::min(used, values.size());
-      out_.filters.push_back({.id = static_cast<std::uint32_t>(id),
-                              .parameters = {values.begin(), values.begin() + kept}});
+      out_.filters.push_back({static_cast<std::uint32_t>(id), parameter});
     }
   }
 

@@ -3,154 +3,116 @@
 // Packs a description as bytes, for the way between two processes on the same machine.
 #include "io/volume/hdf5/description.h"
 
-#include <cstring>
+#include <algorithm>
+#include <array>
+#include <span>
+#include <tuple>
+#include <type_traits>
 
 namespace mw::io {
 namespace {
 
-/// Writes everything as numbers of 64 bits, and runs of bytes behind their length.
+using Numbers = std::map<std::string, std::vector<double>>;
+
+/// Returns references to all members, in the order in which they are packed.
+template <class Description>
+auto members_of(Description& d) {
+  return std::tie(d.path, d.shape, d.type, d.order, d.layout, d.offset, d.bytes, d.chunk_shape,
+                  d.filters, d.edges_unfiltered, d.fill, d.chunks, d.numbers, d.axistags);
+}
+
+template <class T>
+constexpr bool kIsNumber = std::is_arithmetic_v<T> || std::is_enum_v<T>;
+
+/// Writes numbers in 64 bits, and runs of them, of structs or of characters behind their length.
 class DescriptionWriter {
  public:
-  void number(std::uint64_t value) {
-    out_.append(reinterpret_cast<const char*>(&value), sizeof value);
-  }
-  void bytes(const void* data, std::size_t size) {
-    number(size);
-    if (size > 0) out_.append(static_cast<const char*>(data), size);
-  }
-  void string(const std::string& value) { bytes(value.data(), value.size()); }
   template <class T>
-  void array(const std::vector<T>& values) {
-    bytes(values.data(), values.size() * sizeof(T));
+  void write(const T& value) {
+    if constexpr (kIsNumber<T>) {
+      append(std::array{static_cast<std::uint64_t>(value)});
+    } else {
+      write(value.size());
+      append(value);
+    }
+  }
+  void write(const Numbers& numbers) {
+    write(numbers.size());
+    for (const auto& [name, values] : numbers) write(name), write(values);
   }
   [[nodiscard]] std::string take() { return std::move(out_); }
 
  private:
+  template <class Run>
+  void append(const Run& run) {
+    const auto bytes = std::as_bytes(std::span(run));
+    out_.append(reinterpret_cast<const char*>(bytes.data()), bytes.size());
+  }
+
   std::string out_;
 };
 
 /// Reads what DescriptionWriter wrote.  What is not there reads as 0 or empty, and sound() says so.
 class DescriptionReader {
  public:
-  explicit DescriptionReader(const std::string& bytes) : bytes_(bytes) {}
+  explicit DescriptionReader(const std::string& bytes) : left_(std::as_bytes(std::span(bytes))) {}
 
-  [[nodiscard]] std::uint64_t number() {
-    std::uint64_t value = 0;
-    copy(&value, sizeof value);
-    return value;
-  }
-  [[nodiscard]] std::string string() {
-    std::string value(length(), '\0');
-    copy(value.data(), value.size());
-    return value;
-  }
   template <class T>
-  [[nodiscard]] std::vector<T> array() {
-    const std::size_t size = length();
-    std::vector<T> values(size / sizeof(T));
-    sound_ = sound_ && size % sizeof(T) == 0;
-    copy(values.data(), values.size() * sizeof(T));
-    return values;
+  void read(T& value) {
+    std::uint64_t number = 0;
+    fill(std::as_writable_bytes(std::span(&number, 1)));
+    if constexpr (kIsNumber<T>) {
+      value = static_cast<T>(number);
+      sound_ = sound_ && static_cast<std::uint64_t>(value) == number;
+    } else {
+      sound_ = sound_ && number <= left_.size() / sizeof(value[0]);
+      value.resize(sound_ ? number : 0);
+      fill(std::as_writable_bytes(std::span(value)));
+    }
   }
-  [[nodiscard]] bool sound() const { return sound_; }
-  [[nodiscard]] bool at_end() const { return at_ == bytes_.size(); }
+  void read(Numbers& numbers) {
+    std::uint64_t count = 0;
+    for (read(count); count > 0 && sound_; --count) {
+      std::string name;
+      read(name);
+      read(numbers[name]);
+    }
+  }
+  /// Whether all was there, and nothing is left.
+  [[nodiscard]] bool sound() const { return sound_ && left_.empty(); }
 
  private:
-  [[nodiscard]] std::size_t length() {
-    const std::uint64_t claimed = number();
-    sound_ = sound_ && claimed <= bytes_.size() - at_;
-    return sound_ ? static_cast<std::size_t>(claimed) : 0;
-  }
-  void copy(void* out, std::size_t size) {
-    sound_ = sound_ && size <= bytes_.size() - at_;
-    if (!sound_ || size == 0) return;
-    std::memcpy(out, bytes_.data() + at_, size);
-    at_ += size;
+  void fill(std::span<std::byte> out) {
+    sound_ = sound_ && out.size() <= left_.size();
+    if (!sound_) return;
+    std::copy_n(left_.begin(), out.size(), out.begin());
+    left_ = left_.subspan(out.size());
   }
 
-  const std::string& bytes_;
-  std::size_t at_ = 0;
+  std::span<const std::byte> left_;
   bool sound_ = true;
 };
-
-void write_filters(DescriptionWriter& out, const std::vector<Hdf5Filter>& filters) {
-  out.number(filters.size());
-  for (const Hdf5Filter& filter : filters) {
-    out.number(filter.id);
-    out.array(filter.parameters);
-  }
-}
-
-std::vector<Hdf5Filter> read_filters(DescriptionReader& in) {
-  std::vector<Hdf5Filter> filters;
-  for (std::uint64_t left = in.number(); left > 0 && in.sound(); --left) {
-    const auto id = static_cast<std::uint32_t>(in.number());
-    filters.push_back({.id = id, .parameters = in.array<std::uint32_t>()});
-  }
-  return filters;
-}
-
-void write_numbers(DescriptionWriter& out,
-                   const std::map<std::string, std::vector<double>>& numbers) {
-  out.number(numbers.size());
-  for (const auto& [name, values] : numbers) {
-    out.string(name);
-    out.array(values);
-  }
-}
-
-std::map<std::string, std::vector<double>> read_numbers(DescriptionReader& in) {
-  std::map<std::string, std::vector<double>> numbers;
-  for (std::uint64_t left = in.number(); left > 0 && in.sound(); --left) {
-    const std::string name = in.string();
-    numbers[name] = in.array<double>();
-  }
-  return numbers;
-}
 
 }  // namespace
 
 std::string pack(const Hdf5Description& description) {
   DescriptionWriter out;
-  out.string(description.path);
-  out.array(description.shape);
-  out.number(static_cast<std::uint64_t>(description.type));
-  out.number(static_cast<std::uint64_t>(description.order));
-  out.number(static_cast<std::uint64_t>(description.layout));
-  out.number(description.offset);
-  out.string(description.bytes);
-  out.array(description.chunk_shape);
-  write_filters(out, description.filters);
-  out.number(description.edges_unfiltered ? 1 : 0);
-  out.string(description.fill);
-  out.array(description.chunks);
-  write_numbers(out, description.numbers);
-  out.string(description.axistags);
+  std::apply([&](const auto&... members) { (out.write(members), ...); }, members_of(description));
   return out.take();
 }
 
 std::optional<Hdf5Description> unpack_description(const std::string& bytes) {
   DescriptionReader in(bytes);
   Hdf5Description out;
-  out.path = in.string();
-  out.shape = in.array<std::uint64_t>();
-  const std::uint64_t type = in.number();
-  const std::uint64_t order = in.number();
-  const std::uint64_t layout = in.number();
-  if (type > static_cast<std::uint64_t>(VoxelType::kF64) || order > 1 || layout > 2) return {};
-  out.type = static_cast<VoxelType>(type);
-  out.order = static_cast<ByteOrder>(order);
-  out.layout = static_cast<Hdf5Layout>(layout);
-  out.offset = in.number();
-  out.bytes = in.string();
-  out.chunk_shape = in.array<std::uint64_t>();
-  out.filters = read_filters(in);
-  out.edges_unfiltered = in.number() != 0;
-  out.fill = in.string();
-  out.chunks = in.array<Hdf5Chunk>();
-  out.numbers = read_numbers(in);
-  out.axistags = in.string();
-  if (!in.sound() || !in.at_end()) return {};
+  std::apply([&](auto&... members) { (in.read(members), ...); }, members_of(out));
+  // Compared without a sign, as a broken child may send a negative one.
+  const auto is_up_to = [](auto last, auto value) {
+    return static_cast<std::uint64_t>(value) <= static_cast<std::uint64_t>(last);
+  };
+  const bool is_known = is_up_to(VoxelType::kF64, out.type) &&
+                        is_up_to(ByteOrder::kBig, out.order) &&
+                        is_up_to(Hdf5Layout::kChunked, out.layout);
+  if (!in.sound() || !is_known) return {};
   return out;
 }
 

@@ -24,10 +24,10 @@ enum class Hdf5Layout : std::uint8_t {
   kChunked,
 };
 
-/// A step in which the chunks were packed, by its registered number.
+/// A step in which the chunks were packed.
 struct Hdf5Filter {
-  std::uint32_t id = 0;
-  std::vector<std::uint32_t> parameters;
+  std::uint32_t id = 0;         ///< its registered number
+  std::uint32_t parameter = 0;  ///< the first one, 0 without any; shuffle's is the element's bytes
 };
 
 /// Where a chunk is.

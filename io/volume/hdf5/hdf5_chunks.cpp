@@ -18,29 +18,32 @@
 namespace mw::io {
 namespace {
 
-enum FilterId : std::uint32_t {
-  kDeflate = 1,
-  kShuffle = 2,
-  kFletcher32 = 3,
-  kLzf = 32000,
-  kBlosc = 32001,
-  kLz4 = 32004,
-  kZstd = 32015,
+enum FilterId : std::uint32_t { kShuffle = 2, kFletcher32 = 3 };
+
+struct FilterCodec {
+  std::uint32_t id;
+  Codec codec;
 };
-constexpr std::array kKnown{kDeflate, kShuffle, kFletcher32, kLzf, kBlosc, kLz4, kZstd};
+constexpr std::array<FilterCodec, 6> kCodecs{{{1, Codec::kZlib},
+                                              {307, Codec::kBzip2},
+                                              {32000, Codec::kLzf},
+                                              {32001, Codec::kBlosc},
+                                              {32004, Codec::kLz4Hdf5},
+                                              {32015, Codec::kZstd}}};
 constexpr std::size_t kChecksumBytes = 4;
+
+std::optional<Codec> codec_of(const Hdf5Filter& filter) {
+  const auto* const found = std::ranges::find(kCodecs, filter.id, &FilterCodec::id);
+  return found == kCodecs.end() ? std::nullopt : std::optional(found->codec);
+}
 
 /// Filters that files may have but that are not read here.
 struct OtherFilter {
   std::uint32_t id;
   const char* name;
 };
-constexpr std::array<OtherFilter, 6> kOthers{{{4, "szip"},
-                                              {5, "nbit"},
-                                              {6, "scaleoffset"},
-                                              {307, "bzip2"},
-                                              {32008, "bitshuffle"},
-                                              {32013, "zfp"}}};
+constexpr std::array<OtherFilter, 5> kOthers{
+    {{4, "szip"}, {5, "nbit"}, {6, "scaleoffset"}, {32008, "bitshuffle"}, {32013, "zfp"}}};
 
 std::string filter_text(std::uint32_t id) {
   for (const OtherFilter& other : kOthers) {
@@ -61,44 +64,27 @@ std::vector<std::byte> unshuffle(const std::vector<std::byte>& bytes, std::size_
 
 /// Checks and removes the checksum behind the data, least significant byte first.
 std::vector<std::byte> without_checksum(std::vector<std::byte> bytes, std::string_view name) {
-  if (bytes.size() < kChecksumBytes) {
-    fail_input(name, "fletcher32", "truncated: no checksum", "get a whole copy of the file");
-  }
+  const PackedName named{"fletcher32", name};
+  if (bytes.size() < kChecksumBytes) fail_packed(named, "truncated: no whole checksum");
   const std::size_t length = bytes.size() - kChecksumBytes;
   const auto kept = load<std::uint32_t>(bytes.data() + length, ByteOrder::kLittle);
   bytes.resize(length);
-  if (fletcher32(bytes) != kept) {
-    fail_input(name, "fletcher32", "the checksum is wrong: the chunk is damaged",
-               "get a whole copy of the file");
-  }
+  if (fletcher32(bytes) != kept) fail_packed(named, "damaged: the checksum is wrong");
   return bytes;
 }
 
 std::vector<std::byte> undo(const Hdf5Filter& filter, std::vector<std::byte> bytes, std::size_t max,
                             std::string_view name) {
-  switch (filter.id) {
-    case kDeflate:
-      return unpack(Codec::kZlib, bytes, max, name);
-    case kShuffle:
-      return filter.parameters.empty() ? bytes : unshuffle(bytes, filter.parameters[0]);
-    case kFletcher32:
-      return without_checksum(std::move(bytes), name);
-    case kLzf:
-      return unpack_lzf(bytes, max, name);
-    case kBlosc:
-      return unpack(Codec::kBlosc, bytes, max, name);
-    case kLz4:
-      return unpack_lz4_hdf5(bytes, max, name);
-    default:
-      return unpack(Codec::kZstd, bytes, max, name);
-  }
+  if (filter.id == kShuffle) return unshuffle(bytes, filter.parameter);
+  if (filter.id == kFletcher32) return without_checksum(std::move(bytes), name);
+  return unpack(*codec_of(filter), bytes, max, name);
 }
 
 }  // namespace
 
 void check_filters(const Hdf5Description& description, std::string_view file) {
   for (const Hdf5Filter& filter : description.filters) {
-    if (std::find(kKnown.begin(), kKnown.end(), filter.id) != kKnown.end()) continue;
+    if (filter.id == kShuffle || filter.id == kFletcher32 || codec_of(filter)) continue;
     fail_input(file, text("data set ", description.path),
                text("packed by ", filter_text(filter.id), ", which is not read here"),
                "pack it anew: h5repack -f GZIP=4 IN OUT");
@@ -157,11 +143,8 @@ std::shared_ptr<const ByteSource> unshuffled(const ByteSource& bytes, std::size_
 std::shared_ptr<const ByteSource> undone(const Hdf5Filter& filter,
                                          std::shared_ptr<const ByteSource> bytes,
                                          std::uint64_t max) {
-  if (filter.id == kShuffle) {
-    const std::uint32_t size = filter.parameters.empty() ? 1 : filter.parameters[0];
-    return size < 2 ? bytes : unshuffled(*bytes, size);
-  }
-  return unpack_to_file(filter.id == kZstd ? Codec::kZstd : Codec::kZlib, std::move(bytes), max);
+  if (filter.id != kShuffle) return unpack_to_file(*codec_of(filter), std::move(bytes), max);
+  return filter.parameter < 2 ? bytes : unshuffled(*bytes, filter.parameter);
 }
 
 }  // namespace
@@ -178,12 +161,13 @@ std::shared_ptr<const ByteSource> unfilter_to_file(const std::vector<Hdf5Filter>
 }
 
 std::optional<std::uint64_t> unfilter_streaming(const std::vector<Hdf5Filter>& filters) {
-  std::uint64_t most = *max_streamed(Codec::kZlib);
+  std::uint64_t most = *max_streamed(Codec::kNone);
   for (const Hdf5Filter& filter : filters) {
-    const bool is_shuffle =
-        filter.id == kShuffle && (filter.parameters.empty() || filter.parameters[0] <= kMaxElement);
-    if (!is_shuffle && filter.id != kDeflate && filter.id != kZstd) return std::nullopt;
-    if (filter.id == kZstd) most = std::max(most, *max_streamed(Codec::kZstd));
+    if (filter.id == kShuffle && filter.parameter <= kMaxElement) continue;
+    const std::optional<Codec> codec = codec_of(filter);
+    const auto bytes = codec ? max_streamed(*codec) : std::nullopt;
+    if (!bytes) return std::nullopt;
+    most = std::max(most, *bytes);
   }
   return most;
 }
@@ -191,10 +175,7 @@ std::optional<std::uint64_t> unfilter_streaming(const std::vector<Hdf5Filter>& f
 std::uint64_t max_unfilter_scratch(const std::vector<Hdf5Filter>& filters, std::size_t bytes) {
   std::uint64_t max = 0;
   for (const Hdf5Filter& filter : filters) {
-    const Codec codec = filter.id == kBlosc  ? Codec::kBlosc
-                        : filter.id == kZstd ? Codec::kZstd
-                                             : Codec::kZlib;
-    max = std::max(max, max_scratch(codec, bytes));
+    max = std::max(max, max_scratch(codec_of(filter).value_or(Codec::kNone), bytes));
   }
   const std::size_t between = filters.size() > 1 ? bytes : 0;  // from one filter to the next
   return max + between;

@@ -183,26 +183,6 @@ namespace {
 constexpr std::string_view kMagic{"\x89HDF\r\n\x1a\n", 8};
 constexpr std::size_t kFirstUserBlock = 512;
 
-/// The voxels of a compact data set, which are no run of bytes in the file.
-class HeldBytes : public ByteSource {
- public:
-  HeldBytes(std::string bytes, std::string name)
-      : bytes_(std::move(bytes)), name_(std::move(name)) {}
-
-  [[nodiscard]] std::uint64_t size() const override { return bytes_.size(); }
-  [[nodiscard]] const std::string& name() const override { return name_; }
-  void read_at(std::uint64_t offset, std::span<std::byte> out) const override {
-    if (offset > bytes_.size() || out.size() > bytes_.size() - offset) {
-      fail_input(name_, "voxel data", "truncated");
-    }
-    std::ranges::copy(std::as_bytes(std::span(bytes_)).subspan(offset, out.size()), out.begin());
-  }
-
- private:
-  std::string bytes_;
-  std::string name_;
-};
-
 Index3 shape_of(const Hdf5Description& description, const Hdf5Axes& axes, std::string_view file) {
   std::array<std::int64_t, 3> extents{1, 1, 1};
   for (std::size_t i = 0; i < 3; ++i) {
@@ -234,12 +214,12 @@ bool is_z_fastest(const Hdf5Description& description, const Hdf5Axes& axes, std:
              "write it in one of them, or in chunks");
 }
 
-std::unique_ptr<LabelVolume> open_run(std::unique_ptr<ByteSource> source, VolumeInfo info,
-                                      Hdf5Description& description) {
-  std::uint64_t offset = description.offset;
+std::unique_ptr<LabelVolume> open_run(std::shared_ptr<const ByteSource> source, VolumeInfo info,
+                                      const Hdf5Description& description) {
+  const std::uint64_t offset = description.offset;
+  // The voxels of a compact data set are no run of bytes in the file.
   if (description.layout == Hdf5Layout::kCompact) {
-    source = std::make_unique<HeldBytes>(std::move(description.bytes), source->name());
-    offset = 0;
+    source = written_to_file(std::as_bytes(std::span(description.bytes)), source->name());
   }
   check_payload(*source, info, offset);
   return std::make_unique<RawArrayVolume>(

@@ -21,7 +21,7 @@
 namespace mw::io {
 
 /// ERRORS: mw::Error(kInput) naming file, data set and filter unless all are ones that unfilter()
-/// knows: deflate, shuffle, Fletcher-32, LZF, Blosc, LZ4 and Zstandard.
+/// knows: deflate, shuffle, Fletcher-32, bzip2, LZF, Blosc, LZ4 and Zstandard.
 void check_filters(const Hdf5Description& description, std::string_view file);
 
 /// What a chunk is to become.

@@ -235,6 +235,7 @@ std::string lz4_of_hdf5(const std::string& plain) {
 TEST(Hdf5, FiltersOfPlugins) {
   const TempDir dir;
   const std::vector<std::pair<unsigned, Packer>> filters{
+      {307, [](const std::string& plain) { return bzip2_packed(plain); }},
       {32001, [](const std::string& plain) { return blosc_packed(plain, "zstd", 1, 2); }},
       {32004, lz4_of_hdf5},
       {32015, [](const std::string& plain) { return zstd_packed(plain); }}};
