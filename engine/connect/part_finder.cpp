@@ -149,16 +149,13 @@ void PartFinder::find() {
 void PartFinder::each_star(io::ExternalSort<6>& records,
                            const std::function<void(std::uint64_t, std::vector<StarTet>&)>& visit) {
   std::vector<StarTet> star;
-  std::uint64_t row = 0;
-  records.each([&](const StarRecord& record) {
-    if (!star.empty() && record[0] != row) {
-      visit(row, star);
-      star.clear();
+  records.each_group<1>([&](std::span<const StarRecord> same) {
+    star.clear();
+    for (const auto& [row, a, b, c, place, label] : same) {
+      star.push_back({{a, b, c}, place, label});
     }
-    row = record[0];
-    star.push_back({{record[1], record[2], record[3]}, record[4], record[5]});
+    visit(same[0][0], star);
   });
-  if (!star.empty()) visit(row, star);
 }
 
 void PartFinder::unite_star(std::uint64_t row, std::vector<StarTet>& star) {

@@ -16,8 +16,7 @@ void cut(io::ScratchMesh& mesh, const CutTask& task, const std::function<void()>
   for (int i = 0; i < task.times; ++i) {
     io::ScratchMesh next(mesh.folder());
     io::ScratchMeshSink into(next);
-    io::HalvedSink halved(into, mesh.folder(), task.curves, between);
-    mesh.copy_to(halved, between);
+    io::halve(mesh, into, task.curves, between);
     mesh = std::move(next);
   }
 }

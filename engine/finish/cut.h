@@ -7,7 +7,7 @@
 #include <functional>
 #include <optional>
 
-#include "io/mesh/grouped/halved_sink.h"
+#include "io/mesh/grouped/halved_mesh.h"
 #include "io/mesh/scratch_mesh.h"
 
 namespace mw::engine {

@@ -7,7 +7,6 @@
 #include <utility>
 
 #include "engine/finish/interface_shape.h"
-#include "io/mesh/merged_vertices.h"
 
 namespace mw::engine {
 namespace {
@@ -45,17 +44,6 @@ class TetFigures {
   std::vector<Int128> volumes6_;
 };
 
-/// Measures interfaces as they are where vertices were not doubled.
-audit::ShapeReport shape_of(io::ScratchMesh& mesh, std::size_t sort_bytes,
-                            const std::function<void()>& between) {
-  if (!mesh.header().record.has_doubles) return interface_shape(mesh, sort_bytes, between);
-  io::ScratchMesh single(mesh.folder());
-  io::ScratchMeshSink into(single);
-  io::MergedVertices merged(into, mesh.folder());
-  mesh.copy_to(merged, between);
-  return interface_shape(single, sort_bytes, between);
-}
-
 }  // namespace
 
 MeshFigures measure(io::ScratchMesh& mesh, const FiguresTask& task,
@@ -69,12 +57,12 @@ MeshFigures measure(io::ScratchMesh& mesh, const FiguresTask& task,
     }
   });
   tets.report(out);
-  out.shape = shape_of(mesh, task.sort_bytes, between);
+  out.shape = interface_shape(mesh, task.sort_bytes, between);
   return out;
 }
 
 std::uint64_t bytes_to_measure(const FiguresTask& task) {
-  return 3 * std::uint64_t{task.sort_bytes} + io::ScratchMesh::kBufferBytes;
+  return 2 * std::uint64_t{task.sort_bytes} + (std::uint64_t{1} << 20U);
 }
 
 }  // namespace mw::engine

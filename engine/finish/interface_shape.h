@@ -11,8 +11,9 @@
 
 namespace mw::engine {
 
-/// Measures the triangles between two labels, in double.  Calls between(), which may throw, often.
-/// Memory: twice sort_bytes.  Disk: 128 bytes a tet and 120 an interface triangle.
+/// Measures the triangles between two labels, in double, as they are where no vertex is doubled.
+/// Calls between(), which may throw, often.
+/// Memory: twice sort_bytes.  Disk: that of the mesh's facets, and 120 bytes a triangle.
 /// ERRORS: those of ScratchMesh.
 [[nodiscard]] audit::ShapeReport interface_shape(
     io::ScratchMesh& mesh, std::size_t sort_bytes, const std::function<void()>& between = [] {});

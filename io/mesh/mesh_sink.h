@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: The mwmesh authors
 // SPDX-License-Identifier: Apache-2.0
 // The one interface through which a finished mesh leaves the program, in bounded memory; and the
-// sinks that keep nothing and that pass a mesh on to two.
+// sink that keeps nothing.
 #pragma once
 
 #include <array>
@@ -18,6 +18,8 @@
 #include "kernels/core/label.h"
 
 namespace mw::io {
+
+class ScratchMesh;
 
 using TetRows = std::array<std::uint64_t, 4>;  ///< vertex rows; VTK-positive orientation
 
@@ -67,6 +69,9 @@ class MeshSink {
   /// REQUIRES: it follows each write_tets() if there are such names.
   virtual void write_values(std::span<const double> /*rows*/) {}
   virtual void finish() = 0;
+  /// Takes a whole mesh, from begin() to finish(); between(), which may throw, is called often.
+  /// A sink that needs the whole mesh looks at it where it lies.
+  virtual void take(ScratchMesh& mesh, const std::function<void()>& between);
   /// Returns the most bytes that it holds between begin() and finish(); 0 if it is no file.
   [[nodiscard]] virtual std::uint64_t buffer_bytes() const { return 0; }
 };
@@ -87,40 +92,6 @@ class NoSink : public MeshSink {
   void write_tets(std::span<const TetRows> /*tets*/,
                   std::span<const RawLabel> /*labels*/) override {}
   void finish() override {}
-};
-
-/// Passes everything on to both sinks.  REQUIRES: they outlive it.
-class TeeSink : public MeshSink {
- public:
-  TeeSink(MeshSink& first, MeshSink& second) : first_(first), second_(second) {}
-
-  void begin(const MeshHeader& header) override {
-    first_.begin(header);
-    second_.begin(header);
-  }
-  void write_vertices(std::span<const Position> positions) override {
-    first_.write_vertices(positions);
-    second_.write_vertices(positions);
-  }
-  void write_tets(std::span<const TetRows> tets, std::span<const RawLabel> labels) override {
-    first_.write_tets(tets, labels);
-    second_.write_tets(tets, labels);
-  }
-  void write_values(std::span<const double> rows) override {
-    first_.write_values(rows);
-    second_.write_values(rows);
-  }
-  void finish() override {
-    first_.finish();
-    second_.finish();
-  }
-  [[nodiscard]] std::uint64_t buffer_bytes() const override {
-    return first_.buffer_bytes() + second_.buffer_bytes();
-  }
-
- private:
-  MeshSink& first_;
-  MeshSink& second_;
 };
 
 }  // namespace mw::io

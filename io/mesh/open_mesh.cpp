@@ -23,6 +23,7 @@
 #include "io/mesh/mesh_sink.h"
 #include "io/mesh/nastran/bdf_writer.h"
 #include "io/mesh/pieces/pvtu.h"
+#include "io/mesh/scratch_mesh.h"
 #include "io/mesh/vtkhdf/vtkhdf.h"
 #include "io/mesh/vtu/vtu.h"
 #include "io/mesh/xdmf/xdmf_writer.h"
@@ -236,13 +237,9 @@ class FileSink : public MeshSink {
   explicit FileSink(File file) : file_(std::move(file)), below_(file_.open(file_.extras.wedges)) {}
 
   void begin(const MeshHeader& header) override {
-    if (header.record.cohesive.any()) take_wedges();
-    const bool is_curved = file_.element == Element::kCurvedTet10;
-    if (is_curved && header.record.has_doubles) refuse_curves(file_.path);
+    settle(header);
     MeshHeader written = header;
-    // Parts that are written as tets of their own do not hold the floor of the curved tets.
-    if (header.in_parts && !is_curved && written.record.promises)
-      written.record.promises->quality_floor = 0;
+    if (splits(header) && written.record.promises) written.record.promises->quality_floor = 0;
     below_->begin(written);
   }
   void write_vertices(std::span<const Position> positions) override {
@@ -253,10 +250,22 @@ class FileSink : public MeshSink {
   }
   void write_values(std::span<const double> rows) override { below_->write_values(rows); }
   void finish() override { below_->finish(); }
+  void take(ScratchMesh& mesh, const std::function<void()>& between) override {
+    if (splits(mesh.header())) return MeshSink::take(mesh, between);
+    settle(mesh.header());
+    below_->take(mesh, between);
+  }
   [[nodiscard]] std::uint64_t buffer_bytes() const override { return below_->buffer_bytes(); }
 
  private:
-  void take_wedges() {
+  /// True if parts of curved tets are written as tets of their own, which do not hold the floor.
+  [[nodiscard]] bool splits(const MeshHeader& header) const {
+    return header.in_parts && file_.element != Element::kCurvedTet10;
+  }
+  void settle(const MeshHeader& header) {
+    const bool is_curved = file_.element == Element::kCurvedTet10;
+    if (is_curved && header.record.has_doubles) refuse_curves(file_.path);
+    if (!header.record.cohesive.any()) return;
     require_place_for_wedges(file_.path, file_.element);
     if (file_.extras.deck) refuse_wedges_in_deck(file_.path);
     if (file_.extras.wedges) return;
@@ -269,10 +278,38 @@ class FileSink : public MeshSink {
 };
 
 /// Writes a mesh and the pairs of its nodes.
-class PairedSink : public TeeSink {
+class PairedSink : public MeshSink {
  public:
   PairedSink(std::unique_ptr<MeshSink> mesh, std::unique_ptr<MeshSink> pairs)
-      : TeeSink(*mesh, *pairs), mesh_(std::move(mesh)), pairs_(std::move(pairs)) {}
+      : mesh_(std::move(mesh)), pairs_(std::move(pairs)) {}
+
+  void begin(const MeshHeader& header) override {
+    mesh_->begin(header);
+    pairs_->begin(header);
+  }
+  void write_vertices(std::span<const Position> positions) override {
+    mesh_->write_vertices(positions);
+    pairs_->write_vertices(positions);
+  }
+  void write_tets(std::span<const TetRows> tets, std::span<const RawLabel> labels) override {
+    mesh_->write_tets(tets, labels);
+    pairs_->write_tets(tets, labels);
+  }
+  void write_values(std::span<const double> rows) override {
+    mesh_->write_values(rows);
+    pairs_->write_values(rows);
+  }
+  void finish() override {
+    mesh_->finish();
+    pairs_->finish();
+  }
+  void take(ScratchMesh& mesh, const std::function<void()>& between) override {
+    mesh_->take(mesh, between);
+    pairs_->take(mesh, between);
+  }
+  [[nodiscard]] std::uint64_t buffer_bytes() const override {
+    return mesh_->buffer_bytes() + pairs_->buffer_bytes();
+  }
 
  private:
   std::unique_ptr<MeshSink> mesh_;

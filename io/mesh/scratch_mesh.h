@@ -7,11 +7,13 @@
 #include <cstddef>
 #include <filesystem>
 #include <functional>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
 
 #include "io/file/scratch/scratch_file.h"
+#include "io/mesh/merged_vertices.h"
 #include "io/mesh/mesh_sink.h"
 
 namespace mw::io {
@@ -24,9 +26,25 @@ struct TetBatch {
   std::span<const double> values;  ///< as MeshSink::write_values() takes them
 };
 
+/// A tet that has a facet.
+struct FacetSide {
+  std::uint64_t tet = 0;
+  RawLabel label = 0;
+  std::uint32_t opposite = 0;    ///< its corner that is not in the facet, 0 to 3
+  std::uint32_t points_out = 0;  ///< 1 if the normal of the facet's rows does
+};
+
+/// A triangle that is not between two tets of one label.
+struct MeshFacet {
+  std::array<std::uint64_t, 3> rows{};  ///< ascending; of doubled vertices the first ones
+  std::array<FacetSide, 2> sides{};     ///< two of its tets, or one
+  std::uint64_t tets = 0;               ///< how many tets have it
+};
+
 /// A whole mesh outside of memory.
-/// Memory: kBufferBytes.
-/// Disk: 24 bytes a vertex, 40 a tet, and 8 for each of its values.
+/// Memory: kBufferBytes; with facets 256 KiB more, and 16 bytes for each vertex that was doubled.
+/// Disk: 24 bytes a vertex, 40 a tet, and 8 for each of its values.  Facets take 80 bytes each,
+/// and 160 a tet while they are made.
 /// ERRORS (all members): see ScratchFile.  Thread safety: none.
 class ScratchMesh {
  public:
@@ -45,6 +63,15 @@ class ScratchMesh {
   [[nodiscard]] Position vertex(std::uint64_t row) { return positions_[row]; }
   /// Returns the places of a tet's corners.  ERRORS: mw::Error(kInput) for a row without a vertex.
   [[nodiscard]] std::array<Position, 4> corners(const TetRows& tet);
+  /// Returns the first vertex at the place of a vertex, which is another one only where the header
+  /// tells of doubled vertices.  REQUIRES: facets() was called.
+  [[nodiscard]] std::uint64_t first_of(std::uint64_t row) const {
+    return doubles_ ? doubles_->first(row) : row;
+  }
+  /// Returns the facets, ascending by rows.  They are made when they are first asked for, by a sort
+  /// of this memory, which pairs the faces of tets; between(), which may throw, is called often.
+  [[nodiscard]] ScratchFile& facets(
+      std::size_t sort_bytes, const std::function<void()>& between = [] {});
 
   void add_vertices(std::span<const Position> positions);
   /// REQUIRES: as many labels as tets.
@@ -65,9 +92,11 @@ class ScratchMesh {
   }
   /// Calls visit on all tets in their order, at most kBatchTets at once.
   void each_tet_batch(const std::function<void(const TetBatch&)>& visit);
-  /// Passes the mesh on, from begin() to finish(); calls between(), which may throw, often.
+  /// Gives the mesh to a sink (MeshSink::take()).
   void copy_to(
-      MeshSink& sink, const std::function<void()>& between = [] {});
+      MeshSink& sink, const std::function<void()>& between = [] {}) {
+    sink.take(*this, between);
+  }
 
  private:
   std::filesystem::path folder_;
@@ -76,6 +105,8 @@ class ScratchMesh {
   ScratchFile tets_;
   ScratchFile labels_;
   ScratchFile values_;
+  std::optional<DoubledVertices> doubles_;
+  std::optional<ScratchFile> facets_;
 };
 
 /// Fills a mesh.  REQUIRES: the mesh is empty, and outlives it.

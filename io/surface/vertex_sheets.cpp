@@ -21,21 +21,6 @@ EdgeRows edge_of(std::uint64_t a, std::uint64_t b) {
   return {std::min(a, b), std::max(a, b)};
 }
 
-/// Calls visit(edge, its records) on every edge, ascending.  Memory: the records of one edge.
-template <class Visit>
-void each_edge(EdgeRecords& records, Visit visit) {
-  std::vector<EdgeRecords::Record> same;
-  const auto close = [&] {
-    if (!same.empty()) visit(EdgeRows{same[0][0], same[0][1]}, same);
-    same.clear();
-  };
-  records.each([&](const EdgeRecords::Record& record) {
-    if (!same.empty() && (record[0] != same[0][0] || record[1] != same[0][1])) close();
-    same.push_back(record);
-  });
-  close();
-}
-
 SharedEdges find_shared_edges(const SurfaceSource& source, const ShellPlan& plan) {
   EdgeRecords records(source.folder, kSortBytes);
   for_each_facet(source.mesh, plan, [&](const Triangle& rows) {
@@ -46,11 +31,13 @@ SharedEdges find_shared_edges(const SurfaceSource& source, const ShellPlan& plan
     }
   });
   SharedEdges shared;
-  each_edge(records, [&](const EdgeRows& edge, const std::vector<EdgeRecords::Record>& facets) {
+  records.each_group<2>([&](std::span<const EdgeRecords::Record> facets) {
     const auto forward = std::count_if(facets.begin(), facets.end(),
                                        [](const auto& record) { return record[3] == 1; });
     if (forward <= 1 && std::ssize(facets) - forward <= 1) return;
-    for (const auto& record : facets) shared[edge].emplace(record[2], record[3] == 1);
+    for (const auto& [low, high, third, runs_forward] : facets) {
+      shared[{low, high}].emplace(third, runs_forward == 1);
+    }
   });
   return shared;
 }
@@ -259,17 +246,13 @@ void add_corners(const SurfaceSource& source, const ShellPlan& plan, Corners& co
 /// Calls use(star) on every star, ascending by row; its sheets are not known yet.
 template <class Use>
 void each_star(Corners& corners, Use use) {
-  Star star;
-  const auto close = [&] {
-    if (!star.corners.empty()) use(star);
-    star.corners.clear();
-  };
-  corners.each([&](const Corners::Record& record) {
-    if (record[0] != star.row) close();
-    star.row = record[0];
-    star.corners.push_back({.to = record[1], .from = record[2], .corner = record[3]});
+  corners.each_group<1>([&](std::span<const Corners::Record> same) {
+    Star star{.row = same[0][0], .corners = {}};
+    for (const auto& [row, to, from, corner] : same) {
+      star.corners.push_back({.to = to, .from = from, .corner = corner});
+    }
+    use(star);
   });
-  close();
 }
 
 }  // namespace
@@ -280,15 +263,15 @@ EdgeStrands find_strands(const SurfaceSource& source, const ShellPlan& plan) {
   if (shared.empty()) return strands;
   EdgeRecords tets(source.folder, kSortBytes);
   add_tets(source.mesh, inside_of(source.mesh, plan.parts.front()), shared, tets);
-  each_edge(tets, [&](const EdgeRows& edge, const std::vector<EdgeRecords::Record>& around) {
-    const auto found = shared.find(edge);
+  tets.each_group<2>([&](std::span<const EdgeRecords::Record> around) {
+    const auto found = shared.find({around[0][0], around[0][1]});
     if (found == shared.end()) return;
     Link link;
     for (const auto& record : around) {
       link[record[2]].push_back(record[3]);
       link[record[3]].push_back(record[2]);
     }
-    strands.emplace(edge, strands_of(found->second, link));
+    strands.emplace(found->first, strands_of(found->second, link));
   });
   return strands;
 }

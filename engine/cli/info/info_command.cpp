@@ -50,10 +50,9 @@ MeshInfo look_at_mesh(const InfoJob& job) {
   io::MergedVertices merged(into_single, folder);
   stored.copy_to(merged);
   io::GroupedSink grouped(folder, nullptr);  // it checks rows before others look up their vertices
-  single.copy_to(grouped);
+  io::GroupedMesh& mesh = grouped.view(single);
   io::DigestSink digest(folder);
   stored.copy_to(digest);
-  io::GroupedMesh& mesh = grouped.mesh();
   return {.file = job.file.string(),
           .vertices = mesh.vertex_count() + merged.merged(),
           .tets = mesh.tet_count(),

@@ -7,6 +7,7 @@
 #include <array>
 #include <optional>
 #include <queue>
+#include <span>
 #include <vector>
 
 #include "io/file/scratch/scratch_file.h"
@@ -45,6 +46,22 @@ class ExternalSort {
     spill();
     records_ = std::vector<Record>();
     merge(visit);
+  }
+
+  /// Calls visit(std::span<const Record>) on each group of records that agree in their first `Keys`
+  /// words, ascending.  REQUIRES: as for each().  Memory: the records of one group.
+  template <std::size_t Keys, class Visit>
+  void each_group(Visit visit) {
+    std::vector<Record> group;
+    each([&](const Record& record) {
+      if (!group.empty() &&
+          !std::equal(group[0].begin(), group[0].begin() + Keys, record.begin())) {
+        visit(std::span<const Record>(group));
+        group.clear();
+      }
+      group.push_back(record);
+    });
+    if (!group.empty()) visit(std::span<const Record>(group));
   }
 
  private:
@@ -93,6 +110,7 @@ class ExternalSort {
       if (run->at < run->buffer.size() || refill(*run)) queue.push(run);
     }
     runs_ = std::vector<Run>();
+    file_.reset();
   }
 
   std::filesystem::path folder_;

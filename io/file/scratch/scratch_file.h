@@ -159,8 +159,11 @@ class PagedArray {
   }
 
   [[nodiscard]] std::uint64_t size() const { return size_; }
-  /// REQUIRES: at < size(), also for change().
+  /// REQUIRES: at < size(), also for set() and change().
   [[nodiscard]] Record get(std::uint64_t at) { return page_of(at).records[at % kPageRecords]; }
+  void set(std::uint64_t at, const Record& record) {
+    change(at, [&](Record& place) { place = record; });
+  }
   /// Calls change(Record&).  REQUIRES: change uses no member of this array.
   template <class Change>
   void change(std::uint64_t at, Change change) {

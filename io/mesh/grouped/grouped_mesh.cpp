@@ -12,9 +12,8 @@ namespace mw::io {
 
 GroupedMesh::GroupedMesh(const std::filesystem::path& folder)
     : folder_(folder),
-      vertices_(folder),
-      tets_(folder),
-      values_(folder),
+      tets_(folder, 0),
+      values_(folder, 0),
       facets_(folder),
       facet_groups_(folder),
       wedges_(folder),
@@ -23,10 +22,10 @@ GroupedMesh::GroupedMesh(const std::filesystem::path& folder)
 
 Position GroupedMesh::node(std::uint64_t row) {
   if (curved_) return curved_->get(row);
-  if (row < vertices_.size()) return vertices_[row];
-  const auto [a, b] = edges_[row - vertices_.size()];
-  const Position p = vertices_[a];
-  const Position q = vertices_[b];
+  if (row < vertex_count()) return source_->vertex(row);
+  const auto [a, b] = edges_[row - vertex_count()];
+  const Position p = source_->vertex(a);
+  const Position q = source_->vertex(b);
   return {p[0] + (q[0] - p[0]) / 2, p[1] + (q[1] - p[1]) / 2, p[2] + (q[2] - p[2]) / 2};
 }
 
@@ -38,7 +37,7 @@ Label GroupedMesh::label_of(std::uint64_t tet) const {
 }
 
 std::array<std::uint64_t, 3> GroupedMesh::facet_middles(const Facet& facet) {
-  const TetRows corners = tets_[facet.tet];
+  const TetRows corners = tet(facet.tet);
   const std::array<std::uint64_t, 6> rows = middles_[facet.tet];
   std::array<std::uint64_t, 3> out{};
   for (std::size_t side = 0; side < 3; ++side) {
@@ -110,7 +109,7 @@ Side BoxSides::side_of(const std::array<Position, 3>& corners) const {
 
 NodeRows GroupedMesh::tet_nodes(std::uint64_t number) {
   NodeRows out;
-  out.add(tets_[number]);
+  out.add(tet(number));
   if (has_middles(element_)) out.add(middles_[number]);
   return out;
 }
@@ -119,8 +118,8 @@ Facet GroupedMesh::of_second(const Facet& facet) {
   Facet out = facet;
   std::swap(out.tet, out.second_tet);
   std::swap(out.opposite, out.second_opposite);
-  const TetRows tet = tets_[out.tet];
-  for (std::size_t i = 0; i < 3; ++i) out.rows[i] = tet[kTetFacets[out.opposite][i]];
+  const TetRows corners = tet(out.tet);
+  for (std::size_t i = 0; i < 3; ++i) out.rows[i] = corners[kTetFacets[out.opposite][i]];
   return out;
 }
 

@@ -20,6 +20,7 @@
 #include "io/mesh/grouped/box_sides.h"
 #include "io/mesh/mesh_record.h"
 #include "io/mesh/mesh_sink.h"
+#include "io/mesh/scratch_mesh.h"
 #include "kernels/core/tet_nodes.h"
 
 namespace mw::io {
@@ -124,10 +125,10 @@ class FacetGroups {
   mutable PagedFile<FacetGroup> groups_;  ///< reading fills its pages
 };
 
-/// Everything waits in temporary files, so memory (8 MiB for each list that is looked into) does
-/// not grow with the mesh.  The first rows of nodes are the vertices as they came, the next ones
-/// the middles of edges, which ascend by their ends.  GroupedSink makes the mesh, which can be
-/// asked in any order and is fastest in row order.
+/// A view of a mesh in temporary files, with lists of its own there, so that memory (8 MiB for each
+/// list that is looked into) does not grow with the mesh.  The first rows of nodes are the vertices
+/// as they came, the next ones the middles of edges, which ascend by their ends.  GroupedSink makes
+/// the mesh, which can be asked in any order and is fastest in row order.
 /// ERRORS (all members that look something up): see ScratchFile.  Thread safety: none.
 class GroupedMesh {
  public:
@@ -149,15 +150,15 @@ class GroupedMesh {
   [[nodiscard]] double least_volume6() const { return least_volume6_; }
 
   /// Return the number of vertices, and of nodes: where tets have middles each edge adds one.
-  [[nodiscard]] std::uint64_t vertex_count() const { return vertices_.size(); }
-  [[nodiscard]] std::uint64_t node_count() const { return vertices_.size() + edges_.size(); }
+  [[nodiscard]] std::uint64_t vertex_count() const { return source_->vertex_count(); }
+  [[nodiscard]] std::uint64_t node_count() const { return vertex_count() + edges_.size(); }
   /// Returns the position of a node.  REQUIRES: row < node_count().
   [[nodiscard]] Position node(std::uint64_t row);
 
   /// Tets are numbered by label, and in a label as they came.  Corners are VTK-positive: the normal
   /// of the first three points at the fourth.  (Those of a flat tet are as they came.)
   [[nodiscard]] std::uint64_t tet_count() const { return tets_.size(); }
-  [[nodiscard]] TetRows tet(std::uint64_t number) { return tets_[number]; }
+  [[nodiscard]] TetRows tet(std::uint64_t number) { return tets_.get(number); }
   /// Returns the numbers of each label's tets, by rank of label.
   [[nodiscard]] const std::vector<RowRange>& label_tets() const { return label_tets_; }
   [[nodiscard]] Label label_of(std::uint64_t tet) const;
@@ -166,7 +167,7 @@ class GroupedMesh {
   [[nodiscard]] NodeRows tet_nodes(std::uint64_t number);
   /// Returns the tet's number under the name header().values[column].
   [[nodiscard]] double value(std::uint64_t tet, std::size_t column) {
-    return values_[tet * header_.values.size() + column];
+    return values_.get(tet * header_.values.size() + column);
   }
 
   [[nodiscard]] const FacetGroups& facet_groups() const { return facet_groups_; }
@@ -202,9 +203,9 @@ class GroupedMesh {
   double largest_coordinate_ = 0;
   double shortest_square_ = std::numeric_limits<double>::infinity();
   double least_volume6_ = std::numeric_limits<double>::infinity();
-  PagedFile<Position> vertices_;
-  PagedFile<TetRows> tets_;
-  PagedFile<double> values_;  ///< by tet, one for each name
+  ScratchMesh* source_ = nullptr;  ///< has the vertices
+  PagedArray<TetRows> tets_;
+  PagedArray<double> values_;  ///< by tet, one for each name
   std::vector<RowRange> label_tets_;
   PagedFile<Facet> facets_;
   FacetGroups facet_groups_;

@@ -6,18 +6,12 @@
 #include <algorithm>
 
 #include "io/file/errors.h"
-#include "io/mesh/tet_record.h"
 #include "kernels/core/assert.h"
 #include "kernels/core/tet_nodes.h"
 #include "kernels/core/vector3.h"
 
 namespace mw::io {
 namespace {
-
-/// Returns the rows of a face, by which the two tets of a triangle find each other.
-std::array<std::uint64_t, 3> key_of(const std::array<std::uint64_t, 4>& face) {
-  return {face[0], face[1], face[2]};
-}
 
 std::array<std::uint64_t, 3> facet_rows(const TetRows& tet, std::uint64_t opposite) {
   const auto& corners = kTetFacets[opposite];
@@ -28,13 +22,9 @@ std::array<std::uint64_t, 3> facet_rows(const TetRows& tet, std::uint64_t opposi
 
 GroupedSink::GroupedSink(const std::filesystem::path& folder, std::unique_ptr<GroupedWriter> writer,
                          Element element, std::optional<CurveRule> curves)
-    : folder_(folder),
-      mesh_(folder),
-      tets_(folder),
-      values_(folder),
-      writer_(std::move(writer)),
-      curves_(curves) {
+    : folder_(folder), mesh_(folder), own_(folder), writer_(std::move(writer)), curves_(curves) {
   mesh_.element_ = element;
+  mesh_.source_ = &own_;
   if (element == Element::kCurvedTet10) curves_.emplace();
 }
 
@@ -46,51 +36,51 @@ void GroupedSink::begin(const MeshHeader& header) {
   }
   mesh_.header_ = header;
   mesh_.header_.record.curved = mesh_.element_ == Element::kCurvedTet10;
+  auto& promises = mesh_.header_.record.promises;
   if (header.in_parts && mesh_.header_.record.curved) {
     parts_.emplace(folder_, header.values.size());
-    given_middles_.emplace(folder_);
     mesh_.header_.in_parts = false;
     mesh_.header_.tets /= kTetParts.size();
-    return;
-  }
-  auto& promises = mesh_.header_.record.promises;
-  if (mesh_.header_.record.curved && promises) {
+  } else if (mesh_.header_.record.curved && promises) {
     promises->quality_floor *= kCurvedFloor;
     promises->max_distance.reset();
   }
-  if (header.record.has_doubles) doubles_.emplace(folder_, kSortBytes);
+  own_.header() = mesh_.header_;
 }
 
 void GroupedSink::write_vertices(std::span<const Position> positions) {
   if (parts_ && !parts_->is_joined()) return parts_->add_vertices(positions);
-  for (const Position& p : positions) {
-    if (mesh_.vertices_.size() == 0) lo_ = hi_ = p;
-    for (std::size_t k = 0; k < 3; ++k) {
-      mesh_.largest_coordinate_ = std::max(mesh_.largest_coordinate_, std::abs(p[k]));
-      lo_[k] = std::min(lo_[k], p[k]);
-      hi_[k] = std::max(hi_[k], p[k]);
-    }
-    mesh_.vertices_.append(p);
-  }
-  if (doubles_) doubles_->add(positions);
+  own_.add_vertices(positions);
 }
 
 void GroupedSink::write_tets(std::span<const TetRows> tets, std::span<const RawLabel> labels) {
   MW_ASSERT(tets.size() == labels.size());
   if (parts_ && !parts_->is_joined()) return parts_->add(tets, labels);
-  append_tets(tets_, tets, labels);
-  labels_.insert(labels);
+  own_.add_tets(tets, labels);
 }
 
 void GroupedSink::write_values(std::span<const double> rows) {
   if (parts_ && !parts_->is_joined()) return parts_->add_values(rows);
-  for (const double value : rows) values_.append(value);
+  own_.add_values(rows);
 }
 
 void GroupedSink::finish() {
   if (parts_) parts_->join(*this);
-  group();
+  group([] {});
   if (writer_) writer_->write(mesh_);
+}
+
+void GroupedSink::take(ScratchMesh& mesh, const std::function<void()>& between) {
+  const bool is_joined = mesh.header().in_parts && mesh_.element_ == Element::kCurvedTet10;
+  if (!writer_ || is_joined) return MeshSink::take(mesh, between);
+  writer_->write(view(mesh, between));
+}
+
+GroupedMesh& GroupedSink::view(ScratchMesh& mesh, const std::function<void()>& between) {
+  begin(mesh.header());
+  mesh_.source_ = &mesh;
+  group(between);
+  return mesh_;
 }
 
 std::uint64_t GroupedSink::buffer_bytes() const {
@@ -100,18 +90,11 @@ std::uint64_t GroupedSink::buffer_bytes() const {
   return kOfCorners + (has_middles(mesh_.element_) ? kOfMiddles : 0) + (curves_ ? kOfCurves : 0);
 }
 
-void GroupedSink::group() {
-  check_sink_counts("mesh", mesh_.header_, tets_.size() / sizeof(TetRecord));
-  mesh_.table_ = LabelTable(labels_.values(), mesh_.header_.labels_signed);
-  find_box();
-  if (doubles_) doubles_->find();
-  Facets facets(folder_, kSortBytes);
-  {
-    Faces faces(folder_, kSortBytes);
-    sort_tets(faces);
-    pair_faces(faces, facets);
-  }
-  number_facets(facets);
+void GroupedSink::group(const std::function<void()>& between) {
+  check_sink_counts("mesh", mesh_.header_, source().tet_count());
+  look_at_vertices();
+  look_at_labels();
+  number_facets(sort_facets(place_tets(between), between));
   find_wedges();
   if (has_middles(mesh_.element_)) find_middles();
   if (parts_) {
@@ -124,62 +107,74 @@ void GroupedSink::group() {
 /// Returns the places of all nodes as they came.
 PagedArray<Position> GroupedSink::given_nodes() {
   PagedArray<Position> out(folder_, mesh_.node_count());
-  const auto put = [&out](std::uint64_t row, const Position& at) {
-    out.change(row, [&at](Position& place) { place = at; });
-  };
-  for (std::uint64_t v = 0; v < mesh_.vertices_.size(); ++v) put(v, mesh_.vertices_[v]);
-  for (std::uint64_t tet = 0; tet < mesh_.tets_.size(); ++tet) {
+  for (std::uint64_t v = 0; v < mesh_.vertex_count(); ++v) out.set(v, source().vertex(v));
+  for (std::uint64_t tet = 0; tet < mesh_.tet_count(); ++tet) {
     const std::array<std::uint64_t, 6> rows = mesh_.middles_[tet];
-    const SixPlaces places = (*given_middles_)[tet];
-    for (std::size_t e = 0; e < rows.size(); ++e) put(rows[e], places[e]);
+    const SixPlaces places = given_middles_->get(tet);
+    for (std::size_t e = 0; e < rows.size(); ++e) out.set(rows[e], places[e]);
   }
   return out;
 }
 
-void GroupedSink::find_box() {
-  if (mesh_.header_.record.box) {
-    mesh_.box_ = *mesh_.header_.record.box;
-    return;
-  }
-  mesh_.box_.origin = lo_;
-  for (std::size_t k = 0; k < 3; ++k) mesh_.box_.edges[k][k] = hi_[k] - lo_[k];
-}
-
-/// Sorts tets by label, and in a label as they came, and adds their faces.
-void GroupedSink::sort_tets(Faces& faces) {
-  using Record = std::array<std::uint64_t, 6>;
-  ExternalSort<6> tets(folder_, kSortBytes);
-  std::uint64_t number = 0;
-  tets_.each_batch<TetRecord>([&](std::span<const TetRecord> batch) {
-    for (const auto& [a, b, c, d, label] : batch) {
-      tets.add({mesh_.table_.dense(label), number++, a, b, c, d});
+void GroupedSink::look_at_vertices() {
+  Position lo{}, hi{};
+  if (mesh_.vertex_count() > 0) lo = hi = source().vertex(0);
+  source().each_vertex_batch([&](std::span<const Position> batch) {
+    for (const Position& p : batch) {
+      for (std::size_t k = 0; k < 3; ++k) {
+        mesh_.largest_coordinate_ = std::max(mesh_.largest_coordinate_, std::abs(p[k]));
+        lo[k] = std::min(lo[k], p[k]);
+        hi[k] = std::max(hi[k], p[k]);
+      }
     }
   });
-  mesh_.label_tets_.resize(mesh_.table_.size());
-  tets.each([&](const Record& record) {
-    RowRange& range = mesh_.label_tets_[record[0]];
-    if (range.size() == 0) range = {mesh_.tets_.size(), mesh_.tets_.size()};
-    ++range.end;
-    place_tet({record[2], record[3], record[4], record[5]}, faces);
-    place_values(record[1]);
-    if (parts_) given_middles_->append(parts_->middles(record[1]));
-  });
+  mesh_.box_.origin = lo;
+  for (std::size_t k = 0; k < 3; ++k) mesh_.box_.edges[k][k] = hi[k] - lo[k];
+  mesh_.box_ = mesh_.header_.record.box.value_or(mesh_.box_);
 }
 
-void GroupedSink::place_values(std::uint64_t tet) {
+/// Finds which labels there are, and where the tets of each begin and end.
+void GroupedSink::look_at_labels() {
+  LabelSet labels;
+  source().each_tet_batch([&](const TetBatch& batch) { labels.insert(batch.labels); });
+  mesh_.table_ = LabelTable(labels.values(), mesh_.header_.labels_signed);
+  std::vector<RowRange>& ranges = mesh_.label_tets_;
+  ranges.resize(mesh_.table_.size());
+  source().each_tet_batch([&](const TetBatch& batch) {
+    for (const RawLabel label : batch.labels) ++ranges[mesh_.table_.dense(label)].end;
+  });
+  for (std::size_t rank = 1; rank < ranges.size(); ++rank) {
+    ranges[rank].begin = ranges[rank - 1].end;
+    ranges[rank].end += ranges[rank].begin;
+  }
+}
+
+/// Places tets by label, and in a label as they came.
+GroupedSink::Numbers GroupedSink::place_tets(const std::function<void()>& between) {
   const std::size_t columns = mesh_.header_.values.size();
-  for (std::size_t i = 0; i < columns; ++i) mesh_.values_.append(values_[tet * columns + i]);
+  mesh_.tets_ = PagedArray<TetRows>(folder_, source().tet_count());
+  mesh_.values_ = PagedArray<double>(folder_, source().tet_count() * columns);
+  if (parts_) given_middles_.emplace(folder_, source().tet_count());
+  std::vector<std::uint64_t> next;
+  for (const RowRange& range : mesh_.label_tets_) next.push_back(range.begin);
+  Numbers numbers(folder_);
+  source().each_tet_batch([&](const TetBatch& batch) {
+    between();
+    for (std::size_t t = 0; t < batch.tets.size(); ++t) {
+      const std::uint64_t number = next[mesh_.table_.dense(batch.labels[t])]++;
+      numbers.append(number << 1 | (place_tet(batch.tets[t], number) ? 1U : 0U));
+      for (std::size_t i = 0; i < columns; ++i) {
+        mesh_.values_.set(number * columns + i, batch.values[t * columns + i]);
+      }
+      if (parts_) given_middles_->set(number, parts_->middles(batch.first + t));
+    }
+  });
+  return numbers;
 }
 
-void GroupedSink::place_tet(TetRows tet, Faces& faces) {
-  for (const std::uint64_t row : tet) {
-    if (row >= mesh_.vertices_.size()) {
-      throw Error(ErrorKind::kInput,
-                  text("a tet names vertex ", row, " of ", mesh_.vertices_.size()));
-    }
-  }
-  std::array<Position, 4> corners{};
-  for (std::size_t i = 0; i < 4; ++i) corners[i] = mesh_.vertices_[tet[i]];
+/// Returns true if the tet's corners 2 and 3 were swapped.
+bool GroupedSink::place_tet(TetRows tet, std::uint64_t number) {
+  const std::array<Position, 4> corners = source().corners(tet);
   for (const auto& [from, to] : kTetEdges) {
     const Position edge = minus(corners[to], corners[from]);
     const double square = dot(edge, edge);
@@ -188,53 +183,47 @@ void GroupedSink::place_tet(TetRows tet, Faces& faces) {
   const double volume = volume6(corners[0], corners[1], corners[2], corners[3]);
   mesh_.least_volume6_ = std::min(mesh_.least_volume6_, std::abs(volume));
   if (volume < 0) std::swap(tet[2], tet[3]);
-  const std::uint64_t number = mesh_.tets_.size();
-  mesh_.tets_.append(tet);
-  for (std::uint64_t opposite = 0; opposite < 4; ++opposite) {
-    std::array<std::uint64_t, 3> rows = facet_rows(tet, opposite);
-    for (std::uint64_t& row : rows) row = first_of(row);
-    std::sort(rows.begin(), rows.end());
-    faces.add({rows[0], rows[1], rows[2], number << 2 | opposite});
-  }
+  mesh_.tets_.set(number, tet);
+  return volume < 0;
 }
 
-void GroupedSink::pair_faces(Faces& faces, Facets& facets) {
-  std::array<FaceRecord, 2> sharing{};
-  std::size_t count = 0;
-  const auto close = [&] {
-    if (count > 0) add_facet(std::span(sharing).first(count), facets);
-    count = 0;
-  };
-  faces.each([&](const FaceRecord& face) {
-    if (count > 0 && key_of(face) != key_of(sharing[0])) close();
-    if (count == 2) {
-      throw Error(ErrorKind::kInput,
-                  text("three tets share the triangle of vertices ", face[0], ", ", face[1],
-                       " and ", face[2], ": this is no mesh of a solid, and has no facets"));
-    }
-    sharing[count++] = face;
+GroupedSink::Facets GroupedSink::sort_facets(Numbers numbers,
+                                             const std::function<void()>& between) {
+  ScratchFile& facets = source().facets(kSortBytes, between);
+  Facets out(folder_, kSortBytes);
+  facets.each_batch<MeshFacet>([&](std::span<const MeshFacet> batch) {
+    for (const MeshFacet& facet : batch) out.add(record_of(facet, numbers));
   });
-  close();
+  return out;
 }
 
-void GroupedSink::add_facet(std::span<const FaceRecord> sharing, Facets& facets) {
-  const Label one = mesh_.label_of(sharing[0][3] >> 2);
-  if (sharing.size() == 1) {
-    std::array<Position, 3> corners{};
-    for (std::size_t i = 0; i < 3; ++i) corners[i] = mesh_.vertices_[sharing[0][i]];
-    const auto side = static_cast<std::uint64_t>(BoxSides(mesh_.box_).side_of(corners));
-    facets.add({side << 32 | one, kExterior, sharing[0][3], 0});
-    return;
+GroupedSink::Facets::Record GroupedSink::record_of(const MeshFacet& facet, Numbers& numbers) {
+  const auto& [a, b, c] = facet.rows;
+  if (facet.tets > 2) {
+    throw Error(ErrorKind::kInput,
+                text("three tets share the triangle of vertices ", a, ", ", b, " and ", c,
+                     ": this is no mesh of a solid, and has no facets"));
   }
-  const Label other = mesh_.label_of(sharing[1][3] >> 2);
-  if (one == other) return;
-  const std::size_t lower = one < other ? 0 : 1;
+  // 4 * tet + opposite corner, of which 2 and 3 may have been swapped.
+  const auto face_of = [&](const FacetSide& side) {
+    const std::uint64_t number = numbers[side.tet];
+    const bool is_swapped = (number & 1) != 0 && side.opposite >= 2;
+    return number >> 1 << 2 | (is_swapped ? side.opposite ^ 1U : side.opposite);
+  };
+  const auto& [one, other] = facet.sides;
+  const Label first = mesh_.table_.dense(one.label);
+  if (facet.tets == 1) {
+    const BoxSides sides(mesh_.box_);
+    const Side side = sides.side_of({source().vertex(a), source().vertex(b), source().vertex(c)});
+    return {static_cast<std::uint64_t>(side) << 32 | first, kExterior, face_of(one), 0};
+  }
   // Side::kInterface is 0.
-  facets.add(
-      {std::min(one, other), std::max(one, other), sharing[lower][3], sharing[1 - lower][3]});
+  const Label second = mesh_.table_.dense(other.label);
+  if (first < second) return {first, second, face_of(one), face_of(other)};
+  return {second, first, face_of(other), face_of(one)};
 }
 
-void GroupedSink::number_facets(Facets& facets) {
+void GroupedSink::number_facets(Facets facets) {
   FacetGroup group;
   facets.each([&](const Facets::Record& record) {
     const auto side = static_cast<Side>(record[0] >> 32);
@@ -248,7 +237,7 @@ void GroupedSink::number_facets(Facets& facets) {
     ++group.facets.end;
     const std::uint64_t tet = record[2] >> 2;
     const std::uint64_t opposite = record[2] & 3;
-    mesh_.facets_.append({.rows = facet_rows(mesh_.tets_[tet], opposite),
+    mesh_.facets_.append({.rows = facet_rows(mesh_.tet(tet), opposite),
                           .tet = tet,
                           .opposite = opposite,
                           .second_tet = record[3] >> 2,
@@ -278,7 +267,7 @@ void GroupedSink::add_wedges(const FacetGroup& group, bool is_first_bottom) {
     Wedge wedge{.bottom = bottom.rows, .bottom_tet = bottom.tet, .top_tet = top.tet};
     for (std::size_t i = 0; i < 3; ++i) {
       const auto above = std::find_if(top.rows.begin(), top.rows.end(), [&](std::uint64_t row) {
-        return first_of(row) == first_of(bottom.rows[i]);
+        return source().first_of(row) == source().first_of(bottom.rows[i]);
       });
       MW_ASSERT(above != top.rows.end());
       wedge.top[i] = *above;
@@ -292,20 +281,17 @@ void GroupedSink::add_wedges(const FacetGroup& group, bool is_first_bottom) {
 /// Numbers the edges in the order of their rows, then gives each tet the numbers of its six.
 void GroupedSink::find_middles() {
   ExternalSort<3> edges(folder_, kSortBytes);  // two ascending rows, 8 * tet + edge
-  for (std::uint64_t number = 0; number < mesh_.tets_.size(); ++number) {
-    const TetRows tet = mesh_.tets_[number];
+  for (std::uint64_t number = 0; number < mesh_.tet_count(); ++number) {
+    const TetRows tet = mesh_.tet(number);
     for (std::uint64_t e = 0; e < kTetEdges.size(); ++e) {
       const auto [low, high] = std::minmax(tet[kTetEdges[e][0]], tet[kTetEdges[e][1]]);
       edges.add({low, high, number << 3 | e});
     }
   }
   ExternalSort<2> uses(folder_, kSortBytes);  // 8 * tet + edge, row of the middle
-  std::array<std::uint64_t, 2> last{};
-  edges.each([&](const std::array<std::uint64_t, 3>& record) {
-    const std::array<std::uint64_t, 2> corners{record[0], record[1]};
-    if (mesh_.edges_.size() == 0 || corners != last) mesh_.edges_.append(corners);
-    last = corners;
-    uses.add({record[2], mesh_.node_count() - 1});
+  edges.each_group<2>([&](std::span<const std::array<std::uint64_t, 3>> same) {
+    for (const auto& [low, high, use] : same) uses.add({use, mesh_.node_count()});
+    mesh_.edges_.append({same[0][0], same[0][1]});
   });
   std::array<std::uint64_t, 6> rows{};
   uses.each([&](const std::array<std::uint64_t, 2>& use) {

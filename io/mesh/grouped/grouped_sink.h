@@ -8,7 +8,7 @@
 #include "io/mesh/grouped/curved_nodes.h"
 #include "io/mesh/grouped/curved_parts.h"
 #include "io/mesh/grouped/grouped_mesh.h"
-#include "io/mesh/merged_vertices.h"
+#include "io/mesh/scratch_mesh.h"
 
 namespace mw::io {
 
@@ -33,31 +33,34 @@ class GroupedSink : public MeshSink {
   void write_tets(std::span<const TetRows> tets, std::span<const RawLabel> labels) override;
   void write_values(std::span<const double> rows) override;
   void finish() override;
+  /// Copies the mesh only where there is no writer.
+  void take(ScratchMesh& mesh, const std::function<void()>& between) override;
   [[nodiscard]] std::uint64_t buffer_bytes() const override;
 
+  /// Returns a view of a mesh that outlives the sink, in the place of begin() to finish().
+  [[nodiscard]] GroupedMesh& view(
+      ScratchMesh& mesh, const std::function<void()>& between = [] {});
   /// REQUIRES: finished.
   [[nodiscard]] GroupedMesh& mesh() { return mesh_; }
 
  private:
   static constexpr std::size_t kSortBytes = 8 << 20;
-  /// Three ascending rows, the first one for doubled vertices, and 4 * tet + opposite corner.
-  using FaceRecord = std::array<std::uint64_t, 4>;
-  using Faces = ExternalSort<4>;
   /// Side << 32 | first, second, 4 * tet + opposite corner of the first, and of the second.
   using Facets = ExternalSort<4>;
 
-  /// Returns the row of the vertex that `row` doubles, or `row`.
-  [[nodiscard]] std::uint64_t first_of(std::uint64_t row) const {
-    return doubles_ ? doubles_->first(row) : row;
-  }
-  void group();
-  void find_box();
-  void sort_tets(Faces& faces);
-  void place_tet(TetRows tet, Faces& faces);
-  void place_values(std::uint64_t tet);
-  void pair_faces(Faces& faces, Facets& facets);
-  void add_facet(std::span<const FaceRecord> sharing, Facets& facets);
-  void number_facets(Facets& facets);
+  /// By tet as it came: twice its number in the mesh, and 1 more if its corners 2 and 3 were
+  /// swapped.
+  using Numbers = PagedFile<std::uint64_t>;
+
+  [[nodiscard]] ScratchMesh& source() { return *mesh_.source_; }
+  void group(const std::function<void()>& between);
+  void look_at_vertices();
+  void look_at_labels();
+  [[nodiscard]] Numbers place_tets(const std::function<void()>& between);
+  [[nodiscard]] bool place_tet(TetRows tet, std::uint64_t number);
+  [[nodiscard]] Facets sort_facets(Numbers numbers, const std::function<void()>& between);
+  [[nodiscard]] Facets::Record record_of(const MeshFacet& facet, Numbers& numbers);
+  void number_facets(Facets facets);
   void find_wedges();
   void add_wedges(const FacetGroup& group, bool is_first_bottom);
   void find_middles();
@@ -65,16 +68,11 @@ class GroupedSink : public MeshSink {
 
   std::filesystem::path folder_;
   GroupedMesh mesh_;
-  ScratchFile tets_;          ///< a TetRecord of each, as they came
-  PagedFile<double> values_;  ///< those of tets as they came
-  LabelSet labels_;
-  std::optional<DoubledVertices> doubles_;
-  Position lo_{};
-  Position hi_{};
+  ScratchMesh own_;  ///< what came from begin() to finish()
   std::unique_ptr<GroupedWriter> writer_;
   std::optional<CurveRule> curves_;
-  std::optional<CurvedParts> parts_;                   ///< of a mesh that is curved as it comes
-  std::optional<PagedFile<SixPlaces>> given_middles_;  ///< of parts_, by tet
+  std::optional<CurvedParts> parts_;                    ///< of a mesh that is curved as it comes
+  std::optional<PagedArray<SixPlaces>> given_middles_;  ///< of parts_, by tet
 };
 
 }  // namespace mw::io

@@ -1,8 +1,9 @@
 // SPDX-FileCopyrightText: The mwmesh authors
 // SPDX-License-Identifier: Apache-2.0
 // Grids of cubes cut once and twice, against what was there before.
-#include "io/mesh/grouped/halved_sink.h"
+#include "io/mesh/grouped/halved_mesh.h"
 
+#include "kernels/core/tet_nodes.h"
 #include "kernels/quality/quality.h"
 #include "tests/expect_error.h"
 #include "tests/io/mesh/grid_mesh.h"
@@ -58,15 +59,21 @@ std::size_t edges_of(const MeshData& mesh) {
   return out.size();
 }
 
-TEST(HalvedSink, EachTetBecomesEight) {
+std::unique_ptr<ScratchMesh> stored(const MeshData& mesh, const TempDir& dir) {
+  auto out = std::make_unique<ScratchMesh>(dir.path());
+  ScratchMeshSink into(*out);
+  write_mesh(mesh, into);
+  return out;
+}
+
+TEST(HalvedMesh, EachTetBecomesEight) {
   const TempDir dir;
   for (unsigned seed = 0; seed < 6; ++seed) {
     MeshData mesh = grid_mesh({3, 2, 1 + seed % 3}, seed);
     mesh.record.promises = MeshPromises{.quality_floor = 0.2};
     CollectedMesh out;
     std::size_t asked = 0;
-    HalvedSink sink(out, dir.path(), {}, [&] { ++asked; });
-    write_mesh(mesh, sink);
+    halve(*stored(mesh, dir), out, {}, [&] { ++asked; });
     EXPECT_EQ(out.finished, 1);
     EXPECT_EQ(out.announced, 8 * mesh.tets.size());
     EXPECT_EQ(out.mesh().record.promises->halvings, 1);
@@ -74,7 +81,6 @@ TEST(HalvedSink, EachTetBecomesEight) {
     EXPECT_EQ(out.mesh().tets.size(), 8 * mesh.tets.size());
     EXPECT_GT(asked, 0U);
     EXPECT_EQ(out.mesh().vertices.size(), mesh.vertices.size() + edges_of(mesh));
-    EXPECT_EQ(sink.mesh().node_count(), out.mesh().vertices.size());
     for (std::size_t v = 0; v < mesh.vertices.size(); ++v) {
       EXPECT_EQ(out.mesh().vertices[v], mesh.vertices[v]);
     }
@@ -104,7 +110,7 @@ double worst_ratio(const MeshData& mesh) {
   return out;
 }
 
-TEST(HalvedSink, CurvesMoveNodesNoFartherThanTheyMayAndKeepTetsGood) {
+TEST(HalvedMesh, CurvesMoveNodesNoFartherThanTheyMayAndKeepTetsGood) {
   const TempDir dir;
   std::size_t moved = 0;
   for (unsigned seed = 0; seed < 6; ++seed) {
@@ -114,12 +120,9 @@ TEST(HalvedSink, CurvesMoveNodesNoFartherThanTheyMayAndKeepTetsGood) {
     mesh.record.box = MeshBox{.edges = {{{4, 0, 0}, {0, 4, 0}, {0, 0, 4}}}};
     mesh.record.promises = MeshPromises{.max_distance = 1.2, .quality_floor = 0.3};
     CollectedMesh straight, curved;
-    HalvedSink as_they_are(straight, dir.path());
-    write_mesh(mesh, as_they_are);
+    halve(*stored(mesh, dir), straight);
     const double most_move = seed % 2 == 0 ? 0.02 : 0.2;
-    HalvedSink with_curves(curved, dir.path(),
-                           HalvedCurves{.most_move = most_move, .max_distance = 1.5});
-    write_mesh(mesh, with_curves);
+    halve(*stored(mesh, dir), curved, HalvedCurves{.most_move = most_move, .max_distance = 1.5});
     EXPECT_EQ(curved.mesh().record.promises->max_distance, 1.5);
     EXPECT_EQ(straight.mesh().record.promises->max_distance, 1.2);
     EXPECT_FALSE(curved.mesh().record.curved);
@@ -136,26 +139,25 @@ TEST(HalvedSink, CurvesMoveNodesNoFartherThanTheyMayAndKeepTetsGood) {
   EXPECT_GT(moved, 200U);
 }
 
-TEST(HalvedSink, TwoBehindEachOtherCutTwice) {
+TEST(HalvedMesh, TwiceCutsTwice) {
   const TempDir dir;
   const MeshData mesh = grid_mesh({2, 2, 1}, 7);
-  CollectedMesh out;
-  HalvedSink last(out, dir.path());
-  HalvedSink first(last, dir.path());
-  EXPECT_EQ(first.buffer_bytes(), 2 * last.buffer_bytes());
+  CollectedMesh once, out;
   MeshData promised = mesh;
   promised.record.promises = MeshPromises{.quality_floor = 0.2};
-  write_mesh(promised, first);
+  halve(*stored(promised, dir), once);
+  halve(*stored(once.mesh(), dir), out);
   EXPECT_EQ(out.mesh().record.promises->halvings, 2);
   EXPECT_EQ(out.mesh().tets.size(), 64 * mesh.tets.size());
   EXPECT_EQ(volumes_of(out.mesh()), volumes_of(mesh));
 }
 
-TEST(HalvedSink, PartsHaveTheValuesOfTheirTet) {
+TEST(HalvedMesh, PartsHaveTheValuesOfTheirTet) {
   const TempDir dir;
   const MeshData mesh = grid_mesh({2, 1, 1}, 3);
   CollectedMesh out;
-  HalvedSink sink(out, dir.path());
+  ScratchMesh columns(dir.path());
+  ScratchMeshSink sink(columns);
   MeshHeader header{.tets = mesh.tets.size()};
   header.values = {"x", "row"};
   sink.begin(header);
@@ -168,6 +170,7 @@ TEST(HalvedSink, PartsHaveTheValuesOfTheirTet) {
   }
   sink.write_values(rows);
   sink.finish();
+  halve(columns, out);
   const std::vector<TetRows>& tets = out.mesh().tets;
   ASSERT_EQ(out.mesh().values.size(), 2U);
   ASSERT_EQ(out.mesh().values[1].numbers.size(), tets.size());
