@@ -10,6 +10,7 @@
 #include "io/file/errors.h"
 #include "io/names/read_names.h"
 #include "io/remote/address.h"
+#include "io/volume/named_volume.h"
 #include "io/volume/open_volume.h"
 
 namespace mw::cli {

@@ -13,7 +13,6 @@
 #include "io/names/read_names.h"
 #include "io/volume/checks.h"
 #include "io/volume/decode.h"
-#include "io/volume/named_volume.h"
 #include "io/volume/open_volume.h"
 
 namespace mw::cli {
