@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The mwmesh authors
 // SPDX-License-Identifier: Apache-2.0
-// Holds JSON values; a library parses texts and writes numbers and strings.
+// Holds JSON values; a library parses and writes texts.
 #include "io/json/json.h"
 
 #include <algorithm>
@@ -15,18 +15,20 @@ namespace {
 
 using Library = nlohmann::json;
 
-/// How a value is written.
-struct Style {
-  bool indented = false;
-  bool ascii = false;
-};
+/// The library's value that keeps the order of fields.
+using Ordered = nlohmann::ordered_json;
 
-std::string scalar_text(const Library& value, Style style) {
-  return value.dump(-1, ' ', style.ascii, Library::error_handler_t::replace);
-}
-
-/// Returns the library's value of null, a boolean, a number or a text.
-Library scalar_of(const Json& value) {
+Ordered library_value(const Json& value) {
+  if (value.is_object()) {
+    Ordered::object_t out;
+    for (const auto& [key, field] : value.items()) out.push_back({key, library_value(field)});
+    return out;
+  }
+  if (value.is_array()) {
+    Ordered::array_t out;
+    for (const Json& element : value.elements()) out.push_back(library_value(element));
+    return out;
+  }
   if (value.is_boolean()) return value.boolean();
   if (value.is_string()) return value.text();
   if (value.is_unsigned()) return value.integer();
@@ -35,54 +37,8 @@ Library scalar_of(const Json& value) {
   return nullptr;
 }
 
-/// Writes values, one into the other.
-class Writer {
- public:
-  explicit Writer(Style style) : style_(style) {}
-
-  void write(const Json& value) {
-    if (value.is_object()) {
-      write_all(value.items(), "{}", [&](const Json::Field& field) {
-        text_ += scalar_text(field.key, style_) + (style_.indented ? ": " : ":");
-        write(field.value);
-      });
-    } else if (value.is_array()) {
-      write_all(value.elements(), "[]", [&](const Json& element) { write(element); });
-    } else {
-      text_ += scalar_text(scalar_of(value), style_);
-    }
-  }
-  [[nodiscard]] std::string&& text() { return std::move(text_); }
-
- private:
-  template <typename Values, typename WriteOne>
-  void write_all(const Values& values, const char* brackets, const WriteOne& write_one) {
-    text_ += brackets[0];
-    ++depth_;
-    bool is_first = true;
-    for (const auto& value : values) {
-      if (!is_first) text_ += ',';
-      is_first = false;
-      start_line();
-      write_one(value);
-    }
-    --depth_;
-    if (!is_first) start_line();
-    text_ += brackets[1];
-  }
-  void start_line() {
-    if (style_.indented) text_.append("\n").append(2 * depth_, ' ');
-  }
-
-  Style style_;
-  std::string text_;
-  std::size_t depth_ = 0;
-};
-
-std::string text_of(const Json& value, Style style) {
-  Writer writer(style);
-  writer.write(value);
-  return writer.text();
+std::string text_of(const Json& value, int indent, bool ascii) {
+  return library_value(value).dump(indent, ' ', ascii, Ordered::error_handler_t::replace);
 }
 
 /// Returns a value that the library has parsed, and takes its texts out of it.
@@ -211,15 +167,15 @@ void Json::erase(std::string_view key) {
 }
 
 std::string Json::dump() const {
-  return text_of(*this, {});
+  return text_of(*this, -1, false);
 }
 
 std::string Json::dump_indented() const {
-  return text_of(*this, {.indented = true});
+  return text_of(*this, 2, false);
 }
 
 std::string Json::dump_ascii() const {
-  return text_of(*this, {.ascii = true});
+  return text_of(*this, -1, true);
 }
 
 Json parse_json(std::string_view text, std::string_view file) {
