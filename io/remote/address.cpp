@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <array>
 #include <memory>
+#include <new>
 
 #include "io/file/errors.h"
 #include "io/file/text_numbers.h"
@@ -29,58 +30,37 @@ bool is_letter_or_digit(char c) {
   return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9');
 }
 
-void append_encoded(std::string& out, char c) {
+/// Returns the text with %HH for each byte that is no letter or digit of ASCII, nor one of `plain`.
+std::string percent_encoded(std::string_view text, std::string_view plain) {
   constexpr std::string_view kDigits = "0123456789ABCDEF";
-  const auto byte = static_cast<unsigned char>(c);
-  out += '%';
-  out += kDigits[byte >> 4U];
-  out += kDigits[byte & 15U];
-}
-
-/// Returns a name in a path with all characters encoded that must not stand there as they are.
-std::string encoded(std::string_view name) {
   std::string out;
-  for (const char c : name) {
-    if (is_letter_or_digit(c) || std::string_view("-._~:@!$&'()*+,;=").find(c) != name.npos) {
+  for (const char c : text) {
+    const auto byte = static_cast<unsigned char>(c);
+    if (is_letter_or_digit(c) || plain.find(c) != plain.npos) {
       out += c;
     } else {
-      append_encoded(out, c);
+      out += {'%', kDigits[byte >> 4U], kDigits[byte & 15U]};
     }
   }
   return out;
+}
+
+/// Encodes what must not stand in a name in a path as it is.
+std::string encoded(std::string_view name) {
+  return percent_encoded(name, "-._~:@!$&'()*+,;=");
 }
 
 /// Encodes only what no address may have, since a user's address may be encoded already.
 std::string mended(std::string_view address) {
-  std::string out;
-  for (const char c : address) {
-    if (c > ' ' && c < '\x7f' &&
-        std::string_view("\"<>\\^`{|}").find(c) == std::string_view::npos) {
-      out += c;
-    } else {
-      append_encoded(out, c);
-    }
-  }
-  return out;
+  return percent_encoded(address, "!#$%&'()*+,-./:;=?@[]_~");
 }
 
-int digit_of(char c) {
-  if (c >= '0' && c <= '9') return c - '0';
-  if (c >= 'a' && c <= 'f') return c - 'a' + 10;
-  if (c >= 'A' && c <= 'F') return c - 'A' + 10;
-  return -1;
-}
-
-std::string decoded(std::string_view name) {
-  std::string out;
-  for (std::size_t i = 0; i < name.size(); ++i) {
-    const bool is_code = name[i] == '%' && i + 2 < name.size() && digit_of(name[i + 1]) >= 0 &&
-                         digit_of(name[i + 2]) >= 0;
-    out +=
-        is_code ? static_cast<char>(16 * digit_of(name[i + 1]) + digit_of(name[i + 2])) : name[i];
-    if (is_code) i += 2;
-  }
-  return out;
+std::string decoded(const char* name) {
+  int size = 0;
+  const std::unique_ptr<char, void (*)(void*)> bytes(curl_easy_unescape(nullptr, name, 0, &size),
+                                                     curl_free);
+  if (bytes == nullptr) throw std::bad_alloc();
+  return {bytes.get(), static_cast<std::size_t>(size)};
 }
 
 /// Returns where the path begins.
@@ -184,7 +164,7 @@ std::optional<std::pair<std::string, std::string>> split_address(const std::stri
   const std::size_t host = end_of_host(address);
   const std::size_t slash = address.rfind('/');
   if (host == address.size() || slash < host) return std::nullopt;
-  return std::pair(address.substr(0, slash), decoded(address.substr(slash + 1)));
+  return std::pair(address.substr(0, slash), decoded(address.c_str() + slash + 1));
 }
 
 bool is_same_server(const std::string& a, const std::string& b) {

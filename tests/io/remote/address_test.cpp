@@ -13,6 +13,8 @@ TEST(AddressTest, BucketsBecomeTheirWebAddresses) {
   EXPECT_EQ(web_address("s3://b/p q"), "https://b.s3.amazonaws.com/p%20q");
   EXPECT_EQ(web_address("s3://b.c/p"), "https://s3.amazonaws.com/b.c/p");
   EXPECT_EQ(web_address("https://h:8/a%20b//"), "https://h:8/a%20b");
+  EXPECT_EQ(web_address("https://h/!$%&'()*+,-.:;=@[]_~\"<>\\^`{|}\x7f\xc3\xa9"),
+            "https://h/!$%&'()*+,-.:;=@[]_~%22%3C%3E%5C%5E%60%7B%7C%7D%7F%C3%A9");
 }
 
 TEST(AddressTest, OnlyKnownSchemesAreAddresses) {
@@ -56,8 +58,10 @@ TEST(AddressTest, SecretsAndQueriesAreRefusedAndNotRepeated) {
 TEST(AddressTest, PathsGoDownAndUpButNotAboveTheHost) {
   EXPECT_EQ(address_below("https://h/a", "b/./c d"), "https://h/a/b/c%20d");
   EXPECT_EQ(address_below("https://h/a", "/b?c#d%"), "https://h/a/b%3Fc%23d%25");
+  EXPECT_EQ(address_below("https://h", "-._~:@!$&'()*+,;=[]"), "https://h/-._~:@!$&'()*+,;=%5B%5D");
   EXPECT_EQ(address_below("https://h/a/b", "../c"), "https://h/a/c");
   EXPECT_EQ(address_below("https://h/a", "../../../c"), "https://h/c");
+  EXPECT_EQ(split_address("https://h/a/%zz%2fb%4")->second, "%zz/b%4");
   const auto above = split_address("https://h/a/c%20d");
   ASSERT_TRUE(above.has_value());
   EXPECT_EQ(above->first, "https://h/a");
