@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cctype>
 #include <utility>
 
 #include "io/file/errors.h"
@@ -29,11 +28,6 @@ bool is_name(std::string_view text) {
   return !text.empty() && text.size() <= kMostLetters && is_letter(text.front()) &&
          std::all_of(text.begin(), text.end(),
                      [](char c) { return is_letter(c) || (c >= '0' && c <= '9') || c == '_'; });
-}
-
-std::string in_small_letters(std::string text) {
-  for (char& c : text) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
-  return text;
 }
 
 SampleImage parse_sample(std::string_view text) {
@@ -69,7 +63,7 @@ std::vector<SampleImage> parse_samples(std::string_view text) {
   std::vector<std::string> taken{"label", "cohesive"};
   for (const std::string_view part : io::split_at(';', text)) {
     out.push_back(parse_sample(part));
-    const std::string name = in_small_letters(out.back().name);
+    const std::string name = io::lower_case(out.back().name);
     if (std::find(taken.begin(), taken.end(), name) != taken.end()) {
       io::fail_usage("the name '", out.back().name, "' is taken");
     }

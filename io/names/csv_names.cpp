@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cctype>
+#include <charconv>
 #include <cmath>
 
 #include "io/file/errors.h"
@@ -152,22 +153,14 @@ std::optional<std::uint8_t> part_of_colour(const std::string& text) {
   return static_cast<std::uint8_t>(*number);
 }
 
-std::optional<std::uint8_t> hex_digit(char c) {
-  constexpr std::string_view kDigits = "0123456789abcdef";
-  const auto digit = kDigits.find(static_cast<char>(std::tolower(static_cast<unsigned char>(c))));
-  if (digit == std::string_view::npos) return std::nullopt;
-  return static_cast<std::uint8_t>(digit);
-}
-
 /// Parses "#rrggbb" or "#rrggbbaa"; the '#' may be missing.
 std::optional<Colour> hex_colour(std::string_view text) {
   if (text.starts_with('#')) text.remove_prefix(1);
   if (text.size() != 6 && text.size() != 8) return std::nullopt;
   Colour colour{0, 0, 0, 255};
   for (std::size_t i = 0; i < text.size(); i += 2) {
-    const auto high = hex_digit(text[i]), low = hex_digit(text[i + 1]);
-    if (!high || !low) return std::nullopt;
-    colour[i / 2] = static_cast<std::uint8_t>(*high << 4U | *low);
+    const char* const end = text.data() + i + 2;
+    if (std::from_chars(end - 2, end, colour[i / 2], 16).ptr != end) return std::nullopt;
   }
   return colour;
 }

@@ -185,6 +185,8 @@ TEST(ReadNames, BadLinesAreNamed) {
   expect_refused("id,name\n18446744073709551616,a\n", {"line 2", "18446744073709551616"});
   expect_refused("id,name\n1,\"a\n2,b\n", {"line 2", "quote"});
   expect_refused("id,name,color\n1,a,#12345\n", {"line 2", "#12345", "#rrggbb"});
+  expect_refused("id,name,color\n1,a,#12345g\n", {"line 2", "#12345g", "#rrggbb"});
+  expect_refused("id,name,color\n1,a,#+1-234\n", {"line 2", "#+1-234", "#rrggbb"});
   expect_refused("id,name,r,g,b\n1,a,1,2,300\n", {"line 2", "300"});
   // Two's complement: one label.
   expect_refused("18446744073709551615,big\n-1,last\n", {"line 2", "label -1 is in line 1"});
