@@ -24,17 +24,17 @@ struct FilterCodec {
   std::uint32_t id;
   Codec codec;
 };
-constexpr std::array<FilterCodec, 6> kCodecs{{{1, Codec::kZlib},
-                                              {307, Codec::kBzip2},
-                                              {32000, Codec::kLzf},
-                                              {32001, Codec::kBlosc},
-                                              {32004, Codec::kLz4Hdf5},
-                                              {32015, Codec::kZstd}}};
+constexpr std::array<FilterCodec, 6> kFilterCodecs{{{1, Codec::kZlib},
+                                                    {307, Codec::kBzip2},
+                                                    {32000, Codec::kLzf},
+                                                    {32001, Codec::kBlosc},
+                                                    {32004, Codec::kLz4Hdf5},
+                                                    {32015, Codec::kZstd}}};
 constexpr std::size_t kChecksumBytes = 4;
 
 std::optional<Codec> codec_of(const Hdf5Filter& filter) {
-  const auto* const found = std::ranges::find(kCodecs, filter.id, &FilterCodec::id);
-  return found == kCodecs.end() ? std::nullopt : std::optional(found->codec);
+  const auto* const found = std::ranges::find(kFilterCodecs, filter.id, &FilterCodec::id);
+  return found == kFilterCodecs.end() ? std::nullopt : std::optional(found->codec);
 }
 
 /// Filters that files may have but that are not read here.
