@@ -9,7 +9,6 @@
 #include "tests/fuzz/all_targets.h"
 #include "tests/fuzz/choices.h"
 #include "tests/io/codec/packers.h"
-#include "tests/io/volume/n5/n5_sample.h"
 #include "tests/io/volume/precomputed/precomputed_sample.h"
 
 namespace mw::fuzz {
@@ -58,7 +57,7 @@ constexpr std::array kPackings{
             [](const std::string& p) { return io::blosc_packed(p, "lz4", 1, 4); }},
     Packing{unpack_as<io::Codec::kLz4>, [](const std::string& p) { return io::lz4_packed(p); }},
     Packing{unpack_as<io::Codec::kLz4Java>,
-            [](const std::string& p) { return io::lz4_java_packed(p); }},
+            [](const std::string& p) { return io::java_packed(p); }},
     Packing{unpack_as<io::Codec::kBzip2>, [](const std::string& p) { return io::bzip2_packed(p); }},
     Packing{unpack_as<io::Codec::kXz>, [](const std::string& p) { return io::xz_packed(p, 0); }},
     Packing{unpack_as<io::Codec::kLzf>, lzf_packed},

@@ -22,6 +22,15 @@ def run(*arguments, code=0):
     return done.stdout
 
 
+def refused(words, *arguments, code=3):
+    """What it says, every word among that; it has to end with that exit code."""
+    done = start(*arguments)
+    assert done.returncode == code, (arguments, done.returncode, done.stdout, done.stderr)
+    for word in words:
+        assert word in done.stderr, (arguments, word, done.stderr)
+    return done.stderr
+
+
 def enter_folder(case):
     """An empty folder is the working directory until the test, or the class of tests, ends."""
     folder = tempfile.TemporaryDirectory()

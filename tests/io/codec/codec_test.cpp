@@ -22,25 +22,6 @@ std::string unpacked(Codec codec, const std::string& packed, std::size_t max) {
   return {reinterpret_cast<const char*>(bytes.data()), bytes.size()};
 }
 
-constexpr std::uint32_t kSeed = 0x9747b28c;
-
-/// A block of lz4-java, by its documentation.
-std::string java_block(const std::string& plain, bool stored) {
-  const std::string body = stored ? plain : lz4_block(plain);
-  return "LZ4Block" + std::string(1, stored ? '\x16' : '\x26') +
-         number_bytes(body.size(), 4, false) + number_bytes(plain.size(), 4, false) +
-         number_bytes(xxhash32(bytes_of(plain), kSeed) & 0xfffffffU, 4, false) + body;
-}
-const std::string kJavaEnd = "LZ4Block" + std::string("\x16", 1) + std::string(12, '\0');
-
-std::string java_packed(const std::string& plain) {
-  std::string packed;
-  for (std::size_t at = 0; at < plain.size(); at += 1000) {
-    packed += java_block(plain.substr(at, 1000), at % 3000 == 0);
-  }
-  return packed + kJavaEnd;
-}
-
 struct Packer {
   Codec codec;
   std::string (*pack)(const std::string& plain);

@@ -11,6 +11,7 @@
 #include <zlib.h>
 #include <zstd.h>
 
+#include "io/codec/checksums.h"
 #include "tests/io/test_files.h"
 
 namespace mw::io {
@@ -96,6 +97,24 @@ inline std::string xz_packed(const std::string& plain, std::uint32_t preset = 6)
       LZMA_OK);
   packed.resize(size);
   return packed;
+}
+
+/// A block of lz4-java, by its documentation.
+inline std::string java_block(const std::string& plain, bool stored) {
+  const std::string body = stored ? plain : lz4_block(plain);
+  const std::uint32_t sum = xxhash32(std::as_bytes(std::span(plain)), 0x9747b28c);
+  return "LZ4Block" + std::string(1, stored ? '\x16' : '\x26') +
+         number_bytes(body.size(), 4, false) + number_bytes(plain.size(), 4, false) +
+         number_bytes(sum & 0xfffffffU, 4, false) + body;
+}
+inline const std::string kJavaEnd = "LZ4Block" + std::string("\x16", 1) + std::string(12, '\0');
+
+inline std::string java_packed(const std::string& plain) {
+  std::string packed;
+  for (std::size_t at = 0; at < plain.size(); at += 1000) {
+    packed += java_block(plain.substr(at, 1000), at % 3000 == 0);
+  }
+  return packed + kJavaEnd;
 }
 
 }  // namespace mw::io
