@@ -6,6 +6,7 @@
 #include "engine/cli/command.h"
 #include "engine/cli/exit_code.h"
 #include "engine/cli/info/info_text.h"
+#include "engine/cli/info/mesh_info.h"
 #include "engine/cli/info/volume_facts.h"
 #include "engine/cli/options/shared_options.h"
 #include "engine/cli/options/values.h"
@@ -22,6 +23,8 @@
 
 namespace mw::cli {
 namespace {
+
+using io::Json;
 
 struct InfoJob {
   std::filesystem::path file;
@@ -68,33 +71,70 @@ MeshInfo look_at_mesh(const InfoJob& job) {
           .cohesive = mesh.header().record.cohesive};
 }
 
-void print_json(const io::Json& facts) {
-  std::cout << facts.dump_indented() << "\n";
+Columns size_columns() {
+  return {{"label"},
+          {.title = "name", .needs = "label"},
+          {"volume"},
+          {"voxels"},
+          {.title = "volume_error", .needs = "voxels"},
+          {"area"},
+          {"area_on_box"},
+          {"tets"},
+          {"components"},
+          {"b0", "betti_closed", 0},
+          {"b1", "betti_closed", 1},
+          {"b2", "betti_closed", 2},
+          {"rr_min", "radius_ratio_min"},
+          {"rr_mean", "radius_ratio_mean"}};
 }
 
+/// Adds millilitres where lengths are in mm.
+Columns columns_for_people(const MeshInfo& facts) {
+  Columns out = size_columns();
+  if (!facts.volume || facts.volume->unit != "mm") return out;
+  out[2].title = "mm3";
+  out.insert(out.begin() + 3, {.title = "mL", .key = "volume", .unit = 1000});
+  return out;
+}
+
+Columns with_places(Columns columns) {
+  for (const std::string key : {"lo", "hi", "centroid"}) {
+    for (std::size_t k = 0; k < 3; ++k) columns.push_back({key + "_" + "xyz"[k], key, k});
+  }
+  return columns;
+}
+
+Columns contact_columns() {
+  return {{"first", "labels", 0}, {"second", "labels", 1}, {"triangles"}, {"area"}, {"voxel_area"}};
+}
+
+/// Prints what is not in the tables, and the tables.
 void print_mesh(const MeshInfo& facts, bool contacts) {
-  io::Json told = mesh_json(facts, false);
+  Json told = mesh_json(facts, contacts);
+  const Json labels = std::move(told["volume"]["per_label"]);
   told["volume"].erase("per_label");
+  const Json pairs = std::move(told["contacts"]);
+  told.erase("contacts");
   print_facts(told);
-  for (const LabelColumns columns : {LabelColumns::kSizes, LabelColumns::kPlaces}) {
+  for (const Columns& columns : {columns_for_people(facts), with_places({{"label"}})}) {
     std::cout << '\n';
-    print_columns(label_table(facts, Digits::kFour, columns), std::cout);
+    print_columns(labels, columns);
   }
   if (!contacts) return;
   std::cout << '\n';
-  print_columns(contact_table(facts, Digits::kFour), std::cout);
+  print_columns(pairs, contact_columns());
 }
 
 void tell_of_mesh(const InfoJob& job) {
   const MeshInfo facts = look_at_mesh(job);
   if (job.json) {
-    print_json(mesh_json(facts, job.contacts));
-  } else if (job.csv) {
-    print_csv(job.contacts ? contact_table(facts, Digits::kAll)
-                           : label_table(facts, Digits::kAll, LabelColumns::kBoth),
-              std::cout);
-  } else {
+    std::cout << mesh_json(facts, job.contacts).dump_indented() << "\n";
+  } else if (!job.csv) {
     print_mesh(facts, job.contacts);
+  } else if (job.contacts) {
+    print_csv(mesh_json(facts, true)["contacts"], contact_columns());
+  } else {
+    print_csv(mesh_json(facts, false)["volume"]["per_label"], with_places(size_columns()));
   }
 }
 

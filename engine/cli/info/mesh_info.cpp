@@ -44,32 +44,6 @@ VolumeSide look_at_volume(const VolumeRequest& request, bool with_areas) {
   return out;
 }
 
-std::vector<Contact> contacts_of(const MeshInfo& facts) {
-  std::vector<Contact> out;
-  auto unmet = facts.volume ? facts.volume->areas : decltype(facts.volume->areas)();
-  for (const ContactStats& c : facts.mesh.contacts) {
-    Contact contact{facts.table.raw(c.first), facts.table.raw(c.second), c.triangles, c.area, {}};
-    const auto found = unmet.find(std::minmax(contact.first, contact.second));
-    if (facts.volume) contact.voxel_area = found == unmet.end() ? 0 : found->second;
-    if (found != unmet.end()) unmet.erase(found);
-    out.push_back(contact);
-  }
-  for (const auto& [pair, area] : unmet) {
-    const bool in_mesh = facts.table.contains(pair.first) && facts.table.contains(pair.second);
-    if (in_mesh) out.push_back({pair.first, pair.second, 0, 0, area});
-  }
-  return out;
-}
-
-std::optional<audit::VolumeRow> voxels_of(const MeshInfo& facts, Label rank) {
-  if (!facts.volume) return std::nullopt;
-  const auto found = facts.volume->voxels.find(facts.table.raw(rank));
-  if (found == facts.volume->voxels.end()) return std::nullopt;
-  const auto voxels = static_cast<double>(found->second);
-  const double in_mesh = facts.mesh.labels[rank].volume / facts.volume->voxel_volume;
-  return audit::VolumeRow{rank, found->second, in_mesh, (in_mesh - voxels) / voxels};
-}
-
 namespace {
 
 using io::Position;

@@ -17,7 +17,6 @@
 #include "io/mesh/grouped/grouped_mesh.h"
 #include "io/names/label_names.h"
 #include "kernels/audit/shape/shape.h"
-#include "kernels/audit/shape/volumes.h"
 #include "kernels/audit/topology/betti.h"
 
 namespace mw::cli {
@@ -93,21 +92,6 @@ struct MeshInfo {
   std::string digest;
   io::CohesiveRule cohesive{};  ///< which interfaces have wedges between their sides
 };
-
-/// A contact of the mesh, the volume, or both.
-struct Contact {
-  RawLabel first = 0;
-  RawLabel second = 0;
-  std::uint64_t triangles = 0;
-  double area = 0;                   ///< square physical units
-  std::optional<double> voxel_area;  ///< empty without a volume
-};
-
-/// Returns the contacts of the mesh, then those between its labels that only the voxels have.
-[[nodiscard]] std::vector<Contact> contacts_of(const MeshInfo& facts);
-
-/// Returns the label's row of the volume; empty without a volume, or if it lacks that label.
-[[nodiscard]] std::optional<audit::VolumeRow> voxels_of(const MeshInfo& facts, Label rank);
 
 /// Returns "kind", "file", "vertices", ... as a JSON object; `contacts` adds the contacts.
 [[nodiscard]] io::Json mesh_json(const MeshInfo& facts, bool contacts);

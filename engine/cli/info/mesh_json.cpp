@@ -13,6 +13,16 @@ namespace {
 
 using io::Json;
 
+/// Returns the label's row of the volume; empty without a volume, or if it lacks that label.
+std::optional<audit::VolumeRow> voxels_of(const MeshInfo& facts, Label rank) {
+  if (!facts.volume) return std::nullopt;
+  const auto found = facts.volume->voxels.find(facts.table.raw(rank));
+  if (found == facts.volume->voxels.end()) return std::nullopt;
+  const auto voxels = static_cast<double>(found->second);
+  const double in_mesh = facts.mesh.labels[rank].volume / facts.volume->voxel_volume;
+  return audit::VolumeRow{rank, found->second, in_mesh, (in_mesh - voxels) / voxels};
+}
+
 void add_betti(Json& row, const audit::RegionBetti& betti) {
   row["components"] = betti.open.b0;
   row["betti_closed"] = report::betti_json(betti.closed);
@@ -56,15 +66,29 @@ Json mask_row(const MeshInfo& facts, const MaskStats& mask) {
   return row;
 }
 
-Json contact_json(const MeshInfo& facts, const Contact& contact) {
-  const bool is_signed = facts.table.is_signed();
-  Json row{{"labels",
-            {report::label_json(contact.first, is_signed),
-             report::label_json(contact.second, is_signed)}},
-           {"triangles", contact.triangles},
-           {"area", contact.area}};
-  if (contact.voxel_area) row["voxel_area"] = *contact.voxel_area;
-  return row;
+/// Returns the contacts of the mesh, then those between its labels that only the voxels have.
+Json contacts_json(const MeshInfo& facts) {
+  Json rows = Json::array();
+  const auto add = [&](RawLabel first, RawLabel second, const ContactStats& c, double voxel_area) {
+    const bool is_signed = facts.table.is_signed();
+    Json row{
+        {"labels", {report::label_json(first, is_signed), report::label_json(second, is_signed)}},
+        {"triangles", c.triangles},
+        {"area", c.area}};
+    if (facts.volume) row["voxel_area"] = voxel_area;
+    rows.push_back(std::move(row));
+  };
+  auto unmet = facts.volume ? facts.volume->areas : decltype(facts.volume->areas)();
+  for (const ContactStats& c : facts.mesh.contacts) {
+    const RawLabel first = facts.table.raw(c.first), second = facts.table.raw(c.second);
+    const auto found = unmet.extract(std::minmax(first, second));
+    add(first, second, c, found.empty() ? 0 : found.mapped());
+  }
+  for (const auto& [pair, area] : unmet) {
+    const bool in_mesh = facts.table.contains(pair.first) && facts.table.contains(pair.second);
+    if (in_mesh) add(pair.first, pair.second, {}, area);
+  }
+  return rows;
 }
 
 Json labels_json(const io::LabelTable& table) {
@@ -139,11 +163,7 @@ Json mesh_json(const MeshInfo& facts, bool contacts) {
   if (facts.curved > 0) out["curved_tets"] = facts.curved;
   if (facts.cohesive.any()) out["cohesive"] = cohesive_json(facts);
   for (const MaskStats& mask : facts.mesh.masks) out["masks"].push_back(mask_row(facts, mask));
-  if (contacts) {
-    Json rows = Json::array();
-    for (const Contact& c : contacts_of(facts)) rows.push_back(contact_json(facts, c));
-    out["contacts"] = std::move(rows);
-  }
+  if (contacts) out["contacts"] = contacts_json(facts);
   out["digest"] = facts.digest;
   return out;
 }
