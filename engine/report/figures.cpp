@@ -1,17 +1,22 @@
 // SPDX-FileCopyrightText: The mwmesh authors
 // SPDX-License-Identifier: Apache-2.0
-// Numbers in words for people.
+// Numbers in words for people, and facts of a tree in lines.
 #include "engine/report/figures.h"
 
+#include <algorithm>
 #include <array>
 #include <charconv>
+#include <cmath>
 
 #include "kernels/audit/check.h"
 
 namespace mw::report {
 
 std::string format_bytes(std::uint64_t bytes) {
-  return format_fixed(static_cast<double>(bytes) / (1 << 20), 1) + " MiB";
+  constexpr double kMiB = 1 << 20, kGiB = 1 << 30;
+  const auto size = static_cast<double>(bytes);
+  return size < kGiB ? format_fixed(size / kMiB, 1) + " MiB"
+                     : format_fixed(size / kGiB, 1) + " GiB";
 }
 
 std::string format_fixed(double value, int digits) {
@@ -37,6 +42,62 @@ std::string format_volume(double volume, const std::string& unit) {
     return format_figure(volume / kCubicMillimetres) + " mL";
   }
   return format_figure(volume) + (unit.empty() ? "" : " " + unit + "3");
+}
+
+std::string with_commas(std::uint64_t number) {
+  std::string out = std::to_string(number);
+  for (std::size_t at = out.size(); at > 3; at -= 3) out.insert(at - 3, ",");
+  return out;
+}
+
+std::string short_number(double value) {
+  return value < 1000 ? format_figure(value)
+                      : with_commas(static_cast<std::uint64_t>(std::llround(value)));
+}
+
+namespace {
+
+/// Returns the fact of a name such as "output.tets"; null if it or what should hold it is null.
+const io::Json& fact_at(std::string_view name, const io::Json& facts) {
+  if (name.empty() || facts.is_null()) return facts;
+  const std::size_t dot = std::min(name.find('.'), name.size());
+  return fact_at(name.substr(std::min(dot + 1, name.size())), facts[name.substr(0, dot)]);
+}
+
+std::string text_of_fact(const io::Json& fact, std::string_view form) {
+  if (fact.is_string()) return fact.text();
+  if (fact.is_array()) {
+    std::string out;
+    for (const io::Json& element : fact.elements()) {
+      out += (out.empty() ? "" : " x ") + text_of_fact(element, form);
+    }
+    return out;
+  }
+  if (form.empty()) return fact.dump();
+  if (form == "g") return format_figure(fact.number());
+  if (form == "n") return short_number(fact.number());
+  if (form == ",") return with_commas(fact.integer());
+  if (form == "b") return format_bytes(fact.integer());
+  const int digits = form.front() - '0';
+  return form.ends_with('%') ? format_percent(fact.number(), digits)
+                             : format_fixed(fact.number(), digits);
+}
+
+}  // namespace
+
+std::string told(std::string_view line, const io::Json& facts) {
+  std::string out;
+  for (std::size_t open = line.find('{'); open != line.npos; open = line.find('{')) {
+    const std::size_t close = line.find('}', open);
+    const std::string_view inside = line.substr(open + 1, close - open - 1);
+    const std::size_t colon = std::min(inside.find(':'), inside.size());
+    const io::Json& fact = fact_at(inside.substr(0, colon), facts);
+    if (fact.is_null()) return "";
+    out += line.substr(0, open);
+    out += text_of_fact(fact, inside.substr(std::min(colon + 1, inside.size())));
+    line.remove_prefix(close + 1);
+  }
+  return out.append(line);
 }
 
 }  // namespace mw::report

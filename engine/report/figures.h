@@ -1,14 +1,17 @@
 // SPDX-FileCopyrightText: The mwmesh authors
 // SPDX-License-Identifier: Apache-2.0
-// Numbers in words for people.
+// Numbers in words for people, and facts of a tree in lines.
 #pragma once
 
 #include <cstdint>
 #include <string>
+#include <string_view>
+
+#include "io/json/json.h"
 
 namespace mw::report {
 
-/// Returns a size as "12.3 MiB".
+/// Returns a size as "12.3 MiB" or "11.0 GiB".
 [[nodiscard]] std::string format_bytes(std::uint64_t bytes);
 /// Returns four significant digits, as audit::number() does.
 [[nodiscard]] std::string format_figure(double value);
@@ -19,5 +22,17 @@ namespace mw::report {
 [[nodiscard]] std::string format_fixed(double value, int digits);
 /// Returns a share as "12.3 %", with this many digits after the point.
 [[nodiscard]] std::string format_percent(double share, int digits);
+/// Returns a number as "41,247".
+[[nodiscard]] std::string with_commas(std::uint64_t number);
+/// Returns format_figure() with commas: "0.7381", "12.34", "1,040".
+[[nodiscard]] std::string short_number(double value);
+
+/// Returns the line with facts of the tree in the place of their names: "{output.tets} tets" is
+/// "4660 tets".  Behind the name stands how a number is written: "{share:2%}" is "12.34 %",
+/// "{angle:2}" has two digits after the point, "{area:g}" is format_figure(), "{cpu_s:n}" is
+/// short_number(), "{tets:,}" has commas and "{peak:b}" is format_bytes().  A list is "3 x 4 x 5".
+/// Returns nothing if one of the facts, or what should hold it, is null.
+/// ERRORS: std::out_of_range for a name that the tree does not have.
+[[nodiscard]] std::string told(std::string_view line, const io::Json& facts);
 
 }  // namespace mw::report

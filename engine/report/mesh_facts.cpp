@@ -1,13 +1,12 @@
 // SPDX-FileCopyrightText: The mwmesh authors
 // SPDX-License-Identifier: Apache-2.0
-// Wording of quality, names, volumes, areas, bends and distances.
+// Facts of meshes, labels and volumes as JSON.
 #include "engine/report/mesh_facts.h"
 
 #include <cmath>
 #include <iostream>
 
 #include "engine/report/figures.h"
-#include "engine/settings/number_text.h"
 
 namespace mw::report {
 
@@ -32,8 +31,6 @@ void append_with_rows(const Json& value, const std::function<void(const TakeRow&
   append("\n");
 }
 
-using io::Json;
-
 Json quality_json(const audit::QualityReport& quality) {
   return {{"radius_ratio_min", quality.radius_ratio_min},
           {"radius_ratio_mean", quality.radius_ratio_mean},
@@ -45,17 +42,6 @@ Json quality_json(const audit::QualityReport& quality) {
           {"edge_min", quality.edge_min},
           {"edge_max", quality.edge_max},
           {"height_min", quality.height_min}};
-}
-
-void print_quality(const audit::QualityReport& quality) {
-  std::cout << "radius ratio  " << format_fixed(quality.radius_ratio_min, 4) << " least, "
-            << format_fixed(quality.radius_ratio_mean, 4) << " mean, "
-            << format_fixed(100 * quality.sliver_fraction, 3) << " % of tets below 0.1\n"
-            << "dihedral      " << format_fixed(quality.dihedral_min_deg, 2) << " to "
-            << format_fixed(quality.dihedral_max_deg, 2) << " degrees\n"
-            << "edges         " << format_figure(quality.edge_min) << " to "
-            << format_figure(quality.edge_max) << " long; the least height of a tet is "
-            << format_figure(quality.height_min) << "\n";
 }
 
 Json label_json(RawLabel label, bool is_signed) {
@@ -76,8 +62,6 @@ void write_json(io::AtomicFile& file, const Json& value) {
   file.append("\n");
   file.commit();
 }
-
-using io::Json;
 
 std::string label_text(RawLabel label, bool is_signed, const io::LabelNames& names) {
   const std::string& name = names.name(label);
@@ -101,8 +85,6 @@ void add_colour(Json& row, RawLabel label, const io::LabelNames& names) {
   const io::LabelName* found = names.find(label);
   if (found != nullptr && found->colour) row["colour"] = *found->colour;
 }
-
-using io::Json;
 
 Json volume_summary_json(const audit::VolumeSummary& volumes, const io::LabelTable& table) {
   Json out{{"volume_error_mean_abs", nullptr},
@@ -134,33 +116,6 @@ Json interfaces_json(const audit::ShapeReport& shape) {
           {"sharp_share", shape.sharp_share}};
 }
 
-void print_volumes(const audit::VolumeReport& volumes, const io::LabelTable& table,
-                   const io::LabelNames& names) {
-  const audit::VolumeSummary& s = volumes.summary;
-  std::cout << "volumes       ";
-  if (!s.worst) {
-    std::cout << "no label of " << audit::kMinJudgedVoxels << " voxels or more\n";
-    return;
-  }
-  std::cout << "off by " << format_percent(s.error_max_abs, 2) << " at most (label "
-            << label_text(table.raw(s.worst->label), table.is_signed(), names) << "), "
-            << format_percent(s.error_mean_abs, 3) << " on average over " << s.labels_measured
-            << " labels of " << audit::kMinJudgedVoxels << " voxels or more; "
-            << (volumes.exact ? "exact" : "in floating point, vertices being off the lattice")
-            << "\n";
-}
-
-void print_interfaces(const audit::ShapeReport& shape) {
-  std::cout << "interfaces    area " << format_figure(shape.area) << "; edges bend by "
-            << format_fixed(shape.bend_p50_deg, 1) << " degrees (median), "
-            << format_fixed(shape.bend_p95_deg, 1) << " (95 %), "
-            << format_fixed(shape.bend_max_deg, 1) << " (most); "
-            << format_percent(shape.sharp_share, 2) << " of their length by more than "
-            << engine::format_number(audit::kSharpDegrees) << "\n";
-}
-
-using io::Json;
-
 namespace {
 
 Json finite_json(double voxels) {
@@ -173,34 +128,6 @@ Json label_row(Label label, const io::LabelTable& table, const io::LabelNames& n
   if (label == audit::kUnknown) return {{"label", nullptr}};
   if (label == audit::kLeftOut) return {{"label", "left out"}};
   return named_row_json(table.raw(label), table.is_signed(), names);
-}
-
-std::string name_text(Label label, const io::LabelTable& table, const io::LabelNames& names) {
-  if (label == audit::kUnknown) return "one that the volume does not have";
-  if (label == audit::kLeftOut) return "left out";
-  return label_text(table.raw(label), table.is_signed(), names);
-}
-
-/// Returns "infinite for 2 labels with an interface on one side only (the first: 7)", or nothing
-/// when all is finite.
-std::string infinite_text(const audit::DistanceReport& distance, const io::LabelTable& table,
-                          const io::LabelNames& names) {
-  const std::size_t count = distance.only_in_volume.size() + distance.only_in_mesh.size();
-  if (count == 0) return "";
-  const Label first = distance.only_in_volume.empty() ? distance.only_in_mesh.front()
-                                                      : distance.only_in_volume.front();
-  return "infinite for " + std::to_string(count) + (count == 1 ? " label" : " labels") +
-         " with an interface on one side only (the first: " + name_text(first, table, names) + ")";
-}
-
-std::string finite_text(const audit::DistanceReport& distance, const io::LabelTable& table,
-                        const io::LabelNames& names) {
-  const auto* farthest = distance.farthest();
-  if (farthest == nullptr) return "";
-  std::string text = format_fixed(farthest->max(), 2) + " voxels at most (label " +
-                     name_text(farthest->label, table, names) + ")";
-  if (!distance.is_finite()) return text + " for the others";
-  return text + ", " + format_fixed(distance.mean_voxels, 2) + " on average";
 }
 
 }  // namespace
@@ -224,27 +151,10 @@ Json distance_json(const audit::DistanceReport& distance, const io::LabelTable& 
           {"per_label", std::move(labels)}};
 }
 
-void print_distance(const audit::DistanceReport& distance, const io::LabelTable& table,
-                    const io::LabelNames& names) {
-  const std::string infinite = infinite_text(distance, table, names);
-  const std::string finite = finite_text(distance, table, names);
-  std::cout << "distance      " << infinite << (infinite.empty() || finite.empty() ? "" : "; ")
-            << finite;
-  if (distance.per_label.empty()) std::cout << "no interface to measure";
-  if (!finite.empty()) std::cout << "; " << audit::sampling_text(distance);
-  std::cout << "\n";
-}
-
 io::Json specks_json(const std::optional<io::SpeckFacts>& specks) {
   if (!specks) return nullptr;
   return {
       {"components", specks->components}, {"voxels", specks->voxels}, {"rounds", specks->rounds}};
-}
-
-void print_specks(const std::optional<io::SpeckFacts>& specks) {
-  if (!specks) return;
-  std::cout << "specks      " << specks->components << " components of " << specks->voxels
-            << " voxels took the labels around them, in " << specks->rounds << " rounds\n";
 }
 
 io::Json welds_json(const std::optional<io::WeldFacts>& welds) {
@@ -252,15 +162,19 @@ io::Json welds_json(const std::optional<io::WeldFacts>& welds) {
   return {{"voxels", welds->voxels}, {"rounds", welds->rounds}};
 }
 
-void print_welds(const std::optional<io::WeldFacts>& welds) {
-  if (!welds) return;
-  if (!welds->has_solid) {
+void print_steps(const std::optional<io::SpeckFacts>& specks,
+                 const std::optional<io::WeldFacts>& welds) {
+  std::cout << told(
+      "specks      {components} components of {voxels} voxels took the labels around them, in "
+      "{rounds} rounds\n",
+      specks_json(specks));
+  if (welds && !welds->has_solid) {
     std::cout
         << "welded      nothing: --weld names all labels of the volume, and joins the others\n";
-    return;
+  } else {
+    std::cout << told("welded      {voxels} voxels were filled, in {rounds} rounds\n",
+                      welds_json(welds));
   }
-  std::cout << "welded      " << welds->voxels << " voxels were filled, in " << welds->rounds
-            << " rounds\n";
 }
 
 }  // namespace mw::report

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The mwmesh authors
 // SPDX-License-Identifier: Apache-2.0
-// What can be said of a mesh, its labels, volumes and distances, and how reports say it.
+// What can be said of a mesh, its labels, volumes and distances, as JSON.
 #pragma once
 
 #include <filesystem>
@@ -43,9 +43,6 @@ void append_with_rows(const io::Json& value,
 /// Returns "quality" of a report.
 [[nodiscard]] io::Json quality_json(const audit::QualityReport& quality);
 
-/// Prints quality in two lines.
-void print_quality(const audit::QualityReport& quality);
-
 /// Returns a label as a JSON number.
 [[nodiscard]] io::Json label_json(RawLabel label, bool is_signed);
 
@@ -80,30 +77,19 @@ void add_colour(io::Json& row, RawLabel label, const io::LabelNames& names);
 /// Returns area and bends of interfaces.
 [[nodiscard]] io::Json interfaces_json(const audit::ShapeReport& shape);
 
-/// Print a line each.
-void print_volumes(const audit::VolumeReport& volumes, const io::LabelTable& table,
-                   const io::LabelNames& names);
-void print_interfaces(const audit::ShapeReport& shape);
-
 /// Returns "distance" of a report, in voxels.  Infinite figures are null, and so is the label of
 /// tets whose label is not in the volume.
 [[nodiscard]] io::Json distance_json(const audit::DistanceReport& distance,
                                      const io::LabelTable& table, const io::LabelNames& names);
 
-/// Prints distance in one line.
-void print_distance(const audit::DistanceReport& distance, const io::LabelTable& table,
-                    const io::LabelNames& names);
-
 /// Returns "specks" of a report; null when none were to be dropped.
 [[nodiscard]] io::Json specks_json(const std::optional<io::SpeckFacts>& specks);
-
-/// Prints one line, or nothing when no specks were to be dropped.
-void print_specks(const std::optional<io::SpeckFacts>& specks);
 
 /// Returns "welds" of a report; null when nothing was to be welded.
 [[nodiscard]] io::Json welds_json(const std::optional<io::WeldFacts>& welds);
 
-/// Prints one line, or nothing when nothing was to be welded.
-void print_welds(const std::optional<io::WeldFacts>& welds);
+/// Prints a line each about specks that were to be dropped, and about what was to be welded.
+void print_steps(const std::optional<io::SpeckFacts>& specks,
+                 const std::optional<io::WeldFacts>& welds);
 
 }  // namespace mw::report

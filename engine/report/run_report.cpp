@@ -140,6 +140,7 @@ Json engine_json(const FinishedRun& run) {
 }
 
 Json shape_json(const FinishedRun& run) {
+  if (!run.figures) return nullptr;
   audit::VolumeMeter volumes;
   for_each_volume(run, [&](const audit::VolumeRow& row) { volumes.add(row); });
   Json out = volume_summary_json(volumes.summary(), run.labels);
@@ -150,6 +151,7 @@ Json shape_json(const FinishedRun& run) {
 }
 
 Json run_quality_json(const FinishedRun& run) {
+  if (!run.figures) return nullptr;
   Json out = quality_json(run.figures->quality);
   out["radius_ratio_floor"] = run.radius_ratio_floor;
   return out;

@@ -73,8 +73,8 @@ struct FinishedRun {
 /// Returns the vertices of a mesh per corner of the volume's voxels.
 [[nodiscard]] double vertex_fraction(std::uint64_t vertices, Index3 shape);
 
-/// Returns the report without its rows of labels (kRows stands for them).
-/// REQUIRES: run.figures.
+/// Returns the report without its rows of labels (kRows stands for them).  Figures that were not
+/// measured are null.
 [[nodiscard]] io::Json run_report(const FinishedRun& run, const std::filesystem::path& mesh,
                                   io::Json settings);
 
@@ -82,7 +82,7 @@ struct FinishedRun {
 void for_each_volume(const FinishedRun& run,
                      const std::function<void(const audit::VolumeRow&)>& visit);
 
-/// Appends the report; figures that were not measured are null.  Memory does not grow with labels.
+/// Appends the report.  Memory does not grow with labels.
 /// REQUIRES: run.figures.
 void append_run_report(const FinishedRun& run, const std::filesystem::path& mesh, io::Json settings,
                        const AppendText& append);

@@ -11,6 +11,7 @@
 #include "engine/report/figures.h"
 #include "engine/report/mesh_facts.h"
 #include "engine/settings/number_text.h"
+#include "io/file/errors.h"
 
 namespace mw::report {
 namespace {
@@ -32,15 +33,10 @@ std::vector<std::string> changed_labels(const Verdict& verdict) {
   return out;
 }
 
-/// Says what distances count in, where that is not the input's voxels.
-void print_lattice(Index3 layers) {
-  if (layers == Index3{1, 1, 1}) return;
-  std::cout << "lattice       distances are in voxels cut into " << layers.x << " x " << layers.y
-            << " x " << layers.z << " layers\n";
-}
-
-std::string changed_text(Label label, const Verdict& verdict) {
+std::string name_text(Label label, const Verdict& verdict) {
   if (label == kExterior) return "exterior";
+  if (label == audit::kUnknown) return "one that the volume does not have";
+  if (label == audit::kLeftOut) return "left out";
   return label_text(verdict.table.raw(label), verdict.table.is_signed(), verdict.names);
 }
 
@@ -104,6 +100,73 @@ bool is_in_box(const std::vector<audit::Check>& checks) {
   });
 }
 
+std::string volumes_text(const Verdict& verdict, const Json& volume) {
+  const audit::VolumeReport& volumes = verdict.audit.volumes;
+  const std::string large = io::text(" of ", audit::kMinJudgedVoxels, " voxels or more");
+  if (!volumes.summary.worst) return "no label" + large;
+  return told("off by {volume_error_max_abs:2%} at most (label ", volume) +
+         name_text(volumes.summary.worst->label, verdict) +
+         told("), {volume_error_mean_abs:3%} on average over {labels_measured} labels", volume) +
+         large +
+         (volumes.exact ? "; exact" : "; in floating point, vertices being off the lattice");
+}
+
+/// Prints what the mesh is like, whether or not the checks hold.
+void print_measured(const Verdict& verdict, const Json& facts) {
+  std::cout << told(
+                   "radius ratio  {radius_ratio_min:4} least, {radius_ratio_mean:4} mean, "
+                   "{sliver_fraction:3%} of tets below 0.1\n"
+                   "dihedral      {dihedral_min_deg:2} to {dihedral_max_deg:2} degrees\n"
+                   "edges         {edge_min:g} to {edge_max:g} long; the least height of a tet is "
+                   "{height_min:g}\n",
+                   facts["quality"])
+            << "volumes       " << volumes_text(verdict, facts["volume"]) << "\n"
+            << told(
+                   "interfaces    area {area:g}; edges bend by {bend_p50_deg:1} degrees (median), "
+                   "{bend_p95_deg:1} (95 %), "
+                   "{bend_max_deg:1} (most); {sharp_share:2%} of their length by more than ",
+                   facts["shape"])
+            << engine::format_number(audit::kSharpDegrees) << "\n";
+}
+
+/// Returns "infinite for 2 labels with an interface on one side only (the first: 7)", or nothing
+/// when all is finite.
+std::string infinite_text(const audit::DistanceReport& distance, const Verdict& verdict) {
+  const std::size_t count = distance.only_in_volume.size() + distance.only_in_mesh.size();
+  if (count == 0) return "";
+  const Label first = distance.only_in_volume.empty() ? distance.only_in_mesh.front()
+                                                      : distance.only_in_volume.front();
+  return io::text("infinite for ", count, count == 1 ? " label" : " labels",
+                  " with an interface on one side only (the first: ", name_text(first, verdict),
+                  ")");
+}
+
+std::string finite_text(const audit::DistanceReport& distance, const Verdict& verdict) {
+  const auto* farthest = distance.farthest();
+  if (farthest == nullptr) return "";
+  const std::string text = format_fixed(farthest->max(), 2) + " voxels at most (label " +
+                           name_text(farthest->label, verdict) + ")";
+  if (!distance.is_finite()) return text + " for the others";
+  return text + ", " + format_fixed(distance.mean_voxels, 2) + " on average";
+}
+
+/// Says how far boundaries moved, and what distances count in, where that is not the input's
+/// voxels.
+void print_distance(const audit::DistanceReport& distance, const Verdict& verdict,
+                    const Json& facts) {
+  const std::string infinite = infinite_text(distance, verdict);
+  const std::string finite = finite_text(distance, verdict);
+  if (verdict.layers != Index3{1, 1, 1}) {
+    std::cout << told(
+        "lattice       distances are in voxels cut into {lattice.layers_xyz} layers\n", facts);
+  }
+  std::cout << "distance      " << infinite << (infinite.empty() || finite.empty() ? "" : "; ")
+            << finite;
+  if (distance.per_label.empty()) std::cout << "no interface to measure";
+  if (!finite.empty()) std::cout << "; " << audit::sampling_text(distance);
+  std::cout << "\n";
+}
+
 Json asked_json(const Bounds& bounds) {
   const io::MeshPromises& asked = bounds.promises;
   return {{"max_distance", asked.max_distance ? Json(*asked.max_distance) : Json()},
@@ -120,8 +183,7 @@ Json asked_json(const Bounds& bounds) {
 void print_verdict(const Verdict& verdict) {
   const auto& checks = verdict.audit.checks;
   if (!verdict.bounds.told.empty()) std::cout << told_text(verdict.bounds) << "\n";
-  print_specks(verdict.specks);
-  print_welds(verdict.welds);
+  print_steps(verdict.specks, verdict.welds);
   print_bounds(verdict.bounds);
   for (const audit::Check& check : checks) {
     std::string name = check.name;
@@ -135,19 +197,13 @@ void print_verdict(const Verdict& verdict) {
   if (!verdict.audit.labels_changed.empty()) {
     std::cout << "labels whose topology changed:";
     for (const Label label : verdict.audit.labels_changed) {
-      std::cout << " " << changed_text(label, verdict);
+      std::cout << " " << name_text(label, verdict);
     }
     std::cout << "\n";
   }
-  if (verdict.looked_at()) {
-    print_quality(verdict.audit.quality);
-    print_volumes(verdict.audit.volumes, verdict.table, verdict.names);
-    print_interfaces(verdict.audit.shape);
-  }
-  if (verdict.audit.distance) {
-    print_lattice(verdict.layers);
-    print_distance(*verdict.audit.distance, verdict.table, verdict.names);
-  }
+  const Json facts = verdict_json(verdict);
+  if (verdict.looked_at()) print_measured(verdict, facts);
+  if (verdict.audit.distance) print_distance(*verdict.audit.distance, verdict, facts);
   const auto failed = std::count_if(checks.begin(), checks.end(),
                                     [](const audit::Check& check) { return !check.passed; });
   std::cout << (failed == 0 ? "all checks hold" : std::to_string(failed) + " checks fail")

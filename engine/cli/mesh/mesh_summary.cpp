@@ -17,14 +17,7 @@
 namespace mw::cli {
 namespace {
 
-/// Says what bounds and windows count in, where that is not the volume's voxels.
-void print_lattice(const engine::LatticeFacts& lattice) {
-  const Index3 shape = lattice.shape, layers = lattice.layers;
-  if (layers == Index3{1, 1, 1}) return;
-  std::cout << "lattice     " << shape.x << " x " << shape.y << " x " << shape.z
-            << ", voxels cut into " << layers.x << " x " << layers.y << " x " << layers.z
-            << " layers\n";
-}
+using io::Json;
 
 /// Says what the coordinates are, where the file does.
 void print_space(const io::VolumeSpace& space) {
@@ -47,8 +40,8 @@ void print_sizes(const report::FinishedRun& run) {
     near += from >= 0.6 && i < ratios.kBounds.size() ? count : 0;
   }
   if (all == 0) return;
-  std::cout << "sizes       " << format_fixed(100 * near / all, 1)
-            << " % of edges are 0.6 to 1.5 of what was asked\n";
+  std::cout << "sizes       " << format_percent(near / all, 1)
+            << " of edges are 0.6 to 1.5 of what was asked\n";
 }
 
 /// Warns if a coarse size could not be had at interfaces, though no other line explains it.
@@ -109,18 +102,12 @@ std::string most_text(const report::FinishedRun& run) {
 }
 
 /// Prints how many tets were asked for, and warns if the mesh cannot have that number.
-void print_count(const report::FinishedRun& run) {
+void print_count(const report::FinishedRun& run, const Json& count) {
   if (!run.count) return;
-  const report::CountFacts& count = *run.count;
-  std::cout << "count       " << count.asked << " tets were asked, sizes are scaled by "
-            << format_figure(count.scale);
-  if (count.trials > 0) {
-    std::cout << " after " << count.trials << " pilot meshes in " << format_figure(count.seconds)
-              << " s";
-  }
-  std::cout << "\n";
-  if (count.is_least) log_warning(least_text(run));
-  if (count.is_most) log_warning(most_text(run));
+  std::cout << told("count       {asked} tets were asked, sizes are scaled by {scale:g}", count)
+            << told(" after {pilot.meshes} pilot meshes in {pilot.seconds:g} s", count) << "\n";
+  if (run.count->is_least) log_warning(least_text(run));
+  if (run.count->is_most) log_warning(most_text(run));
 }
 
 /// Warns if the mesh is far from the number that was asked for, though an end of the range of
@@ -201,21 +188,16 @@ void print_across(const report::FinishedRun& run) {
                        "least as long as the diagonal of a voxel; a --size below that cuts tets"));
 }
 
-void print_samples(const report::FinishedRun& run) {
-  for (const engine::SampleFacts& sample : run.samples) {
-    std::cout << "sample      " << sample.name << ": " << name(sample.statistic) << " of "
-              << sample.file << ", ";
-    if (sample.outside == sample.tets) {
-      std::cout << "no tet has a value: the image lies elsewhere\n";
-      continue;
-    }
-    std::cout << format_figure(sample.least) << " to " << format_figure(sample.most);
-    if (sample.partly_outside > 0) {
-      std::cout << "; " << sample.partly_outside << " tets are partly outside of the image";
-    }
-    if (sample.outside > 0) std::cout << "; " << sample.outside << " are outside and have NaN";
-    std::cout << "\n";
+void print_sample(const Json& sample) {
+  std::cout << told("sample      {name}: {statistic} of {file}, ", sample);
+  const std::string range = told("{least:g} to {most:g}", sample);
+  std::cout << (range.empty() ? "no tet has a value: the image lies elsewhere" : range);
+  const std::uint64_t outside = sample["tets_outside"].integer();
+  if (!range.empty() && sample["tets_partly_outside"].integer() > 0) {
+    std::cout << told("; {tets_partly_outside} tets are partly outside of the image", sample);
   }
+  if (!range.empty() && outside > 0) std::cout << "; " << outside << " are outside and have NaN";
+  std::cout << "\n";
 }
 
 void print_certificate(const report::FinishedRun& run) {
@@ -289,20 +271,20 @@ void LabelTets::write_tets(std::span<const io::TetRows> /*tets*/,
 
 void print_summary(const report::FinishedRun& run, const MeshRequest& request,
                    const LabelTets& tets) {
-  const double seconds = run.resources.wall_seconds;
-  const Index3 shape = run.volume.shape;
-  const double share = 100 * report::vertex_fraction(run.engine.vertices, shape);
-  std::cout << "vertices    " << run.engine.vertices << " (" << format_fixed(share, 2)
-            << " % of the voxel corners)\n"
-            << "tets        " << run.engine.tets << "\n";
+  const Json facts = report::run_report(run, request.output, {});
+  const auto print = [&](const char* line) { std::cout << told(line, facts); };
+  print(
+      "vertices    {output.vertices} ({output.vertex_fraction:2%} of the voxel corners)\n"
+      "tets        {output.tets}\n");
   print_labels(run, tets);
   print_background(run, request, tets);
   print_parts(run);
-  report::print_specks(run.specks);
-  report::print_welds(run.welds);
-  print_lattice(run.engine.lattice);
+  report::print_steps(run.specks, run.welds);
+  if (run.engine.lattice.layers != Index3{1, 1, 1}) {
+    print("lattice     {lattice.shape_xyz}, voxels cut into {lattice.layers_xyz} layers\n");
+  }
   print_space(run.volume.space);
-  print_count(run);
+  print_count(run, facts["size"]["count"]);
   print_halvings(run);
   print_raised(run);
   print_sizes(run);
@@ -310,12 +292,11 @@ void print_summary(const report::FinishedRun& run, const MeshRequest& request,
   print_count_missed(run);
   print_unmet(run);
   print_across(run);
-  print_samples(run);
+  for (const Json& sample : facts["samples"].elements()) print_sample(sample);
   print_certificate(run);
-  std::cout << "seconds     " << format_figure(seconds) << "\n"
-            << "voxels/s    " << format_figure(static_cast<double>(shape.product()) / seconds)
-            << "\n"
-            << "peak memory " << format_bytes(run.resources.peak_rss_bytes) << "\n";
+  print(
+      "seconds     {performance.wall_s:g}\nvoxels/s    {performance.voxels_per_s:g}\n"
+      "peak memory {performance.peak_rss_bytes:b}\n");
 }
 
 }  // namespace mw::cli

@@ -36,6 +36,9 @@ using report::format_figure;
 using report::format_fixed;
 using report::format_percent;
 using report::format_volume;
+using report::short_number;
+using report::told;
+using report::with_commas;
 
 /// All of these take the whole text.  ERRORS: mw::Error(kUsage) saying what was expected.
 [[nodiscard]] std::array<double, 3> parse_numbers(std::string_view text);  ///< "X,Y,Z", or one

@@ -4,7 +4,6 @@
 #include "engine/cli/page/html_text.h"
 
 #include <algorithm>
-#include <cmath>
 
 #include "engine/cli/options/values.h"
 
@@ -35,23 +34,6 @@ std::string script_json(const io::Json& value) {
     c == '<' ? out += "\\u003c" : out += c;
   }
   return out;
-}
-
-std::string with_commas(std::uint64_t number) {
-  std::string out = std::to_string(number);
-  for (std::size_t at = out.size(); at > 3; at -= 3) out.insert(at - 3, ",");
-  return out;
-}
-
-std::string short_number(double value) {
-  return value < 1000 ? format_figure(value)
-                      : with_commas(static_cast<std::uint64_t>(std::llround(value)));
-}
-
-std::string size_text(std::uint64_t bytes) {
-  constexpr std::uint64_t kGiB = std::uint64_t{1} << 30U;
-  if (bytes < kGiB) return format_bytes(bytes);
-  return format_fixed(static_cast<double>(bytes) / static_cast<double>(kGiB), 1) + " GiB";
 }
 
 void Base64::add(std::span<const std::byte> bytes) {

@@ -21,16 +21,7 @@ namespace mw::cli {
 /// Returns JSON that may stand in a script element, whatever its strings hold.
 [[nodiscard]] std::string script_json(const io::Json& value);
 
-/// Returns a number as "41,247".
-[[nodiscard]] std::string with_commas(std::uint64_t number);
-
-/// Returns format_figure() with commas: "0.7381", "12.34", "1,040".
-[[nodiscard]] std::string short_number(double value);
-
 using AppendText = std::function<void(std::string_view)>;
-
-/// Returns a size as "66.8 MiB" or "11.0 GiB".
-[[nodiscard]] std::string size_text(std::uint64_t bytes);
 
 /// Encodes bytes in base64 and passes them on as they come.  Memory: 4 KiB.
 class Base64 {

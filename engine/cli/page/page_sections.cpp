@@ -35,9 +35,11 @@ std::string quoted(const std::string& word) {
   return out + "'";
 }
 
-std::string tile(const std::string& name, const std::string& value, const std::string& note) {
-  return "<div class=\"card tile\"><span>" + escaped(name) + "</span><b>" + escaped(value) +
-         "</b><span>" + escaped(note) + "</span></div>\n";
+/// Returns a figure with its name and a note; value and note are lines for told().
+std::string tile(const Json& report, const char* name, const char* value, const std::string& note) {
+  const std::string figure = told(value, report);
+  return "<div class=\"card tile\"><span>" + std::string(name) + "</span><b>" +
+         (figure.empty() ? "–" : figure) + "</b><span>" + note + "</span></div>\n";
 }
 
 struct Verdict {
@@ -59,7 +61,7 @@ Verdict unchecked(const char* name, const char* promise, std::string evidence) {
 Verdict shape_verdict(const Json& report) {
   const double min = report["quality"]["radius_ratio_min"].number();
   const double floor = report["quality"]["radius_ratio_floor"].number();
-  const std::string found = "least radius ratio " + format_fixed(min, 4);
+  const std::string found = told("least radius ratio {quality.radius_ratio_min:4}", report);
   constexpr const char* kPromise = "No tet is below the quality floor.";
   if (floor <= 0) return unchecked("P3", kPromise, found + "; the run had no floor");
   return judged("P3", kPromise, min >= floor,
@@ -69,8 +71,10 @@ Verdict shape_verdict(const Json& report) {
 Verdict memory_verdict(const Json& report) {
   const std::uint64_t peak = report["performance"]["peak_rss_bytes"].integer();
   const std::uint64_t budget = report["engine"]["memory_budget_bytes"].integer();
-  return judged("P6", "Resident memory stays under the budget.", peak <= budget,
-                size_text(peak) + " at most, budget " + size_text(budget));
+  return judged(
+      "P6", "Resident memory stays under the budget.", peak <= budget,
+      told("{performance.peak_rss_bytes:b} at most, budget {engine.memory_budget_bytes:b}",
+           report));
 }
 
 /// Returns the check of the certificate whose name begins so, or null.
@@ -88,13 +92,10 @@ Json check_of(const Json& report, const std::string& name) {
 Verdict volume_verdict(const Json& report) {
   constexpr double kSmooth = 0.05;  // the default of verify
   constexpr const char* kPromise = "Labels of 1,000 voxels and more keep their volumes.";
-  const Json& shape = report["shape"];
-  if (shape["volume_error_max_abs"].is_null()) {
-    return unchecked("P8", kPromise, "no label is that large");
-  }
-  const double worst = shape["volume_error_max_abs"].number();
-  const std::string evidence = "off by " + format_percent(worst, 2) + " at most (label " +
-                               shape["volume_error_worst_label"].dump() + ")";
+  const std::string evidence =
+      told("off by {volume_error_max_abs:2%} at most (label {volume_error_worst_label})",
+           report["shape"]);
+  if (evidence.empty()) return unchecked("P8", kPromise, "no label is that large");
   const Json& why_not = report["certificate"]["volumes_not_promised"];
   if (!why_not.is_null()) {
     return unchecked("P8", kPromise, evidence + "; not promised with " + why_not.text());
@@ -104,16 +105,19 @@ Verdict volume_verdict(const Json& report) {
     return judged("P8", kPromise, check["passed"].boolean(),
                   evidence + "; nearest to its bound: " + check["detail"].text());
   }
-  if (worst <= kSmooth) return judged("P8", kPromise, true, evidence + ", 5 % allowed");
+  if (report["shape"]["volume_error_max_abs"].number() <= kSmooth)
+    return judged("P8", kPromise, true, evidence + ", 5 % allowed");
   return unchecked("P8", kPromise,
                    evidence + "; rough labels may be off by more than 5 %, verify measures them");
 }
 
 Verdict resume_verdict(const Json& report) {
-  const std::uint64_t resumed = report["engine"]["windows_resumed"].integer();
-  return {"P7", "A killed run goes on to the same bytes.", "open", "not checked here",
-          resumed == 0 ? "this run was not interrupted"
-                       : with_commas(resumed) + " windows were done before it was interrupted"};
+  const bool is_whole = report["engine"]["windows_resumed"].integer() == 0;
+  return unchecked(
+      "P7", "A killed run goes on to the same bytes.",
+      is_whole
+          ? "this run was not interrupted"
+          : told("{engine.windows_resumed:,} windows were done before it was interrupted", report));
 }
 
 /// Returns what the certificate says of a promise or, without one, how to check it.
@@ -180,7 +184,7 @@ std::vector<BarRow> memory_rows(const Json& purposes) {
   std::vector<BarRow> out;
   for (const auto& [key, value] : purposes.items()) {
     const std::uint64_t bytes = value.integer();
-    out.push_back({key, static_cast<double>(bytes), size_text(bytes)});
+    out.push_back({key, static_cast<double>(bytes), format_bytes(bytes)});
   }
   return out;
 }
@@ -221,37 +225,30 @@ std::string verify_command(const Json& report) {
 }
 
 std::string head_section(const Json& report) {
-  const Json& input = report["input"];
-  const Json& output = report["output"];
-  const Json& quality = report["quality"];
-  const Json& shape = report["shape"];
-  const Json& performance = report["performance"];
-  const std::filesystem::path mesh = output["file"].text();
+  const std::filesystem::path mesh = report["output"]["file"].text();
   std::string voxels;
-  for (const Json& side : input["shape_xyz"].elements()) {
+  for (const Json& side : report["input"]["shape_xyz"].elements()) {
     voxels += (voxels.empty() ? "" : " × ") + with_commas(side.integer());
   }
-  std::string out = "<header><h1>" + escaped(mesh.filename().string()) + "</h1><p>" +
-                    escaped(flag_text(report["settings"]["input"])) + " · " + voxels +
-                    " voxels · " + with_commas(input["labels"].integer()) + " labels · mwmesh " +
-                    escaped(report["version"].text()) + "</p>\n<div class=\"tiles\">\n";
-  out += tile("vertices", with_commas(output["vertices"].integer()),
-              format_percent(output["vertex_fraction"].number(), 2) + " of the voxel corners");
-  const double slivers = quality["sliver_fraction"].number();
-  out += tile("tets", with_commas(output["tets"].integer()),
-              slivers == 0 ? "no slivers" : format_percent(slivers, 3) + " slivers");
-  out += tile("radius ratio, least", format_fixed(quality["radius_ratio_min"].number(), 3),
-              format_fixed(quality["radius_ratio_mean"].number(), 3) + " on average");
-  const Json& error = shape["volume_error_max_abs"];
-  out += tile("volume error, at most", error.is_null() ? "–" : format_percent(error.number(), 2),
-              error.is_null()
-                  ? "no label of 1,000 voxels"
-                  : format_percent(shape["volume_error_mean_abs"].number(), 3) + " on average");
-  out += tile("time on the clock", short_number(performance["wall_s"].number()) + " s",
-              short_number(performance["cpu_s"].number()) + " s of CPU");
-  out += tile("memory, at most", size_text(performance["peak_rss_bytes"].integer()),
-              size_text(report["engine"]["memory_budget_bytes"].integer()) + " allowed");
-  return out + "</div></header>\n";
+  const bool has_slivers = report["quality"]["sliver_fraction"].number() > 0;
+  const std::string error = told("{shape.volume_error_mean_abs:3%} on average", report);
+  return "<header><h1>" + escaped(mesh.filename().string()) + "</h1><p>" +
+         escaped(flag_text(report["settings"]["input"])) + " · " + voxels +
+         told(" voxels · {input.labels:,} labels · mwmesh {version}</p>\n<div class=\"tiles\">\n",
+              report) +
+         tile(report, "vertices", "{output.vertices:,}",
+              told("{output.vertex_fraction:2%} of the voxel corners", report)) +
+         tile(report, "tets", "{output.tets:,}",
+              has_slivers ? told("{quality.sliver_fraction:3%} slivers", report) : "no slivers") +
+         tile(report, "radius ratio, least", "{quality.radius_ratio_min:3}",
+              told("{quality.radius_ratio_mean:3} on average", report)) +
+         tile(report, "volume error, at most", "{shape.volume_error_max_abs:2%}",
+              error.empty() ? "no label of 1,000 voxels" : error) +
+         tile(report, "time on the clock", "{performance.wall_s:n} s",
+              told("{performance.cpu_s:n} s of CPU", report)) +
+         tile(report, "memory, at most", "{performance.peak_rss_bytes:b}",
+              told("{engine.memory_budget_bytes:b} allowed", report)) +
+         "</div></header>\n";
 }
 
 std::string promise_section(const Json& report) {
@@ -266,23 +263,22 @@ std::string promise_section(const Json& report) {
 }
 
 std::string engine_section(const Json& report) {
-  const Json& engine = report["engine"];
-  const Json& performance = report["performance"];
   std::string out = "<section><h2>Engine</h2><div class=\"charts\">\n";
-  out += bar_figure("Where the threads' time went", stage_rows(performance["stages"]));
+  out += bar_figure("Where the threads' time went", stage_rows(report["performance"]["stages"]));
   out += bar_figure("Memory reserved, of which less is used",
-                    memory_rows(engine["peak_bytes_by_purpose"]));
-  out +=
-      "<figure class=\"card\"><figcaption><b>Run</b></figcaption>" +
-      facts_table({{"windows", with_commas(engine["windows"].integer())},
-                   {"threads", with_commas(engine["threads"].integer())},
-                   {"time on the clock", short_number(performance["wall_s"].number()) + " s"},
-                   {"CPU time of all threads", short_number(performance["cpu_s"].number()) + " s"},
-                   {"voxels/s", short_number(performance["voxels_per_s"].number())},
-                   {"blocks spilled", with_commas(engine["blocks_spilled"].integer())},
-                   {"bytes written", size_text(engine["bytes_written"].integer())},
-                   {"bytes read", size_text(engine["bytes_read"].integer())}}) +
-      "</figure>\n";
+                    memory_rows(report["engine"]["peak_bytes_by_purpose"]));
+  std::vector<std::array<std::string, 2>> rows{
+      {"windows", "{engine.windows:,}"},
+      {"threads", "{engine.threads:,}"},
+      {"time on the clock", "{performance.wall_s:n} s"},
+      {"CPU time of all threads", "{performance.cpu_s:n} s"},
+      {"voxels/s", "{performance.voxels_per_s:n}"},
+      {"blocks spilled", "{engine.blocks_spilled:,}"},
+      {"bytes written", "{engine.bytes_written:b}"},
+      {"bytes read", "{engine.bytes_read:b}"}};
+  for (auto& [name, value] : rows) value = told(value, report);
+  out += "<figure class=\"card\"><figcaption><b>Run</b></figcaption>" + facts_table(rows) +
+         "</figure>\n";
   return out + "</div></section>\n";
 }
 

@@ -16,13 +16,13 @@ namespace {
 
 using io::Json;
 
-template <typename Counts>
-std::vector<double> shares_of(const Counts& counts) {
+/// Returns the shares of a list of counts in their sum.
+std::vector<double> shares_of(const Json& counts) {
   double total = 0;
-  for (const auto count : counts) total += static_cast<double>(count);
+  for (const Json& count : counts.elements()) total += count.number();
   std::vector<double> out;
-  for (const auto count : counts) {
-    out.push_back(total > 0 ? static_cast<double>(count) / total : 0);
+  for (const Json& count : counts.elements()) {
+    out.push_back(total > 0 ? count.number() / total : 0);
   }
   return out;
 }
@@ -49,39 +49,37 @@ Histogram volume_errors(const report::FinishedRun& run) {
 
 /// Returns the shares of edges by length; each edge is counted by each of its tets.
 std::vector<BarRow> edge_rows(const engine::EdgeRatios& ratios) {
-  double total = 0;
-  for (const std::uint64_t count : ratios.counts) total += static_cast<double>(count);
+  const std::vector<double> shares = shares_of(ratios.counts);
   std::vector<BarRow> out;
-  for (std::size_t i = 0; i < ratios.counts.size(); ++i) {
+  for (std::size_t i = 0; i < shares.size(); ++i) {
     const std::string from = i == 0 ? "0" : format_number(ratios.kBounds[i - 1]);
     const bool is_last = i == ratios.kBounds.size();
-    const double share = total > 0 ? static_cast<double>(ratios.counts[i]) / total : 0;
     out.push_back({is_last ? "above " + from : from + " to " + format_number(ratios.kBounds[i]),
-                   share, format_fixed(100 * share, 1) + " %"});
+                   shares[i], format_percent(shares[i], 1)});
   }
   return out;
 }
 
-std::string shape_section(const report::FinishedRun& run) {
-  const audit::QualityReport& quality = run.figures->quality;
-  const audit::ShapeReport& shape = run.figures->shape;
+std::string shape_section(const report::FinishedRun& run, const Json& report) {
+  const Json& quality = report["quality"];
+  const Json& shape = report["shape"];
   std::string out = "<section><h2>Shape</h2><div class=\"charts\">\n";
   out += histogram_figure({.title = "Radius ratio",
                            .note = "of tets; 1 is regular",
-                           .shares = shares_of(quality.radius_ratio_histogram)});
+                           .shares = shares_of(quality["radius_ratio_histogram"])});
   out += histogram_figure({.title = "Dihedral angle",
-                           .note = format_fixed(quality.dihedral_min_deg, 1) + "° to " +
-                                   format_fixed(quality.dihedral_max_deg, 1) + "°",
+                           .note = told("{dihedral_min_deg:1}° to {dihedral_max_deg:1}°", quality),
                            .to = 180,
                            .unit = "°",
-                           .shares = shares_of(quality.dihedral_histogram)});
-  const auto middle = shape.bend_histogram.begin() + shape.bend_histogram.size() / 2;
-  out += histogram_figure(
-      {.title = "Bend of interfaces at edges",
-       .note = "by length; " + format_fixed(100 * shape.sharp_share, 2) + " % beyond 60°",
-       .to = 90,
-       .unit = "°",
-       .shares = {shape.bend_histogram.begin(), middle}});
+                           .shares = shares_of(quality["dihedral_histogram"])});
+  std::vector<double> bends;
+  for (const Json& share : shape["bend_histogram"].elements()) bends.push_back(share.number());
+  bends.resize(bends.size() / 2);
+  out += histogram_figure({.title = "Bend of interfaces at edges",
+                           .note = told("by length; {sharp_share:2%} beyond 60°", shape),
+                           .to = 90,
+                           .unit = "°",
+                           .shares = std::move(bends)});
   out += histogram_figure(volume_errors(run));
   if (run.sizes.rules.any()) {
     out += bar_figure("Edges, as shares of the size that was asked", edge_rows(run.edges->ratios));
@@ -149,7 +147,7 @@ std::string label_row(const PageLabels& labels, Label rank, std::optional<std::s
   if (!volume) return out + "<td></td><td></td><td></td></tr>\n";
   return out + "<td>" + with_commas(volume->voxels) + "</td><td>" +
          escaped(labels.volume(volume->volume_voxels)) + "</td><td>" +
-         format_fixed(100 * volume->error, 2) + " %</td></tr>\n";
+         format_percent(volume->error, 2) + "</td></tr>\n";
 }
 
 /// Returns rows of all labels or, if these are too many, of those in the view only.
@@ -271,7 +269,7 @@ void write_run_page(io::AtomicFile& file, const report::FinishedRun& run, io::Gr
   file.append(page_top(report) + head_section(report) + "<main>\n");
   add_pictures(file, labels);
   ViewData view(mesh, labels.surrounding);
-  file.append(label_section(labels, view) + promise_section(report) + shape_section(run) +
+  file.append(label_section(labels, view) + promise_section(report) + shape_section(run, report) +
               engine_section(report) + settings_section(report) +
               "</main>\n<footer>Written by mwmesh.</footer>\n");
   add_data(file, labels, view);
