@@ -11,43 +11,29 @@
 #include "kernels/core/vector3.h"
 
 namespace mw::io {
-CurvedParts::CurvedParts(const std::filesystem::path& folder, std::size_t values)
-    : vertices_(folder), tets_(folder), values_(folder), columns_(values) {}
 
-void CurvedParts::add_vertices(std::span<const Position> positions) {
-  for (const Position& p : positions) vertices_.append(p);
-}
-
-void CurvedParts::add(std::span<const TetRows> parts, std::span<const RawLabel> labels) {
-  batch_ = parts_;
-  for (std::size_t i = 0; i < parts.size(); ++i) {
-    const std::size_t number = parts_++ % kTetParts.size();
-    for (std::size_t k = 0; k < parts[i].size(); ++k) {
-      next_.rows[kTetParts[number][k]] = parts[i][k];
+CurvedParts::CurvedParts(ScratchMesh& parts) : parts_(parts), tets_(parts.folder()) {
+  std::array<std::uint64_t, 10> rows{};
+  parts.each_tet_batch([&](const TetBatch& batch) {
+    for (std::size_t t = 0; t < batch.tets.size(); ++t) {
+      const std::size_t part = (batch.first + t) % kTetParts.size();
+      for (std::size_t k = 0; k < 4; ++k) rows[kTetParts[part][k]] = batch.tets[t][k];
+      if (part + 1 == kTetParts.size()) tets_.append(rows);
     }
-    next_.label = labels[i];
-    if (number + 1 == kTetParts.size()) tets_.append(next_);
-  }
+  });
 }
 
-void CurvedParts::add_values(std::span<const double> rows) {
-  for (std::size_t at = 0; at < rows.size(); at += columns_) {
-    if ((batch_ + at / columns_) % kTetParts.size() != 0) continue;
-    values_.append(std::as_bytes(rows.subspan(at, columns_)));
-  }
-}
-
-KeptRows CurvedParts::corners() {
-  KeptRows out(vertices_.size());
+KeptRows CurvedParts::corner_rows() {
+  KeptRows out(parts_.vertex_count());
   for (const bool are_corners : {false, true}) {
     for (std::uint64_t t = 0; t < tets_.size(); ++t) {
-      const Tet tet = tets_[t];
+      const auto rows = tets_[t];
       for (std::size_t i = are_corners ? 0 : 4; i < (are_corners ? 4U : 10U); ++i) {
-        if (tet.rows[i] >= vertices_.size()) {
+        if (rows[i] >= parts_.vertex_count()) {
           throw Error(ErrorKind::kInput,
-                      text("a tet names vertex ", tet.rows[i], " of ", vertices_.size()));
+                      text("a tet names vertex ", rows[i], " of ", parts_.vertex_count()));
         }
-        are_corners ? out.keep(tet.rows[i]) : out.middle(tet.rows[i]);
+        are_corners ? out.keep(rows[i]) : out.middle(rows[i]);
       }
     }
   }
@@ -55,41 +41,33 @@ KeptRows CurvedParts::corners() {
   return out;
 }
 
-void CurvedParts::join(MeshSink& sink) {
-  is_joined_ = true;
-  const KeptRows kept = corners();
-  write_corners(kept, sink);
-  write_tets(kept, sink);
-}
-
-void CurvedParts::write_corners(const KeptRows& kept, MeshSink& sink) {
-  constexpr std::size_t kBatchRows = 4096;
-  std::vector<Position> batch;
-  for (std::uint64_t v = 0; v < vertices_.size(); ++v) {
-    if (kept.stays(v)) batch.push_back(vertices_[v]);
-    if (batch.size() < kBatchRows && v + 1 < vertices_.size()) continue;
-    sink.write_vertices(batch);
-    batch.clear();
-  }
-}
-
-void CurvedParts::write_tets(const KeptRows& kept, MeshSink& sink) {
-  std::vector<double> row(columns_);
-  for (std::uint64_t t = 0; t < tets_.size(); ++t) {
-    const Tet tet = tets_[t];
-    TetRows corners{};
-    for (std::size_t i = 0; i < corners.size(); ++i) corners[i] = kept[tet.rows[i]];
-    sink.write_tets(std::span(&corners, 1), std::span(&tet.label, 1));
-    if (row.empty()) continue;
-    values_.read_at(t * row.size() * sizeof(double), std::as_writable_bytes(std::span(row)));
-    sink.write_values(row);
-  }
+ScratchMesh CurvedParts::corners() {
+  const KeptRows kept = corner_rows();
+  ScratchMesh out(parts_.folder());
+  out.header() = parts_.header();
+  std::uint64_t row = 0;
+  parts_.each_vertex_batch([&](std::span<const Position> batch) {
+    for (const Position& p : batch) {
+      if (kept.stays(row++)) out.add_vertices(std::span(&p, 1));
+    }
+  });
+  const std::size_t width = parts_.header().values.size();
+  parts_.each_tet_batch([&](const TetBatch& batch) {
+    for (std::size_t t = 0; t < batch.tets.size(); ++t) {
+      if ((batch.first + t) % kTetParts.size() != 0) continue;
+      const auto rows = tets_[(batch.first + t) / kTetParts.size()];
+      const TetRows tet{kept[rows[0]], kept[rows[1]], kept[rows[2]], kept[rows[3]]};
+      out.add_tets(std::span(&tet, 1), batch.labels.subspan(t, 1));
+      out.add_values(batch.values.subspan(t * width, width));
+    }
+  });
+  return out;
 }
 
 SixPlaces CurvedParts::middles(std::uint64_t tet) {
-  const Tet nodes = tets_[tet];
+  const auto rows = tets_[tet];
   std::array<Position, 10> at{};
-  for (std::size_t i = 0; i < at.size(); ++i) at[i] = vertices_[nodes.rows[i]];
+  for (std::size_t i = 0; i < at.size(); ++i) at[i] = parts_.vertex(rows[i]);
   if (volume6(at[0], at[1], at[2], at[3]) < 0) {
     // Corners 2 and 3 change places.
     std::swap(at[5], at[8]);

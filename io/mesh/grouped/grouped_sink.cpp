@@ -37,42 +37,36 @@ void GroupedSink::begin(const MeshHeader& header) {
   mesh_.header_ = header;
   mesh_.header_.record.curved = mesh_.element_ == Element::kCurvedTet10;
   auto& promises = mesh_.header_.record.promises;
-  if (header.in_parts && mesh_.header_.record.curved) {
-    parts_.emplace(folder_, header.values.size());
+  own_.header() = header;
+  is_in_parts_ = header.in_parts && mesh_.header_.record.curved;
+  if (is_in_parts_) {
     mesh_.header_.in_parts = false;
     mesh_.header_.tets /= kTetParts.size();
   } else if (mesh_.header_.record.curved && promises) {
     promises->quality_floor *= kCurvedFloor;
     promises->max_distance.reset();
   }
-  own_.header() = mesh_.header_;
 }
 
 void GroupedSink::write_vertices(std::span<const Position> positions) {
-  if (parts_ && !parts_->is_joined()) return parts_->add_vertices(positions);
   own_.add_vertices(positions);
 }
 
 void GroupedSink::write_tets(std::span<const TetRows> tets, std::span<const RawLabel> labels) {
-  MW_ASSERT(tets.size() == labels.size());
-  if (parts_ && !parts_->is_joined()) return parts_->add(tets, labels);
   own_.add_tets(tets, labels);
 }
 
 void GroupedSink::write_values(std::span<const double> rows) {
-  if (parts_ && !parts_->is_joined()) return parts_->add_values(rows);
   own_.add_values(rows);
 }
 
 void GroupedSink::finish() {
-  if (parts_) parts_->join(*this);
   group([] {});
   if (writer_) writer_->write(mesh_);
 }
 
 void GroupedSink::take(ScratchMesh& mesh, const std::function<void()>& between) {
-  const bool is_joined = mesh.header().in_parts && mesh_.element_ == Element::kCurvedTet10;
-  if (!writer_ || is_joined) return MeshSink::take(mesh, between);
+  if (!writer_) return MeshSink::take(mesh, between);
   writer_->write(view(mesh, between));
 }
 
@@ -91,6 +85,7 @@ std::uint64_t GroupedSink::buffer_bytes() const {
 }
 
 void GroupedSink::group(const std::function<void()>& between) {
+  if (is_in_parts_) mesh_.source_ = &from_parts_.emplace(parts_.emplace(source()).corners());
   check_sink_counts("mesh", mesh_.header_, source().tet_count());
   look_at_vertices();
   look_at_labels();

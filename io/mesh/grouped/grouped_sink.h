@@ -71,7 +71,9 @@ class GroupedSink : public MeshSink {
   ScratchMesh own_;  ///< what came from begin() to finish()
   std::unique_ptr<GroupedWriter> writer_;
   std::optional<CurveRule> curves_;
-  std::optional<CurvedParts> parts_;                    ///< of a mesh that is curved as it comes
+  bool is_in_parts_ = false;                            ///< the mesh is curved as it comes
+  std::optional<CurvedParts> parts_;                    ///< of such a mesh
+  std::optional<ScratchMesh> from_parts_;               ///< corners of parts_
   std::optional<PagedArray<SixPlaces>> given_middles_;  ///< of parts_, by tet
 };
 
