@@ -93,7 +93,7 @@ class Stores(unittest.TestCase):
         return json.loads(run("info", path, "--json", *arguments))
 
     def expect(self, facts, **values):
-        """The last of three names is enough: spacing for spacing_xyz."""
+        """Facts have these values; spacing stands for spacing_xyz."""
         for name, value in values.items():
             got = facts[name if name in facts else name + "_xyz"]
             self.assertEqual(got, list(value) if isinstance(value, tuple) else value, name)

@@ -16,7 +16,7 @@ namespace {
 
 using Json = nlohmann::json;
 
-/// Opens an array of version 3 whose metadata are a cube's of one chunk but for the changes.
+/// Opens an array of version 3 whose metadata are a cube's of one chunk with these changes.
 std::unique_ptr<LabelVolume> array_with(const TempDir& dir, const std::string& changes) {
   Json json = Json::parse(R"({"zarr_format": 3, "node_type": "array", "shape": [4, 4, 4],
     "data_type": "uint8", "fill_value": 0, "codecs": ["bytes"],
@@ -43,6 +43,19 @@ TEST(Zarr, ChunksOfTheVolumeAreWhatIsReadAtOnce) {
   EXPECT_EQ(array_with(dir, chunks + "}")->info().chunk, (Index3{2, 4, 6}));
   EXPECT_EQ(array_with(dir, chunks + "," + shards_of("[3, 2, 1]") + "}")->info().chunk,
             (Index3{1, 2, 3}));
+}
+
+/// The program refuses such a number itself.
+TEST(Zarr, NoLevelHasANegativeNumber) {
+  const TempDir dir;
+  write_file(dir.path() / ".zattrs", R"({"multiscales": [{"version": "0.4", "datasets": [
+    {"path": "0", "coordinateTransformations": [{"type": "scale", "scale": [1, 1, 1]}]}],
+    "axes": ["z", "y", "x"]}]})");
+  write_file(dir.path() / "0" / ".zarray", R"({"zarr_format": 2, "shape": [4, 4, 4],
+    "chunks": [4, 4, 4], "dtype": "|u1", "fill_value": 0, "order": "C", "filters": null,
+    "compressor": null})");
+  EXPECT_EQ(open_volume(dir.path(), {.scale = 0})->info().shape, (Index3{4, 4, 4}));
+  expect_misused(dir.path(), {.scale = -1}, {"--scale", "1 scales", "0 (the finest) to 0"});
 }
 
 TEST(Zarr, FillValuesAreNumbersWhereThoseAreRead) {
