@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <limits>
 
+#include "io/file/errors.h"
 #include "kernels/core/error.h"
 
 namespace mw::picture {

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cstring>
 
+#include "io/file/errors.h"
 #include "kernels/core/index.h"
 
 namespace mw::io {
