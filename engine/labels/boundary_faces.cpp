@@ -4,6 +4,7 @@
 #include "engine/labels/label_counts.h"
 
 #include "engine/labels/reading_tiles.h"
+#include "engine/system/crew.h"
 #include "kernels/core/assert.h"
 #include "kernels/core/index.h"
 

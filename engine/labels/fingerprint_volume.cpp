@@ -7,6 +7,7 @@
 #include <cstdio>
 
 #include "engine/labels/reading_tiles.h"
+#include "engine/system/crew.h"
 #include "kernels/core/index.h"
 
 namespace mw::engine {

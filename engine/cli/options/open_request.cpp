@@ -6,10 +6,14 @@
 #include <algorithm>
 
 #include "engine/cli/log.h"
+#include "engine/cli/options/shared_options.h"
+#include "engine/cli/options/values.h"
 #include "engine/system/crew.h"
 #include "io/file/errors.h"
+#include "io/file/text_numbers.h"
 #include "io/names/read_names.h"
 #include "io/remote/address.h"
+#include "io/volume/decode.h"
 #include "io/volume/named_volume.h"
 #include "io/volume/open_volume.h"
 
