@@ -214,12 +214,6 @@ const MeshFormat& read_format(const std::filesystem::path& path) {
              "the place of --cohesive");
 }
 
-/// Throws, because curves follow the sides of interfaces, which would come apart or overlap.
-[[noreturn]] void refuse_curves(const std::filesystem::path& path) {
-  fail_usage(path.string(), ": vertices of the mesh were doubled (--split, --cohesive, ",
-             "--open-hinges), so its tets cannot be curved; write tet10");
-}
-
 /// Opens what writes a file, for a mesh with wedges or without.
 using OpenFile = std::function<std::unique_ptr<MeshSink>(bool has_wedges)>;
 
@@ -263,8 +257,6 @@ class FileSink : public MeshSink {
     return header.in_parts && file_.element != Element::kCurvedTet10;
   }
   void settle(const MeshHeader& header) {
-    const bool is_curved = file_.element == Element::kCurvedTet10;
-    if (is_curved && header.record.has_doubles) refuse_curves(file_.path);
     if (!header.record.cohesive.any()) return;
     require_place_for_wedges(file_.path, file_.element);
     if (file_.extras.deck) refuse_wedges_in_deck(file_.path);

@@ -21,10 +21,12 @@ std::vector<std::string> all_matches(const std::string& text, const std::regex& 
 
 std::vector<Citation> citations_of(const std::string& source) {
   static const std::regex next_line(R"(\n\s*(?:///?|#)[ \t]*)");
+  static const std::regex web_address(R"(https?://\S+)");
   static const std::regex citation(R"re(([A-Za-z0-9_./-]+\.md)\b`?(?:,\s+"([^"\n]+)")?)re");
   std::vector<Citation> out;
   if (source.find(".md") == source.npos) return out;  // most; the search is slow
-  const std::string text = std::regex_replace(source, next_line, " ");
+  const std::string lines = std::regex_replace(source, next_line, " ");
+  const std::string text = std::regex_replace(lines, web_address, " ");
   for (std::sregex_iterator i(text.begin(), text.end(), citation), end; i != end; ++i) {
     out.push_back({.file = (*i)[1], .section = (*i)[2]});
   }

@@ -98,6 +98,7 @@ TEST(Citations, AreReadAcrossTheLinesOfAComment) {
               ElementsAre(Citation{"kernels/a.md", "A long title"}, Citation{"b.md", ""}));
   EXPECT_THAT(citations_of("// see\n// a/b.md,\n// \"T\"\n"), ElementsAre(Citation{"a/b.md", "T"}));
   EXPECT_THAT(citations_of("x.mdb and a.cmd, .md5\n"), IsEmpty());
+  EXPECT_THAT(citations_of("// Format: https://a.org/b/c.md\n"), IsEmpty());
 }
 
 TEST(Citations, FindTitlesPathsAndTests) {

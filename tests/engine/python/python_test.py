@@ -196,7 +196,7 @@ class SameMesh(InFolder):
 
     def test_curves_and_pairs_need_single_vertices(self):
         labels, file = grains(), self.path("no.vtu")
-        with self.assertRaisesRegex(mwmesh.UsageError, "write tet10"):
+        with self.assertRaisesRegex(mwmesh.UsageError, "tet10 is"):
             mwmesh.mesh(labels, split="*").save(file, element="tet10-curved")
         for options in ({"element": "tet10-curved"}, {"periodic": "x", "pairs": self.path("p.csv")}):
             with self.assertRaisesRegex(mwmesh.UsageError, "vertices"):
