@@ -9,6 +9,8 @@
 
 #include "io/file/errors.h"
 #include "io/mesh/apart_mesh.h"
+#include "io/volume/hdf5/describe_apart.h"
+#include "io/volume/hdf5/open_hdf5.h"
 
 namespace mw::io {
 namespace {
@@ -20,6 +22,20 @@ constexpr std::uint64_t kMaxRows = std::uint64_t{1} << 56;
 
 /// How many bytes of a file a slow processor unpacks and checks in a second.
 constexpr std::uint64_t kBytesPerSecond = 1 << 20;
+
+/// The most bytes of a chunk.
+constexpr std::uint64_t kMaxChunk = UINT32_MAX;
+
+/// Returns a chunk as the file has it, and which filters it lacks; nothing where there is none.
+std::optional<std::vector<std::byte>> packed_chunk(hid_t set, std::span<const hsize_t, 2> at,
+                                                   std::uint32_t& skipped) {
+  hsize_t bytes = 0;
+  const herr_t found = H5Dget_chunk_storage_size(set, at.data(), &bytes);
+  if (found < 0 || bytes == 0 || bytes > kMaxChunk) return std::nullopt;
+  std::vector<std::byte> out(bytes);
+  if (H5Dread_chunk(set, H5P_DEFAULT, at.data(), &skipped, out.data()) < 0) return std::nullopt;
+  return out;
+}
 
 void check_finite(const Hdf5Array& points, std::uint64_t first,
                   const std::vector<Position>& batch) {
@@ -72,12 +88,45 @@ void Hdf5Array::inspect() {
   components_ = size[1];
   if (rows_ >= kMaxRows || components_ > 16) fail("its size is not credible");
   check_storage(H5Tget_size(type.get()));
+  check_packed_chunks(H5Tget_size(type.get()));
 }
 
 void Hdf5Array::check_storage(std::size_t number_bytes) const {
   const std::uint64_t bytes = rows_ * components_ * number_bytes;
   if (bytes / kMaxPacking > H5Dget_storage_size(set_.get())) {
     fail(text("announces ", rows_, " rows, its bytes in the file cannot hold them"));
+  }
+}
+
+/// H5Dread() does not look how much a chunk unpacks to: of a short one it gives what was in memory.
+/// A chunk that the library does not find is one for H5Dread().
+void Hdf5Array::check_packed_chunks(std::size_t number_bytes) const {
+  const Hdf5Handle list(H5Dget_create_plist(set_.get()), &H5Pclose);
+  if (H5Pget_layout(list.get()) != H5D_CHUNKED) return;
+  const auto filters = hdf5_filters(list.get());
+  if (!filters) fail("its filters are unknown");
+  if (filters->empty()) return;
+  Hdf5Description packed;
+  packed.path = path_;
+  packed.filters = *filters;
+  check_filters(packed, file_);
+  std::array<hsize_t, 2> shape{1, 1}, at{0, 0};
+  if (H5Pget_chunk(list.get(), 2, shape.data()) < 1 || shape[0] == 0 || shape[1] == 0 ||
+      shape[0] > kMaxChunk || shape[1] > kMaxChunk) {
+    fail("its chunks are not credible");
+  }
+  unsigned options = 0;
+  H5Pget_chunk_opts(list.get(), &options);
+  const bool leaves_edges = (options & H5D_CHUNK_DONT_FILTER_PARTIAL_CHUNKS) != 0;
+  const std::string name = text(file_, ": data set '", path_, "'");
+  for (; at[0] < rows_; at[0] += shape[0]) {
+    for (at[1] = 0; at[1] < components_; at[1] += shape[1]) {
+      Unfiltering wanted{.bytes = shape[0] * shape[1] * number_bytes, .name = name};
+      auto chunk = packed_chunk(set_.get(), at, wanted.skipped);
+      const bool is_edge = at[0] + shape[0] > rows_ || at[1] + shape[1] > components_;
+      if (chunk && leaves_edges && is_edge) wanted.skipped = UINT32_MAX;
+      if (chunk) static_cast<void>(unfilter(*filters, std::move(*chunk), wanted));
+    }
   }
 }
 

@@ -18,7 +18,8 @@ namespace mw::io {
 class Hdf5Array {
  public:
   /// ERRORS (all members): mw::Error(kInput) naming file and data set; here when it is missing, no
-  /// array of numbers, not in the file itself, or announces more than its bytes can hold.
+  /// array of numbers, not in the file itself, announces more than its bytes can hold, or has a
+  /// packed chunk that is damaged or short.
   Hdf5Array(hid_t where, const std::string& path, const std::string& file);
 
   [[nodiscard]] std::uint64_t rows() const { return rows_; }
@@ -38,6 +39,7 @@ class Hdf5Array {
   void check_place(hid_t where) const;
   void inspect();
   void check_storage(std::size_t number_bytes) const;
+  void check_packed_chunks(std::size_t number_bytes) const;
   void read_as(std::uint64_t first, std::uint64_t count, hid_t type, void* out) const;
 
   std::string file_;

@@ -64,6 +64,20 @@ std::optional<Hdf5NumberType> number_type(hid_t type) {
   return base.valid() ? integer(base.get()) : std::nullopt;
 }
 
+std::optional<std::vector<Hdf5Filter>> hdf5_filters(hid_t list) {
+  std::vector<Hdf5Filter> out;
+  const int count = H5Pget_nfilters(list);
+  for (int i = 0; i < count; ++i) {
+    unsigned flags = 0, parameter = 0;
+    std::size_t parameters = 1;
+    const H5Z_filter_t id = H5Pget_filter2(list, static_cast<unsigned>(i), &flags, &parameters,
+                                           &parameter, 0, nullptr, nullptr);
+    if (id < 0) return std::nullopt;
+    out.push_back({static_cast<std::uint32_t>(id), parameter});
+  }
+  return out;
+}
+
 std::string type_text(hid_t type) {
   const auto number = number_type(type);
   return number ? name(number->type) : class_text(H5Tget_class(type));
@@ -176,15 +190,9 @@ class Describer {
     unsigned options = 0;
     H5Pget_chunk_opts(list, &options);
     out_.edges_unfiltered = (options & H5D_CHUNK_DONT_FILTER_PARTIAL_CHUNKS) != 0;
-    const int count = H5Pget_nfilters(list);
-    for (int i = 0; i < count; ++i) {
-      unsigned flags = 0, parameter = 0;
-      std::size_t parameters = 1;
-      const H5Z_filter_t id = H5Pget_filter2(list, static_cast<unsigned>(i), &flags, &parameters,
-                                             &parameter, 0, nullptr, nullptr);
-      if (id < 0) fail_library("its filters are unknown");
-      out_.filters.push_back({static_cast<std::uint32_t>(id), parameter});
-    }
+    const auto filters = hdf5_filters(list);
+    if (!filters) fail_library("its filters are unknown");
+    out_.filters = *filters;
   }
 
   void find_fill(hid_t list) {

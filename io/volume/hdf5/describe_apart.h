@@ -27,6 +27,9 @@ struct Hdf5NumberType {
 /// floats of IEEE 754 in 32 or 64 bits; nothing for all others.
 [[nodiscard]] std::optional<Hdf5NumberType> number_type(hid_t type);
 
+/// Returns the filters that a list of properties names, in their order; nothing for damage.
+[[nodiscard]] std::optional<std::vector<Hdf5Filter>> hdf5_filters(hid_t list);
+
 /// Returns "u8", or what the type is instead, such as "compound".
 [[nodiscard]] std::string type_text(hid_t type);
 

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // .vtkhdf files as other tools write them, and what ours hold.
 #include <sys/stat.h>
+#include <zlib.h>
 
 #include <functional>
 
@@ -199,6 +200,30 @@ TEST(VtkhdfVariants, RefusesWhatIsBrokenOrNoTetMesh) {
                [&] { static_cast<void>(read_mesh(dir.file("text.vtkhdf", "hello"))); });
   expect_error(ErrorKind::kInput, {"gone.vtkhdf"},
                [] { static_cast<void>(read_mesh("gone.vtkhdf")); });
+}
+
+/// The HDF5 library reads what lies in memory behind a chunk that unpacks to too few bytes.
+TEST(Vtkhdf, ShortChunksAreRefused) {
+  for (const char* name : {"Points", "Connectivity", "CellData/label", "NumberOfCells"}) {
+    const TempDir dir;
+    Sample sample;
+    sample.deflated = true;
+    const auto path = write_file(dir, sample);
+    EXPECT_EQ(read_mesh(path).tets.size(), 3U);
+    {
+      const Hdf5Handle file(H5Fopen(path.c_str(), H5F_ACC_RDWR, H5P_DEFAULT), &H5Fclose);
+      const Hdf5Handle set(
+          H5Dopen2(file.get(), (std::string("VTKHDF/") + name).c_str(), H5P_DEFAULT), &H5Dclose);
+      const std::array<Bytef, 1> one{};
+      std::array<Bytef, 64> packed{};
+      uLongf size = packed.size();
+      EXPECT_EQ(compress(packed.data(), &size, one.data(), one.size()), Z_OK);
+      const std::array<hsize_t, 2> first{};
+      EXPECT_GE(H5Dwrite_chunk(set.get(), H5P_DEFAULT, 0, first.data(), size, packed.data()), 0);
+    }
+    expect_error(ErrorKind::kInput, {name, "holds 1 bytes"},
+                 [&] { static_cast<void>(read_mesh(path)); });
+  }
 }
 
 /// Version, type and counts as VTK 9.1 asks for them.
