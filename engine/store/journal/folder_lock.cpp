@@ -11,6 +11,7 @@
 #include <algorithm>
 #include <cerrno>
 #include <fstream>
+#include <span>
 #include <string>
 
 #include "io/file/errors.h"
@@ -52,12 +53,12 @@ bool is_part_of_mark(std::string_view content) {
 /// Writes the mark where it is not whole.
 void mark(const io::FileDescriptor& file, const fs::path& path) {
   std::string content(kMark.size(), '\0');
-  const ssize_t size = ::pread(file.get(), content.data(), content.size(), 0);
-  if (size == static_cast<ssize_t>(kMark.size()) && content == kMark) return;
-  if (::pwrite(file.get(), kMark.data(), kMark.size(), 0) != static_cast<ssize_t>(kMark.size()) ||
-      ::fsync(file.get()) != 0) {
-    io::fail_output(path.string(), "write", errno);
-  }
+  const io::Transfer found =
+      io::read_all(file.get(), 0, std::as_writable_bytes(std::span(content)));
+  if (found.bytes == kMark.size() && content == kMark) return;
+  const io::Transfer done = io::write_all(file.get(), 0, std::as_bytes(std::span(kMark)));
+  if (done.error != 0) io::fail_output(path.string(), "write", done.error);
+  if (::fsync(file.get()) != 0) io::fail_output(path.string(), "write", errno);
   io::sync_folder(path.parent_path());
 }
 
