@@ -156,14 +156,15 @@ class Serve(unittest.TestCase):
                 for _ in range(150):
                     held.append(socket.create_connection(("127.0.0.1", server.port), timeout=20))
                     held[-1].sendall(begun)
-                used.request("GET", "/1")
-                first = used.sock
-                self.assertEqual(used.getresponse().read(), self.whole)
-                self.assertIs(used.sock, first)
+                # Connections are taken in their order, so all that are held are open by then.
                 fresh = http.client.HTTPConnection("127.0.0.1", server.port, timeout=8)
                 fresh.request("GET", "/1")
                 self.assertEqual(fresh.getresponse().read(), self.whole)
                 fresh.close()
+                used.request("GET", "/1")
+                first = used.sock
+                self.assertEqual(used.getresponse().read(), self.whole)
+                self.assertIs(used.sock, first)
             used.close()
             for connection in held:
                 connection.close()
