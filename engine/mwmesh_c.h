@@ -11,8 +11,9 @@
  *
  * Errors: a function that can fail takes `mw_error** error` last.  It returns MW_OK or the kind of
  * the error, or NULL in the place of a handle or a text, and leaves in *error what happened, which
- * the caller frees.  *error must be NULL or not be set before; error may be NULL.  A failed
- * allocation is an error as any other (MW_RESOURCE); no exception crosses this interface.
+ * the caller frees.  *error is then never NULL, and else stays as it was.  error may be
+ * NULL.  A failed allocation is an error as any other (MW_RESOURCE); no exception crosses this
+ * interface.
  *
  * Handles (mw_options, mw_volume, mw_mesh, mw_error) belong to the caller, who frees each with its
  * function; that takes NULL, too.  What a handle returns (texts, columns, names) lives as long as
@@ -69,7 +70,8 @@ MW_PUBLIC void mw_error_free(mw_error* error);
 /* --- Options --- */
 
 /* Values of options by name, as text in the form of the command line: "1.5", "none", "true",
- * "1,5-9", "Liver=3,*=5".  The same set may be given to any function; each takes what is its own.
+ * "1,5-9", "Liver=3,*=5".  The same set may be
+ * given to any function, which takes what is its own, and NULL is a set in which nothing is given.
  */
 typedef struct mw_options mw_options;
 
@@ -85,11 +87,12 @@ MW_PUBLIC mw_status mw_options_set(mw_options* options, const char* name, const 
                                    mw_error** error);
 /* Returns the effective value, which is the default where none is given; "" where there is none.
  * The text lives until the options are set or freed.  ERRORS: MW_USAGE for an unknown name. */
-MW_PUBLIC const char* mw_options_get(mw_options* options, const char* name, mw_error** error);
+MW_PUBLIC const char* mw_options_get(const mw_options* options, const char* name, mw_error** error);
 /* Returns all options as JSON, in the order of the documentation: a list of {"name", "kind",
  * "value" (what help calls the value), "help", "group", "default" (null where there is none),
- * "choices" (all that it may be; empty for a number or a list), "setting" (whether the mesh depends
- * on it and reports list it)}.  The text lives as long as the library. */
+ * "choices" (all that it may be; empty for a number
+ * or a list), "calls" (which functions take it: "open", "mesh", "write", "verify"), "setting"
+ * (whether the mesh depends on it and reports list it)}.  The text lives as long as the library. */
 MW_PUBLIC const char* mw_options_table(void);
 
 /* --- Watching a run --- */
@@ -192,6 +195,10 @@ MW_PUBLIC void mw_volume_free(mw_volume* volume);
  * does not need the other one. */
 MW_PUBLIC mw_volume* mw_volume_with_names(const mw_volume* volume, const mw_name* names,
                                           size_t count, mw_error** error);
+/* Returns the volume with names and colours of a file as `--names` takes it.
+ * ERRORS: MW_INPUT naming file and line. */
+MW_PUBLIC mw_volume* mw_volume_read_names(const mw_volume* volume, const char* path,
+                                          mw_error** error);
 MW_PUBLIC void mw_volume_shape(const mw_volume* volume, int64_t shape[3]);
 MW_PUBLIC mw_type mw_volume_type(const mw_volume* volume);
 /* Returns other than 0 where labels may be negative. */
@@ -273,8 +280,8 @@ MW_PUBLIC mw_status mw_mesh_set_values(mw_mesh* mesh, const char* name, const do
 MW_PUBLIC size_t mw_mesh_names(const mw_mesh* mesh, const mw_name** names);
 MW_PUBLIC mw_status mw_mesh_set_names(mw_mesh* mesh, const mw_name* names, size_t count,
                                       mw_error** error);
-/* Reads names and colours from a file as `--names` takes it, in the place of the mesh's.
- * ERRORS: MW_INPUT naming file and line. */
+/* Adds names and colours of a file as `--names` takes it.  ERRORS: MW_INPUT naming file and line.
+ */
 MW_PUBLIC mw_status mw_mesh_read_names(mw_mesh* mesh, const char* path, mw_error** error);
 /* Returns a text of the mesh: "report", JSON with the keys of `mwmesh mesh --report`, "" where
  * there is none; "record", one line of JSON about the run that made the mesh, which files keep.
@@ -304,12 +311,12 @@ MW_PUBLIC char* mw_mesh_digest(const mw_mesh* mesh, mw_error** error);
 MW_PUBLIC char* mw_mesh_picture(const mw_mesh* mesh, int width, int height, size_t* bytes,
                                 mw_error** error);
 /* Checks a mesh against its volume, with the bounds that the mesh's record tells (1.5 voxels and a
- * radius ratio of 0.1 where it tells none).  Of the options only merge, drop_specks, weld, labels,
- * background, threads and memory count.  Returns JSON with the keys of `mwmesh verify --report`
- * but version, settings and performance: "passed", and "checks" of "name", "passed" and "detail".
- * The caller frees it. */
+ * radius ratio of 0.1 where it tells none).  *passed, unless passed is NULL, becomes other than 0
+ * where every check holds.  Returns JSON with the keys of `mwmesh verify --report` but version,
+ * settings and performance: "passed", and "checks" of "name", "passed" and "detail".  The caller
+ * frees it.  ERRORS: those of reading the volume; a mesh that does not hold is none. */
 MW_PUBLIC char* mw_verify(const mw_mesh* mesh, const mw_volume* volume, const mw_options* options,
-                          const mw_hooks* hooks, mw_error** error);
+                          const mw_hooks* hooks, int* passed, mw_error** error);
 
 #ifdef __cplusplus
 }

@@ -6,7 +6,8 @@
 #include <algorithm>
 #include <bit>
 
-#include "engine/api/types.h"
+#include "engine/api/errors.h"
+#include "engine/api/spaces.h"
 #include "io/file/errors.h"
 #include "io/volume/decode.h"
 
@@ -16,10 +17,10 @@ namespace {
 constexpr io::ByteOrder kMachine =
     std::endian::native == std::endian::little ? io::ByteOrder::kLittle : io::ByteOrder::kBig;
 
-static_assert(static_cast<int>(io::VoxelType::kU8) == static_cast<int>(mwmesh::VoxelType::kU8) &&
-              static_cast<int>(io::VoxelType::kF64) == static_cast<int>(mwmesh::VoxelType::kF64));
+static_assert(static_cast<int>(io::VoxelType::kU8) == MW_U8 &&
+              static_cast<int>(io::VoxelType::kF64) == MW_F64);
 
-Index3 shape_of(const mwmesh::Index& shape) {
+Index3 shape_of(const std::int64_t* shape) {
   for (std::size_t axis = 0; axis < 3; ++axis) {
     if (shape[axis] >= 1 && shape[axis] <= kMaxAxisVoxels) continue;
     io::fail_usage("shape (", std::string_view("xyz").substr(axis, 1), "): must be from 1 to ",
@@ -28,29 +29,15 @@ Index3 shape_of(const mwmesh::Index& shape) {
   return {shape[0], shape[1], shape[2]};
 }
 
-io::VoxelType type_of(mwmesh::VoxelType type) {
-  if (type >= mwmesh::VoxelType::kU8 && type <= mwmesh::VoxelType::kF64) {
-    return static_cast<io::VoxelType>(type);
-  }
-  io::fail_usage("type: is none of VoxelType");
+io::VoxelType type_of(mw_type type) {
+  if (type >= MW_U8 && type <= MW_F64) return static_cast<io::VoxelType>(type);
+  io::fail_usage("type: is none of mw_type");
 }
 
-/// Returns what an ArrayVolume or a RegionVolume says of itself.
-template <class Told>
-io::VolumeInfo info_of(const Told& told) {
-  return {.shape = shape_of(told.shape),
-          .space = io_space(told.space),
-          .type = type_of(told.type),
-          .format = kArray,
-          .names = io_names(told.names)};
-}
-
-/// The shape is checked first, as one that is too large has no product.
-mwmesh::Index strides_of(const mwmesh::ArrayVolume& array) {
-  const Index3 shape = shape_of(array.shape);
-  if (array.strides != mwmesh::Index{}) return array.strides;
-  const std::int64_t x = io::byte_size(type_of(array.type));
-  return {x, x * shape.x, x * shape.x * shape.y};
+std::array<std::int64_t, 3> strides_of(const io::VolumeInfo& info, const std::int64_t* strides) {
+  if (strides != nullptr) return {strides[0], strides[1], strides[2]};
+  const std::int64_t x = io::byte_size(info.type);
+  return {x, x * info.shape.x, x * info.shape.x * info.shape.y};
 }
 
 /// Returns whether a type holds the label; one of floats is taken to hold all of them.
@@ -79,10 +66,14 @@ void require_held(const io::VolumeInfo& info, const Box3& box, std::span<const R
 
 }  // namespace
 
-ArrayReader::ArrayReader(const mwmesh::ArrayVolume& array)
-    : data_(static_cast<const std::byte*>(array.data)),
-      strides_(strides_of(array)),
-      info_(info_of(array)) {
+io::VolumeInfo info_of(mw_type type, const std::int64_t* shape, const mw_space* space) {
+  require(shape, "shape");
+  return {
+      .shape = shape_of(shape), .space = io_space(space), .type = type_of(type), .format = kArray};
+}
+
+ArrayReader::ArrayReader(const void* data, const io::VolumeInfo& info, const std::int64_t* strides)
+    : data_(static_cast<const std::byte*>(data)), strides_(strides_of(info, strides)), info_(info) {
   if (data_ == nullptr) io::fail_usage("array: there is no data");
   info_.z_fastest = std::abs(strides_[2]) < std::abs(strides_[0]);
 }
@@ -115,19 +106,14 @@ void ArrayReader::read(const Box3& box, std::span<RawLabel> out) const {
   }
 }
 
-RegionReader::RegionReader(const mwmesh::RegionVolume& region)
-    : read_(region.read), info_(info_of(region)) {
-  if (!read_) io::fail_usage("volume: there is no read()");
-  if (*std::min_element(region.chunk.begin(), region.chunk.end()) < 0) {
-    io::fail_usage("chunk must not be negative");
-  }
-  // Chunks beyond the volume are of no use, and rounding up the largest numbers would overflow.
-  info_.chunk = {std::min(region.chunk[0], info_.shape.x), std::min(region.chunk[1], info_.shape.y),
-                 std::min(region.chunk[2], info_.shape.z)};
+RegionReader::RegionReader(io::VolumeInfo info, Read reader, void* data)
+    : info_(std::move(info)), read_(reader), data_(data) {
+  if (read_ == nullptr) io::fail_usage("volume: there is no function that reads it");
 }
 
 void RegionReader::read(const Box3& box, std::span<RawLabel> out) const {
-  read_(library_box(box), out);
+  const std::int64_t lo[3]{box.lo.x, box.lo.y, box.lo.z}, hi[3]{box.hi.x, box.hi.y, box.hi.z};
+  if (read_(data_, lo, hi, out.data()) != 0) throw CallbackFailed();
   require_held(info_, box, out);
 }
 

@@ -4,7 +4,7 @@
 // knows the library that reads it.
 #pragma once
 
-#include "engine/cli/options/option_set.h"
+#include "engine/cli/requests.h"
 
 namespace mw::cli {
 

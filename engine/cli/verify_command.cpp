@@ -7,10 +7,10 @@
 
 #include "engine/cli/command.h"
 #include "engine/cli/exit_code.h"
+#include "engine/cli/log.h"
 #include "engine/cli/options/file_names.h"
-#include "engine/cli/options/shared_options.h"
-#include "engine/cli/options/values.h"
-#include "engine/cli/options/volume_options.h"
+#include "engine/cli/options/mesh_options.h"
+#include "engine/cli/requests.h"
 #include "engine/job/verify_job.h"
 #include "engine/output/label_selection.h"
 #include "engine/report/mesh_facts.h"
@@ -113,7 +113,7 @@ void check_verify_request(VerifyRequest& request) {
 }
 
 report::Verdict judge(const VerifyRequest& request) {
-  const std::unique_ptr<io::LabelVolume> opened = open(request.volume);
+  const std::unique_ptr<io::LabelVolume> opened = open(request.volume, log_warning);
   const engine::VerifyJob job{.volume = *opened,
                               .steps = request.volume.steps,
                               .choice = request.choice,

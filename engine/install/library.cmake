@@ -5,11 +5,11 @@ include(CMakePackageConfigHelpers)
 
 # Before 1.0 each minor version has an interface of its own.
 set(mw_soversion ${PROJECT_VERSION_MAJOR}.${PROJECT_VERSION_MINOR})
-set(mw_parts mw_api mw_engine mw_codt mw_audit mw_io mw_kernels)
+set(mw_parts mw_api mw_request mw_engine mw_codt mw_audit mw_io mw_kernels)
 
 add_library(mwmesh_shared SHARED $<TARGET_OBJECTS:mw_api>)
 set(exports ${CMAKE_CURRENT_LIST_DIR}/exports.map)
-target_link_libraries(mwmesh_shared PRIVATE mw_engine)
+target_link_libraries(mwmesh_shared PRIVATE mw_request)
 # A symbol that is missing is an error here, not in programs.
 target_link_options(mwmesh_shared PRIVATE -Wl,--version-script=${exports} -Wl,-z,defs)
 set_target_properties(mwmesh_shared PROPERTIES VERSION ${PROJECT_VERSION}
@@ -17,7 +17,7 @@ set_target_properties(mwmesh_shared PROPERTIES VERSION ${PROJECT_VERSION}
 
 # One archive of all our objects.  What they need, by its names in pkg-config, and libbz2 and DCMTK,
 # which have none there; Debian's hdf5 is named after what it was built for.
-set(mw_needed_modules blosc draco libcrypto libcurl liblz4 liblzma libpng libtiff-4 libzstd pugixml tbb zlib)
+set(mw_needed_modules blosc draco libcrypto libcurl liblz4 liblzma libpng libtiff-4 libzstd pugixml tbb tomlplusplus zlib)
 pkg_check_modules(mw_serial_hdf5 QUIET hdf5-serial)
 if(mw_serial_hdf5_FOUND)
   list(APPEND mw_needed_modules hdf5-serial)

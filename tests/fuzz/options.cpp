@@ -1,9 +1,9 @@
 // SPDX-FileCopyrightText: The mwmesh authors
 // SPDX-License-Identifier: Apache-2.0
 // Values of options, and config files.
-#include "engine/cli/mesh/mesh_request.h"
-#include "engine/cli/options/option_set.h"
-#include "engine/cli/options/values.h"
+#include "engine/request/mesh_request.h"
+#include "engine/request/option_set.h"
+#include "engine/request/values.h"
 #include "engine/settings/size_text.h"
 #include "tests/fuzz/all_targets.h"
 #include "tests/temp_folder.h"
@@ -14,22 +14,22 @@ namespace {
 /// Options of `mwmesh mesh`; set up once, for it takes a hundred times as long as a file.
 class MeshOptions {
  public:
-  MeshOptions() { cli::add_mesh_options(options_, request_); }
+  MeshOptions() { request::add_mesh_options(options_, request_); }
   std::string effective(const std::filesystem::path& config) {
     options_.resolve({{"config", config.string()}});
     return options_.toml();
   }
 
  private:
-  cli::MeshRequest request_;
-  cli::OptionSet options_;
+  request::MeshRequest request_;
+  request::OptionSet options_;
 };
 
 }  // namespace
 
 /// Each kind of value: its canonical text is a value again, and the same one.
 void fuzz_values(Bytes bytes) {
-  using cli::ValueKind;
+  using request::ValueKind;
   // Values end at a zero byte: arguments of programs have none, and config files none in a value.
   const std::string text(text_of(bytes).substr(0, text_of(bytes).find('\0')));
   for (const ValueKind kind :
@@ -37,11 +37,11 @@ void fuzz_values(Bytes bytes) {
         ValueKind::kNumberOrAuto, ValueKind::kNumbers, ValueKind::kShape, ValueKind::kBox,
         ValueKind::kLabels, ValueKind::kSize, ValueKind::kSwitch, ValueKind::kNumberOrText}) {
     std::string once;
-    if (!ends_well([&] { once = cli::canonical_text(kind, text); })) continue;
-    require(cli::canonical_text(kind, once) == once, "canonical text stays as it is");
-    static_cast<void>(cli::toml_of_text(kind, once));
+    if (!ends_well([&] { once = request::canonical_text(kind, text); })) continue;
+    require(request::canonical_text(kind, once) == once, "canonical text stays as it is");
+    static_cast<void>(request::toml_of_text(kind, once));
   }
-  ends_well([&] { static_cast<void>(cli::parse_element(text)); });
+  ends_well([&] { static_cast<void>(request::parse_element(text)); });
   // "@FILE" would read any file of this machine.
   if (text.find('@') == text.npos) {
     ends_well([&] { static_cast<void>(engine::parse_sizes(text)); });

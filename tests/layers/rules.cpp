@@ -158,7 +158,7 @@ bool engine_may(const std::string& file, const Include& include) {
     return is_standard(name) || is_posix(name) ||
            is_below(name, {"tbb/", "oneapi/", "boost/interprocess/"});
   }
-  if (is_below(name, {"engine/cli/", "engine/api/"}) || is_concrete_io(name)) return false;
+  if (is_below(name, {"engine/cli/", "engine/api/", "engine/request/"}) || is_concrete_io(name)) return false;
   if (is_below(name, {kTeam}) && !is_below(file, {kTeam})) return false;
   if (is_below(name, {"engine/codt/worker/"}) && !is_below(file, {"engine/codt/worker/"}))
     return false;
@@ -181,10 +181,10 @@ bool cli_may(const std::string& file, const Include& include) {
                              !is_below(include.name, {"engine/api/", kTeam}));
 }
 
-/// The library knows what opens any format, but none by itself.
+/// Requests and the library know what opens any format, but none by itself.
 bool api_may(const Include& include) {
   const std::string& name = include.name;
-  if (!include.quoted) return is_standard(name);
+  if (!include.quoted) return is_standard(name) || is_posix(name);
   if (is_any(name, {"io/volume/open_volume.h", "io/mesh/open_mesh.h"})) return true;
   return is_below(name, {"kernels/", "io/", "engine/"}) && !is_concrete_io(name) &&
          !is_below(name, {"engine/cli/", kTeam});
@@ -193,12 +193,16 @@ bool api_may(const Include& include) {
 bool may(const std::string& file, const Include& include) {
   if (file.starts_with("kernels/")) return kernels_may(file, include);
   if (file.starts_with("io/")) return io_may(include);
-  // Python sees what every user of the library sees.
-  if (file.starts_with("engine/python/")) {
-    return include.quoted ? is_below(include.name, {"engine/mwmesh.h", "engine/python/"})
-                          : is_standard(include.name) || is_below(include.name, {"pybind11/"});
+  // What users of the library see: C, and C++ over it.
+  if (file == "engine/mwmesh_c.h") return is_any(include.name, {"stddef.h", "stdint.h"});
+  if (file == "engine/mwmesh.h") {
+    return include.quoted ? include.name == "mwmesh_c.h" : is_standard(include.name);
   }
-  if (file == "engine/mwmesh.h") return !include.quoted && is_standard(include.name);
+  // What both are asked: the program by flags and files of options, the library by texts.
+  if (file.starts_with("engine/request/")) {
+    return is_below(include.name, {"toml++/"}) ||
+           (api_may(include) && !is_below(include.name, {"engine/api/"}));
+  }
   if (file.starts_with("engine/api/")) return api_may(include);
   if (file.starts_with("engine/cli/")) return cli_may(file, include);
   if (file.starts_with(kMpiUser)) return mpi_may(include);

@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <iostream>
 
-#include "engine/cli/options/values.h"
+#include "engine/cli/requests.h"
 #include "io/names/csv_names.h"
 
 namespace mw::cli {

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Sums over tets and facets of a grouped mesh, and a mesh and its volume side by side.
 #include "engine/cli/info/mesh_info.h"
+#include "engine/cli/log.h"
 
 #include <algorithm>
 #include <cmath>
@@ -20,7 +21,7 @@
 namespace mw::cli {
 
 VolumeSide look_at_volume(const VolumeRequest& request, bool with_areas) {
-  const std::unique_ptr<io::LabelVolume> opened = open(request);
+  const std::unique_ptr<io::LabelVolume> opened = open(request, log_warning);
   engine::SharedReads shared(*opened);
   const io::PreparedInput input(shared, request.steps);
   shared.end();

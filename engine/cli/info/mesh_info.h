@@ -10,7 +10,7 @@
 #include <utility>
 #include <vector>
 
-#include "engine/cli/options/volume_options.h"
+#include "engine/cli/requests.h"
 #include "engine/connect/connect_options.h"
 #include "io/labels/label_table.h"
 #include "io/mesh/grouped/group_names.h"

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // What `mwmesh info` says of a volume.
 #include "engine/cli/info/volume_facts.h"
+#include "engine/cli/log.h"
 
 #include "engine/report/mesh_facts.h"
 
@@ -105,7 +106,7 @@ bool reads_labels(const VolumeRequest& request) {
 }  // namespace
 
 VolumeFacts::VolumeFacts(const VolumeRequest& request) {
-  const std::unique_ptr<io::LabelVolume> opened = open(request);
+  const std::unique_ptr<io::LabelVolume> opened = open(request, log_warning);
   engine::SharedReads shared(*opened);
   const io::PreparedInput input(shared, request.steps);
   shared.end();

@@ -5,7 +5,7 @@
 
 #include <vector>
 
-#include "engine/cli/options/volume_options.h"
+#include "engine/cli/requests.h"
 #include "engine/labels/label_regions.h"
 #include "io/json/json.h"
 

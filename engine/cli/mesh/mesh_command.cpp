@@ -6,12 +6,12 @@
 #include "engine/cli/command.h"
 #include "engine/cli/exit_code.h"
 #include "engine/cli/log.h"
-#include "engine/cli/mesh/mesh_request.h"
+#include "engine/cli/mesh/mesh_paths.h"
 #include "engine/cli/mesh/mesh_summary.h"
 #include "engine/cli/mesh/progress.h"
 #include "engine/cli/mesh/run_processes.h"
-#include "engine/cli/options/values.h"
 #include "engine/cli/page/run_page.h"
+#include "engine/cli/requests.h"
 #include "engine/finish/passes.h"
 #include "engine/report/run_report.h"
 #include "engine/settings/promises.h"
@@ -84,42 +84,6 @@ struct MeshFiles {
   std::optional<TraceFile> trace;
 };
 
-/// Opens an image beside the labels, by the form that --use-form chooses where it has that.
-std::unique_ptr<io::LabelVolume> open_image(const std::filesystem::path& file, io::FormChoice form,
-                                            io::OpenOptions options) {
-  options.form = form;
-  try {
-    return io::open_volume(file, options);
-  } catch (const Error& error) {
-    if (form == io::FormChoice::kFile || error.kind() != ErrorKind::kUsage) throw;
-  }
-  options.form = io::FormChoice::kFile;
-  return io::open_volume(file, options);
-}
-
-/// Returns null if there is no image of sizes.
-std::unique_ptr<io::LabelVolume> open_sizes(const MeshRequest& request) {
-  const std::string& image = request.job.settings.sizes.rules.image;
-  if (image.empty()) return nullptr;
-  const io::OpenOptions labels = open_options(request.volume);
-  return open_image(image, labels.form, {.spacing = labels.spacing, .origin = labels.origin});
-}
-
-/// Opens the images that tets get values from.
-void open_samples(const MeshRequest& request, std::vector<engine::SampleImage>& samples) {
-  if (!run_processes().speaks()) samples.clear();
-  for (engine::SampleImage& sample : samples) {
-    sample.image = open_image(sample.file, request.volume.open.form,
-                              {.dataset = sample.dataset,
-                               .trust_paths = request.volume.open.trust_paths,
-                               .cache_bytes = request.volume.open.cache_bytes / samples.size()});
-    if (sample.image->info().is_placed && request.volume.open.frame == io::FrameChoice::kVoxel) {
-      io::fail_usage("--frame voxel: " + sample.file +
-                     " lies in the world, which the mesh then is not in");
-    }
-  }
-}
-
 /// Returns what is there when a run ends while it finds out what changed, and how to go on.
 std::string way_to_delta(const MeshRequest& request) {
   const std::string folder = request.job.run.keep.folder.string();
@@ -131,14 +95,13 @@ std::string way_to_delta(const MeshRequest& request) {
 /// Meshes the volume, and says where the work is when a run that ends early leaves some.
 report::FinishedRun mesh_into(const MeshRequest& request, const io::LabelVolume& volume,
                               MeshFiles& files) {
-  Progress progress(request.progress);
+  Progress progress(parse_progress(request.progress));
   std::string work;
   engine::MeshJob job = request.job;
   job.stop = stop_if_interrupted;
-  job.size_image = open_sizes(request);
-  open_samples(request, job.samples);
+  if (!run_processes().speaks()) job.samples.clear();
+  open_images(request, job);
   job.warn = log_warning;
-  job.takes_images = request.force;
   job.labels_known = [](std::size_t labels) { log_info(io::text("meshing ", labels, " labels")); };
   engine::RunHooks& run = job.run;
   run.keep.say = [](const std::string& line) { log_warning(line); };
@@ -274,20 +237,6 @@ void deliver_rest(const MeshRequest& request, report::FinishedRun& run, MeshFile
   if (run.engine.work != nullptr) run.engine.work->discard();
 }
 
-/// Turns the boxes of --changed, which count as the data set does, to voxels of the volume.
-/// ERRORS: kUsage if one is outside of a whole volume, where it can only be a mistake.
-void settle_changed(MeshRequest& request, const io::VolumeInfo& volume) {
-  const Index3 first = io::first_number(volume);
-  const Box3 all{first, first + volume.shape};
-  for (Box3& box : request.job.run.keep.changed) {
-    if (!request.volume.open.crop && !is_empty(box) && is_empty(intersection(box, all))) {
-      io::fail_usage("--changed: the box ", io::box_text(box),
-                     " is outside of the volume, which has the voxels ", io::box_text(all));
-    }
-    box = {box.lo - first, box.hi - first};
-  }
-}
-
 /// Says what the user should know of how the volume is read.
 void tell_volume(const MeshRequest& request, const io::VolumeInfo& volume) {
   if (volume.is_far && !request.volume.open.cache) {
@@ -332,7 +281,7 @@ int mesh(MeshRequest& request, const OptionSet& options) {
   const engine::ResourceMeter meter;
   MeshFiles files(request, open_shared_output(request, is_certified));
   log_info("reading " + request.volume.path.string());
-  const std::unique_ptr<io::LabelVolume> volume = open(request.volume);
+  const std::unique_ptr<io::LabelVolume> volume = open(request.volume, log_warning);
   tell_volume(request, volume->info());
   settle_changed(request, volume->info());
   if (volume->scores() != nullptr) {
@@ -371,7 +320,7 @@ int run_mesh(MeshRequest& request, const OptionSet& options) {
   for (std::string& file : engine::size_tables(options.text("size"))) {
     request.size_tables.push_back(std::move(file));
   }
-  check_mesh_request(request);
+  settle(request);
   start_log(run_processes().speaks() ? request.log_level : "off");
   take_part(request);
   int& threads = request.job.run.threads;

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: The mwmesh authors
 // SPDX-License-Identifier: Apache-2.0
-// Which names of a run collide.
-#include "engine/cli/mesh/mesh_request.h"
+// What the program asks of a run beside its options: names of files that do not collide.
+#include "engine/cli/mesh/mesh_paths.h"
 
 #include <algorithm>
 #include <vector>
@@ -64,12 +64,32 @@ void require_folder_apart(const MeshRequest& request, const FileNames& files,
   }
 }
 
-}  // namespace
+/// Checks the budget for the page, which is drawn in what the written mesh leaves of it.
+void require_memory_for_page(const MeshRequest& request) {
+  constexpr std::uint64_t kMin = 192 << 20;
+  if (request.html.empty() || request.job.run.store.memory >= kMin) return;
+  io::fail_usage("--html: needs --memory 192MiB or more");
+}
 
+/// Fills in what the program does beyond what it is asked.
+void settle_program(MeshRequest& request) {
+  engine::MeshJob& job = request.job;
+  engine::StoreOptions& store = job.run.store;
+  if (store.workdir.empty()) store.workdir = request.output.string() + ".work";
+  job.folder = request.output.parent_path();
+  job.is_measured = !request.report.empty() || !request.html.empty();
+  job.finds_parts = true;
+  job.run.owns_process = true;
+  store.stays = job.is_measured || !request.trace.empty();
+}
+
+/// Checks that the files that are to be replaced are ours (FileNames::require_own()).
 void require_own_output(const MeshRequest& request) {
   files_of(request).require_own();
 }
 
+/// Checks before any work that names of files are apart (FileNames::require_apart()), and that the
+/// work folder neither is one of these files, nor lies in one, nor has one in it.
 void require_paths_apart(const MeshRequest& request) {
   const FileNames files = files_of(request);
   files.require_apart();
@@ -79,6 +99,17 @@ void require_paths_apart(const MeshRequest& request) {
   } else {
     require_folder_apart(request, files, {request.from.empty() ? "--keep" : "--from", kept});
   }
+}
+
+}  // namespace
+
+void settle(MeshRequest& request) {
+  settle_mesh_request(request);
+  settle_program(request);
+  require_paths_apart(request);
+  if (!request.force) require_own_output(request);
+  require_memory_for_page(request);
+  check_mesh_request(request);
 }
 
 }  // namespace mw::cli

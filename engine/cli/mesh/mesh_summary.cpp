@@ -8,7 +8,7 @@
 #include <numeric>
 
 #include "engine/cli/log.h"
-#include "engine/cli/options/values.h"
+#include "engine/cli/requests.h"
 #include "engine/labels/voxel_lattice.h"
 #include "engine/report/connect_report.h"
 #include "engine/report/mesh_facts.h"

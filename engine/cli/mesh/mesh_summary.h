@@ -5,7 +5,7 @@
 
 #include <map>
 
-#include "engine/cli/mesh/mesh_request.h"
+#include "engine/cli/requests.h"
 #include "engine/report/run_report.h"
 #include "io/mesh/mesh_sink.h"
 

@@ -7,7 +7,7 @@
 
 #include <cstdio>
 
-#include "engine/cli/options/values.h"
+#include "engine/cli/requests.h"
 
 namespace mw::cli {
 namespace {

@@ -68,7 +68,7 @@ void take_part(MeshRequest& request) {
   run.threads = threads_of_process(run.threads, here);
   if (run_processes().speaks()) return;
   request.job.certify = engine::Certify::kOff;
-  request.progress = ProgressKind::kNone;
+  request.progress = "none";
   request.report.clear();
   request.html.clear();
   request.trace.clear();

@@ -6,7 +6,7 @@
 #include <memory>
 #include <string>
 
-#include "engine/cli/mesh/mesh_request.h"
+#include "engine/cli/requests.h"
 #include "engine/run/processes.h"
 #include "io/mesh/shared_mesh.h"
 

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "engine/cli/options/volume_options.h"
+#include "engine/cli/requests.h"
 
 namespace mw::cli {
 

@@ -5,7 +5,7 @@
 
 #include <algorithm>
 
-#include "engine/cli/options/values.h"
+#include "engine/cli/requests.h"
 
 namespace mw::cli {
 

@@ -7,8 +7,8 @@
 #include <array>
 #include <filesystem>
 
-#include "engine/cli/options/values.h"
 #include "engine/cli/page/html_text.h"
+#include "engine/cli/requests.h"
 #include "io/mesh/open_mesh.h"
 
 namespace mw::cli {

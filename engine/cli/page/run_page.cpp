@@ -6,9 +6,9 @@
 #include <algorithm>
 #include <cmath>
 
-#include "engine/cli/options/values.h"
 #include "engine/cli/page/html_text.h"
 #include "engine/cli/page/view_data.h"
+#include "engine/cli/requests.h"
 #include "engine/picture/draw.h"
 
 namespace mw::cli {

@@ -6,8 +6,7 @@
 
 #include "engine/cli/command.h"
 #include "engine/cli/exit_code.h"
-#include "engine/cli/options/shared_options.h"
-#include "engine/cli/options/values.h"
+#include "engine/cli/requests.h"
 #include "engine/cli/serve/folder_server.h"
 #include "engine/cli/serve/view_link.h"
 #include "io/file/errors.h"

@@ -7,7 +7,7 @@
 #include <set>
 
 #include "engine/cli/options/file_names.h"
-#include "engine/cli/options/values.h"
+#include "engine/cli/requests.h"
 #include "io/file/errors.h"
 #include "io/file/scratch/scratch_file.h"
 #include "io/surface/open_surface.h"

@@ -7,8 +7,8 @@
 #include <cerrno>
 #include <filesystem>
 
-#include "engine/cli/options/shared_options.h"
-#include "engine/cli/options/values.h"
+#include "engine/cli/options/mesh_options.h"
+#include "engine/cli/requests.h"
 #include "io/file/errors.h"
 #include "io/surface/open_surface.h"
 

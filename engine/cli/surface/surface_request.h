@@ -10,7 +10,7 @@
 #include <string_view>
 #include <vector>
 
-#include "engine/cli/options/option_set.h"
+#include "engine/cli/requests.h"
 #include "io/surface/precomputed/mesh_folder.h"
 #include "kernels/core/label.h"
 

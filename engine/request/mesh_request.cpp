@@ -1,14 +1,14 @@
 // SPDX-FileCopyrightText: The mwmesh authors
 // SPDX-License-Identifier: Apache-2.0
-// The options of `mwmesh mesh`.
-#include "engine/cli/mesh/mesh_request.h"
+// The options of a job that meshes a volume.
+#include "engine/request/mesh_request.h"
 
 #include <algorithm>
 
-#include "engine/cli/options/finish_options.h"
-#include "engine/cli/options/shared_options.h"
-#include "engine/cli/options/values.h"
 #include "engine/codt/worker_pool.h"
+#include "engine/request/finish_options.h"
+#include "engine/request/shared_options.h"
+#include "engine/request/values.h"
 #include "engine/settings/size_text.h"
 #include "engine/settings/together.h"
 #include "engine/system/memory.h"
@@ -16,8 +16,10 @@
 #include "io/file/text_numbers.h"
 #include "io/labels/merged_volume.h"
 #include "io/mesh/open_mesh.h"
+#include "io/volume/cropped_volume.h"
+#include "io/volume/open_volume.h"
 
-namespace mw::cli {
+namespace mw::request {
 namespace {
 
 std::chrono::milliseconds parse_delay(const std::string& text) {
@@ -89,6 +91,7 @@ void add_keep_options(OptionSet& options, MeshRequest& request) {
                .value = "FILE.json",
                .help = "with --from: writes what the edit did to labels, contacts and mesh",
                .group = kRunGroup,
+               .face = Face::kProgram,
                .listed = Listed::kInHelpAll,
                .assign = into(request.delta)});
 }
@@ -121,26 +124,30 @@ void add_run_options(OptionSet& options, MeshRequest& request) {
                .group = kRunGroup,
                .fallback = "auto",
                .choices = {"auto", "none", "jsonl"},
+               .face = Face::kProgram,
                .listed = Listed::kInHelpAll,
-               .assign = into(request.progress, parse_progress)});
+               .assign = into(request.progress)});
   options.add({.name = "log-level",
                .value = "LEVEL",
                .help = "debug, info, warn, error or off",
                .group = kRunGroup,
                .fallback = "warn",
                .choices = {"debug", "info", "warn", "error", "off"},
+               .face = Face::kProgram,
                .listed = Listed::kInHelpAll,
                .assign = into(request.log_level)});
   options.add({.name = "trace",
                .value = "FILE.csv",
                .help = "writes when each window was worked on, and by which thread",
                .group = kRunGroup,
+               .face = Face::kProgram,
                .listed = Listed::kInHelpAll,
                .assign = into(request.trace)});
   options.add({.name = "config",
                .value = "FILE.toml",
                .help = "a key for each option, '-' as '_'; MW_NAME and flags are stronger",
                .group = kRunGroup,
+               .face = Face::kProgram,
                .listed = Listed::kInHelpAll,
                .only_flag = true,
                .assign = into(request.config)});
@@ -148,6 +155,7 @@ void add_run_options(OptionSet& options, MeshRequest& request) {
                .help = "prints the effective config and exits",
                .group = kRunGroup,
                .kind = ValueKind::kSwitch,
+               .face = Face::kProgram,
                .listed = Listed::kInHelpAll,
                .only_flag = true});
 }
@@ -158,6 +166,7 @@ void add_output_options(OptionSet& options, MeshRequest& request) {
                .help = "mesh to write; its extension says the format",
                .group = kOutputGroup,
                .flags = "-o,--output",
+               .face = Face::kProgram,
                .required = true,
                .assign = into(request.output)});
   options.add({.name = "element",
@@ -166,18 +175,36 @@ void add_output_options(OptionSet& options, MeshRequest& request) {
                .group = kOutputGroup,
                .fallback = "tet4",
                .choices = {"tet4", "tet10", "tet10-curved"},
+               .calls = kWriting,
                .assign = into(request.element, parse_element)});
   add_connect_options(options, request.job.connect);
   options.add({.name = "report",
                .value = "FILE.json",
                .help = "writes figures of the run and of the finished mesh",
                .group = kOutputGroup,
+               .face = Face::kProgram,
                .assign = into(request.report)});
   options.add({.name = "html",
                .value = "FILE.html",
                .help = "writes a page to look at: figures, charts, surfaces to turn",
                .group = kOutputGroup,
+               .face = Face::kProgram,
                .assign = into(request.html)});
+  options.add({.name = "measure",
+               .help = "measures quality and shape, for a report",
+               .group = kOutputGroup,
+               .kind = ValueKind::kSwitch,
+               .fallback = "true",
+               .face = Face::kLibrary,
+               .assign = into(request.is_measured)});
+  options.add({.name = "write-values",
+               .help = "writes the values of tets into a file",
+               .group = kOutputGroup,
+               .kind = ValueKind::kSwitch,
+               .fallback = "true",
+               .face = Face::kLibrary,
+               .calls = kWriting,
+               .assign = into(request.write_values)});
   options.add({.name = "certify",
                .help = "checks P1 to P4 and P8, or exit code 5; auto: where cheap",
                .group = kOutputGroup,
@@ -190,6 +217,7 @@ void add_output_options(OptionSet& options, MeshRequest& request) {
                .group = kOutputGroup,
                .kind = ValueKind::kSwitch,
                .fallback = "false",
+               .calls = kWriting,
                .listed = Listed::kInHelpAll,
                .assign = into(request.extras.encoding, parse_ascii)});
   add_sample_option(options, request.job.samples);
@@ -197,6 +225,7 @@ void add_output_options(OptionSet& options, MeshRequest& request) {
                .value = "NAME=N[:LO:HI]",
                .help = "N sets of elements by equal ranges of a --sample, with a table",
                .group = kOutputGroup,
+               .calls = kWriting,
                .listed = Listed::kInHelpAll,
                .assign = into(request.extras.materials, engine::parse_materials)});
   options.add({.name = "deck",
@@ -204,12 +233,14 @@ void add_output_options(OptionSet& options, MeshRequest& request) {
                .group = kOutputGroup,
                .fallback = "none",
                .choices = {"none", "static"},
+               .calls = kWriting,
                .listed = Listed::kInHelpAll,
                .assign = into(request.extras.deck, parse_deck)});
   options.add({.name = "pairs",
                .value = "FILE",
                .help = "nodes of --periodic faces: .csv, or equations in .inp",
                .group = kOutputGroup,
+               .calls = kWriting,
                .listed = Listed::kInHelpAll,
                .assign = into(request.extras.pairs)});
   options.add({.name = "force",
@@ -221,13 +252,6 @@ void add_output_options(OptionSet& options, MeshRequest& request) {
                .assign = into(request.force)});
 }
 
-/// Checks the budget for the page, which is drawn in what the written mesh leaves of it.
-void require_memory_for_page(const MeshRequest& request) {
-  constexpr std::uint64_t kMin = 192 << 20;
-  if (request.html.empty() || request.job.run.store.memory >= kMin) return;
-  io::fail_usage("--html: needs --memory 192MiB or more");
-}
-
 void require_room_for_values(const MeshRequest& request) {
   if (request.extras.materials) {
     const auto is_it = [&](const engine::SampleImage& sample) {
@@ -236,7 +260,9 @@ void require_room_for_values(const MeshRequest& request) {
     if (std::any_of(request.job.samples.begin(), request.job.samples.end(), is_it)) return;
     io::fail_usage("--materials: no --sample is called '" + request.extras.materials->values + "'");
   }
-  if (!request.job.samples.empty()) io::require_place_for_values(request.output);
+  if (!request.job.samples.empty() && request.write_values) {
+    io::require_place_for_values(request.output);
+  }
 }
 
 void require_room_for_wedges(const MeshRequest& request) {
@@ -275,7 +301,6 @@ void settle_keep(MeshRequest& request) {
 void settle_job(MeshRequest& request) {
   engine::MeshJob& job = request.job;
   engine::StoreOptions& store = job.run.store;
-  if (store.workdir.empty()) store.workdir = request.output.string() + ".work";
   store.memory = request.memory ? *request.memory : engine::default_memory_budget();
   request.volume.open.cache_bytes = cache_bytes(store.memory);
   job.steps = request.volume.steps;
@@ -285,11 +310,42 @@ void settle_job(MeshRequest& request) {
     job.choice.labels = io::merged_labels(request.volume.open.object, job.steps.merge);
     job.choice.labels_option = "--object";
   }
-  job.folder = request.output.parent_path();
-  job.is_measured = !request.report.empty() || !request.html.empty();
-  job.finds_parts = true;
-  job.run.owns_process = true;
-  store.stays = job.is_measured || !request.trace.empty();
+  job.takes_images = request.force;
+}
+
+/// Opens an image beside the labels, by the form that --use-form chooses where it has that.
+std::unique_ptr<io::LabelVolume> open_image(const std::filesystem::path& file, io::FormChoice form,
+                                            io::OpenOptions options) {
+  options.form = form;
+  try {
+    return io::open_volume(file, options);
+  } catch (const Error& error) {
+    if (form == io::FormChoice::kFile || error.kind() != ErrorKind::kUsage) throw;
+  }
+  options.form = io::FormChoice::kFile;
+  return io::open_volume(file, options);
+}
+
+/// Returns null if there is no image of sizes.
+std::unique_ptr<io::LabelVolume> open_sizes(const MeshRequest& request) {
+  const std::string& image = request.job.settings.sizes.rules.image;
+  if (image.empty()) return nullptr;
+  const io::OpenOptions labels = open_options(request.volume);
+  return open_image(image, labels.form, {.spacing = labels.spacing, .origin = labels.origin});
+}
+
+/// Opens the images that tets get values from.
+void open_samples(const MeshRequest& request, std::vector<engine::SampleImage>& samples) {
+  for (engine::SampleImage& sample : samples) {
+    sample.image = open_image(sample.file, request.volume.open.form,
+                              {.dataset = sample.dataset,
+                               .trust_paths = request.volume.open.trust_paths,
+                               .cache_bytes = request.volume.open.cache_bytes / samples.size()});
+    if (sample.image->info().is_placed && request.volume.open.frame == io::FrameChoice::kVoxel) {
+      io::fail_usage("--frame voxel: " + sample.file +
+                     " lies in the world, which the mesh then is not in");
+    }
+  }
 }
 
 }  // namespace
@@ -305,20 +361,39 @@ void add_mesh_options(OptionSet& options, MeshRequest& request) {
   add_output_options(options, request);
 }
 
-void check_mesh_request(MeshRequest& request) {
+void settle_mesh_request(MeshRequest& request) {
   settle_job(request);
   settle_keep(request);
   check_request_together(request);
   (void)open_options(request.volume);
   engine::check_choice(request.job.choice);
-  require_paths_apart(request);
-  if (!request.force) require_own_output(request);
-  require_memory_for_page(request);
-  require_room_for_values(request);
-  require_room_for_wedges(request);
+}
+
+void check_mesh_request(const MeshRequest& request) {
+  if (!request.output.empty()) {
+    require_room_for_values(request);
+    require_room_for_wedges(request);
+  }
   engine::check(request.job.settings);
   if (request.job.settings.optimizer == engine::Optimizer::kTetgen)
     (void)engine::codt::find_worker();
 }
 
-}  // namespace mw::cli
+void settle_changed(MeshRequest& request, const io::VolumeInfo& volume) {
+  const Index3 first = io::first_number(volume);
+  const Box3 all{first, first + volume.shape};
+  for (Box3& box : request.job.run.keep.changed) {
+    if (!request.volume.open.crop && !is_empty(box) && is_empty(intersection(box, all))) {
+      io::fail_usage("--changed: the box ", io::box_text(box),
+                     " is outside of the volume, which has the voxels ", io::box_text(all));
+    }
+    box = {box.lo - first, box.hi - first};
+  }
+}
+
+void open_images(const MeshRequest& request, engine::MeshJob& job) {
+  job.size_image = open_sizes(request);
+  open_samples(request, job.samples);
+}
+
+}  // namespace mw::request

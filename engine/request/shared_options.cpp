@@ -1,16 +1,14 @@
 // SPDX-FileCopyrightText: The mwmesh authors
 // SPDX-License-Identifier: Apache-2.0
-// Options that several commands have: settings, the machine, labels, meshes.
-#include "engine/cli/options/shared_options.h"
+// Options that several jobs have: settings, the machine, labels.
+#include "engine/request/shared_options.h"
 
-#include "engine/cli/options/values.h"
+#include "engine/request/values.h"
 #include "engine/settings/named_labels.h"
 #include "engine/settings/setting_table.h"
-#include "io/mesh/mesh_sink.h"
-#include "io/mesh/open_mesh.h"
 #include "kernels/core/error.h"
 
-namespace mw::cli {
+namespace mw::request {
 namespace {
 
 using engine::SettingKind;
@@ -54,18 +52,6 @@ int parse_threads(const std::string& text) {
   return static_cast<int>(threads);
 }
 
-/// Takes what is known before the first row, and ends the reading by throwing Enough.
-struct NamesSink : io::NoSink {
-  struct Enough {};
-
-  void begin(const io::MeshHeader& header) override {
-    names = header.names;
-    throw Enough();
-  }
-
-  io::LabelNames names;
-};
-
 }  // namespace
 
 void add_setting_options(OptionSet& options, engine::MeshSettings& settings) {
@@ -93,6 +79,7 @@ void add_resource_options(OptionSet& options, int& threads, std::optional<std::u
                .help = budget + ", as 512MiB, 4GB [half of what is free]",
                .group = kRunGroup,
                .kind = ValueKind::kSize,
+               .calls = kMeshing | kVerifying,
                .assign = into(memory, parse_bytes)});
   options.add({.name = "threads",
                .value = "N",
@@ -100,6 +87,7 @@ void add_resource_options(OptionSet& options, int& threads, std::optional<std::u
                .group = kRunGroup,
                .kind = ValueKind::kInteger,
                .fallback = "0",
+               .calls = kMeshing | kVerifying,
                .assign = into(threads, parse_threads)});
 }
 
@@ -109,45 +97,15 @@ void add_choice_options(OptionSet& options, engine::LabelChoice& choice) {
                .help = "labels of the mesh, as 1,5-9,Lesion; the others are left out",
                .group = kLabelGroup,
                .kind = ValueKind::kLabels,
+               .calls = kMeshing | kVerifying,
                .assign = into(choice.labels, parse_labels)});
   options.add({.name = "background",
                .value = "L",
                .help = "the label that is left out of the mesh, as 0",
                .group = kLabelGroup,
                .kind = ValueKind::kLabels,
+               .calls = kMeshing | kVerifying,
                .assign = into(choice.background, parse_label)});
 }
 
-void add_force_option(OptionSet& options, bool& force) {
-  options.add({.name = "force",
-               .help = "replaces files that are not of this program",
-               .group = kOutputGroup,
-               .kind = ValueKind::kSwitch,
-               .assign = into(force)});
-}
-
-void add_mesh_option(OptionSet& options, std::filesystem::path& mesh, const std::string& what) {
-  options.add({.name = "mesh",
-               .value = "MESH",
-               .help = what,
-               .group = kInputGroup,
-               .flags = "MESH,--mesh",
-               .required = true,
-               .assign = into(mesh)});
-}
-
-io::LabelNames names_of(const std::filesystem::path& mesh) {
-  NamesSink sink;
-  try {
-    io::copy_mesh(mesh, sink);
-  } catch (const NamesSink::Enough&) {
-    return sink.names;
-  }
-  return {};
-}
-
-std::string mesh_note() {
-  return "MESH: " + io::read_mesh_extensions() + ".\n";
-}
-
-}  // namespace mw::cli
+}  // namespace mw::request

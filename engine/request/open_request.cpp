@@ -1,13 +1,12 @@
 // SPDX-FileCopyrightText: The mwmesh authors
 // SPDX-License-Identifier: Apache-2.0
 // Opens the input volume that options describe.
-#include "engine/cli/options/volume_options.h"
+#include "engine/request/volume_options.h"
 
 #include <algorithm>
 
-#include "engine/cli/log.h"
-#include "engine/cli/options/shared_options.h"
-#include "engine/cli/options/values.h"
+#include "engine/request/shared_options.h"
+#include "engine/request/values.h"
 #include "engine/system/crew.h"
 #include "io/file/errors.h"
 #include "io/file/text_numbers.h"
@@ -17,7 +16,7 @@
 #include "io/volume/named_volume.h"
 #include "io/volume/open_volume.h"
 
-namespace mw::cli {
+namespace mw::request {
 namespace {
 
 io::RawLayout raw_layout(const VolumeRequest& request) {
@@ -65,19 +64,13 @@ io::LabelNames names_of(const VolumeRequest& request) {
   return open_named(all, nullptr)->info().names;  // the volume is opened again, and told of then
 }
 
-io::LabelNames names_in(const std::filesystem::path& file) {
-  std::string note;
-  io::LabelNames names = io::read_names(file, &note);
-  if (!note.empty()) log_warning(note);
-  return names;
-}
-
-std::unique_ptr<io::LabelVolume> open(const VolumeRequest& request) {
+std::unique_ptr<io::LabelVolume> open(const VolumeRequest& request,
+                                      const std::function<void(const std::string&)>& warn) {
   std::string note;
   auto volume = open_named(request, &note);
-  if (!volume->info().note.empty()) log_warning(volume->info().note);
-  if (!note.empty()) log_warning(note);
+  if (!volume->info().note.empty()) warn(volume->info().note);
+  if (!note.empty()) warn(note);
   return volume;
 }
 
-}  // namespace mw::cli
+}  // namespace mw::request

@@ -1,14 +1,14 @@
 // SPDX-FileCopyrightText: The mwmesh authors
 // SPDX-License-Identifier: Apache-2.0
 // Values of options from text and back, and their forms in TOML and JSON.
-#include "engine/cli/options/values.h"
+#include "engine/request/values.h"
 
 #include <algorithm>
 
 #include "io/volume/cropped_volume.h"
 #include "kernels/core/error.h"
 
-namespace mw::cli {
+namespace mw::request {
 namespace {
 
 using engine::fail_expected;
@@ -123,6 +123,13 @@ std::vector<RawLabel> parse_labels(std::string_view text) {
   std::vector<RawLabel> labels;
   for (const std::string_view part : split(text)) add_labels(part, labels);
   return labels;
+}
+
+const char* name(ValueKind kind) {
+  constexpr const char* kNames[] = {"text",           "integer", "number", "number_or_none",
+                                    "number_or_auto", "numbers", "shape",  "box",
+                                    "labels",         "size",    "switch", "number_or_text"};
+  return kNames[static_cast<int>(kind)];
 }
 
 std::string canonical_text(ValueKind kind, const std::string& text) {
@@ -250,4 +257,4 @@ io::Json json_of_text(ValueKind kind, const std::string& text) {
   return io::parse_json(toml_of_text(kind, text), "settings");
 }
 
-}  // namespace mw::cli
+}  // namespace mw::request

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: The mwmesh authors
 // SPDX-License-Identifier: Apache-2.0
 // One list of options: flags, config keys, environment variables, defaults and help from one entry.
-#include "engine/cli/options/option_set.h"
+#include "engine/request/option_set.h"
 
 #include <unistd.h>
 
@@ -12,14 +12,14 @@
 #include <optional>
 #include <set>
 
-#include "engine/cli/options/values.h"
 #include "engine/codt/worker_pool.h"
+#include "engine/request/values.h"
 #include "engine/settings/named_labels.h"
 #include "io/file/errors.h"
 #include "io/remote/http_client.h"
 #include "kernels/core/error.h"
 
-namespace mw::cli {
+namespace mw::request {
 namespace {
 
 constexpr const char* kPrefix = "MW_";
@@ -80,6 +80,9 @@ std::string joined(const std::vector<std::string>& words, const std::string& bet
 }
 
 void OptionSet::add(Option option) {
+  const bool is_library = face_ == Face::kLibrary;
+  if (option.face == (is_library ? Face::kProgram : Face::kLibrary)) return;
+  if (is_library && option.listed == Listed::kNowhere) return;
   entries_.push_back({.option = std::move(option), .text = "", .where = ""});
 }
 
@@ -98,9 +101,11 @@ void OptionSet::resolve(const std::map<std::string, std::string>& flags) {
     entry.where = entry.option.name;
     entry.is_given = entry.is_flag = false;
   }
-  const auto config = flags.find("config");
-  if (config != flags.end()) read_config(config->second);
-  read_environment();
+  if (face_ == Face::kProgram) {
+    const auto config = flags.find("config");
+    if (config != flags.end()) read_config(config->second);
+    read_environment();
+  }
   read_flags(flags);
   read_implied();
   for (Entry& entry : entries_) {
@@ -176,10 +181,12 @@ void OptionSet::read_environment() {
 void OptionSet::read_flags(const std::map<std::string, std::string>& flags) {
   for (const auto& [name, text] : flags) {
     Entry& entry = find(name);
+    const bool is_program = face_ == Face::kProgram;
     const std::string flag = "--" + name;
     if (text.empty()) refuse(flag, ": empty value");
     entry.text = text;
-    entry.where = entry.option.kind == ValueKind::kSwitch ? flag : flag + " " + text;
+    const bool has_text = is_program && entry.option.kind != ValueKind::kSwitch;
+    entry.where = has_text ? flag + " " + text : flag;
     entry.is_given = entry.is_flag = true;
   }
 }
@@ -277,4 +284,4 @@ void refuse_unknown_variables(const std::vector<const OptionSet*>& all) {
   }
 }
 
-}  // namespace mw::cli
+}  // namespace mw::request

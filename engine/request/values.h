@@ -13,8 +13,7 @@
 #include <string_view>
 #include <vector>
 
-#include "engine/cli/options/option_set.h"
-#include "engine/report/figures.h"
+#include "engine/request/option_set.h"
 #include "engine/settings/number_text.h"
 #include "io/json/json.h"
 #include "io/mesh/element.h"
@@ -22,7 +21,7 @@
 #include "kernels/core/index.h"
 #include "kernels/core/label.h"
 
-namespace mw::cli {
+namespace mw::request {
 
 using engine::format_number;
 using engine::parse_bytes;
@@ -31,14 +30,6 @@ using engine::parse_label;
 using engine::parse_number;
 using engine::parse_switch;
 using io::parse_element;
-using report::format_bytes;
-using report::format_figure;
-using report::format_fixed;
-using report::format_percent;
-using report::format_volume;
-using report::short_number;
-using report::told;
-using report::with_commas;
 
 /// All of these take the whole text.  ERRORS: mw::Error(kUsage) saying what was expected.
 [[nodiscard]] std::array<double, 3> parse_numbers(std::string_view text);  ///< "X,Y,Z", or one
@@ -71,6 +62,9 @@ template <class T, class Parse>
   return into(target, parse_switch);
 }
 
+/// Returns what a kind is called in lists of options: "number_or_none".
+[[nodiscard]] const char* name(ValueKind kind);
+
 /// Returns a text that is the same for equal values; labels and sizes stay as they are written.
 /// ERRORS: mw::Error(kUsage) when the text is not of the kind.
 [[nodiscard]] std::string canonical_text(ValueKind kind, const std::string& text);
@@ -89,4 +83,4 @@ template <class T, class Parse>
 /// Returns the value as JSON, in which bytes that are no UTF-8 become U+FFFD.
 [[nodiscard]] io::Json json_of_text(ValueKind kind, const std::string& text);
 
-}  // namespace mw::cli
+}  // namespace mw::request

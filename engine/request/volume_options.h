@@ -5,11 +5,11 @@
 
 #include <filesystem>
 
-#include "engine/cli/options/option_set.h"
+#include "engine/request/option_set.h"
 #include "io/labels/prepared_input.h"
 #include "io/volume/open_options.h"
 
-namespace mw::cli {
+namespace mw::request {
 
 /// What the user said about a volume.
 struct VolumeRequest {
@@ -45,16 +45,14 @@ void add_step_options(OptionSet& options, VolumeRequest& request);
 void refuse_idle_cache(const OptionSet& options, const VolumeRequest& request);
 
 /// Opens the volume of the request with the names of its labels; its steps are left to
-/// io::PreparedInput.
-[[nodiscard]] std::unique_ptr<io::LabelVolume> open(const VolumeRequest& request);
+/// io::PreparedInput.  warn is told what was taken for what files leave open.
+[[nodiscard]] std::unique_ptr<io::LabelVolume> open(
+    const VolumeRequest& request, const std::function<void(const std::string&)>& warn);
 
 /// Returns the names of the labels of the request's volume.
 [[nodiscard]] io::LabelNames names_of(const VolumeRequest& request);
 
-/// Returns the names in a file of --names, and logs what was taken for what it leaves open.
-[[nodiscard]] io::LabelNames names_in(const std::filesystem::path& file);
-
 /// Returns the bytes of its file that a chunked volume may keep while nothing but labels is read.
 [[nodiscard]] std::uint64_t cache_bytes(std::uint64_t memory);
 
-}  // namespace mw::cli
+}  // namespace mw::request

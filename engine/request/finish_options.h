@@ -5,11 +5,11 @@
 
 #include <vector>
 
-#include "engine/cli/options/option_set.h"
 #include "engine/connect/connect_options.h"
+#include "engine/request/option_set.h"
 #include "engine/sample/image_sampler.h"
 
-namespace mw::cli {
+namespace mw::request {
 
 /// Adds --parts, --split, --cohesive and --open-hinges.
 /// REQUIRES (also below): what is written to outlives options.
@@ -18,4 +18,4 @@ void add_connect_options(OptionSet& options, engine::ConnectOptions& connect);
 /// Adds --sample.
 void add_sample_option(OptionSet& options, std::vector<engine::SampleImage>& samples);
 
-}  // namespace mw::cli
+}  // namespace mw::request

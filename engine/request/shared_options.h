@@ -1,19 +1,17 @@
 // SPDX-FileCopyrightText: The mwmesh authors
 // SPDX-License-Identifier: Apache-2.0
-// Options that several commands share: settings, the machine, labels, meshes.
+// Options that several jobs share: settings, the machine, labels.
 #pragma once
 
 #include <cstdint>
-#include <filesystem>
 #include <optional>
 #include <string>
 
-#include "engine/cli/options/option_set.h"
 #include "engine/output/label_selection.h"
+#include "engine/request/option_set.h"
 #include "engine/settings/settings.h"
-#include "io/names/label_names.h"
 
-namespace mw::cli {
+namespace mw::request {
 
 /// Headings of help.
 inline constexpr const char* kInputGroup = "Input";
@@ -35,16 +33,4 @@ void add_resource_options(OptionSet& options, int& threads, std::optional<std::u
 /// Adds --labels and --background.
 void add_choice_options(OptionSet& options, engine::LabelChoice& choice);
 
-/// Adds --force, without which a command replaces no file of others (FileNames::require_own()).
-void add_force_option(OptionSet& options, bool& force);
-
-/// Adds the argument MESH; `what` says in the help what the command does with it.
-void add_mesh_option(OptionSet& options, std::filesystem::path& mesh, const std::string& what);
-
-/// Returns the names of labels in a mesh's file.  ERRORS: those of io::copy_mesh().
-[[nodiscard]] io::LabelNames names_of(const std::filesystem::path& mesh);
-
-/// Returns the formats of such meshes, for the end of the help.
-[[nodiscard]] std::string mesh_note();
-
-}  // namespace mw::cli
+}  // namespace mw::request

@@ -1,24 +1,25 @@
 // SPDX-FileCopyrightText: The mwmesh authors
 // SPDX-License-Identifier: Apache-2.0
-// What `mwmesh mesh` is asked to do.
+// What a job that meshes a volume is asked to do, by the program or through the library.
 #pragma once
 
-#include "engine/cli/mesh/progress.h"
-#include "engine/cli/options/volume_options.h"
 #include "engine/job/mesh_job.h"
+#include "engine/request/volume_options.h"
 #include "engine/settings/settings.h"
 #include "io/mesh/element.h"
 #include "io/mesh/mesh_extras.h"
 
-namespace mw::cli {
+namespace mw::request {
 
 using engine::Certify;
 
 struct MeshRequest {
   VolumeRequest volume;
-  std::filesystem::path output;
+  std::filesystem::path output;  ///< empty: the mesh stays in memory
   io::Element element = io::Element::kTet4;
   io::MeshExtras extras;                 ///< what the output has beside the mesh
+  bool write_values = true;              ///< whether the output has the values of tets
+  bool is_measured = true;               ///< in the library: whether there is a report
   bool force = false;                    ///< whether it may replace files of others, mesh images
   std::filesystem::path report;          ///< empty: none
   std::filesystem::path html;            ///< empty: none
@@ -29,27 +30,28 @@ struct MeshRequest {
   std::filesystem::path keep;            ///< empty: nothing new is kept
   std::filesystem::path from;            ///< empty: no earlier run is used
   std::filesystem::path delta;           ///< empty: none
-  /// What the engine is asked to do; complete after check_mesh_request().
-  engine::MeshJob job;
-  ProgressKind progress = ProgressKind::kNone;
+  engine::MeshJob job;                   ///< what the engine is asked to do
+  std::string progress;
   std::string log_level;
 };
 
-/// Adds every option of the command, in the order of the documentation.
+/// Adds every option of the job, in the order of the documentation.
 /// REQUIRES: request outlives options.
 void add_mesh_options(OptionSet& options, MeshRequest& request);
 
 /// Fills in what follows from other values.
-/// ERRORS: mw::Error(kUsage) when values that are allowed by themselves contradict each other.
-void check_mesh_request(MeshRequest& request);
+/// ERRORS (both): mw::Error(kUsage) when values that are allowed by themselves contradict each
+/// other.
+void settle_mesh_request(MeshRequest& request);
 
-/// Checks before any work that names of files are apart (FileNames::require_apart()), and that the
-/// work folder neither is one of these files, nor lies in one, nor has one in it.
-/// REQUIRES: the work folder of the request is settled.
-/// ERRORS: mw::Error(kUsage) naming flag and path.
-void require_paths_apart(const MeshRequest& request);
+/// Checks what the output is to have, and the settings.
+void check_mesh_request(const MeshRequest& request);
 
-/// Checks that the files that are to be replaced are ours (FileNames::require_own()).
-void require_own_output(const MeshRequest& request);
+/// Turns the boxes of --changed, which count as the data set does, to voxels of the volume.
+/// ERRORS: kUsage if one is outside of a whole volume, where it can only be a mistake.
+void settle_changed(MeshRequest& request, const io::VolumeInfo& volume);
 
-}  // namespace mw::cli
+/// Opens the image of sizes and the images that tets get values from.  ERRORS: those of io.
+void open_images(const MeshRequest& request, engine::MeshJob& job);
+
+}  // namespace mw::request

@@ -13,7 +13,7 @@
 #include "io/json/json.h"
 #include "io/names/label_names.h"
 
-namespace mw::cli {
+namespace mw::request {
 
 enum class ValueKind {
   kText,
@@ -37,6 +37,12 @@ enum class Listed {
   kNowhere,    ///< an older name, which is still taken
 };
 
+/// Who takes an option: the program, the library, or both.
+enum class Face { kBoth, kProgram, kLibrary };
+
+/// Which calls of the library take an option; several are joined by '|'.
+enum Calls : unsigned { kMeshing = 1, kOpening = 2, kWriting = 4, kVerifying = 8 };
+
 /// Names of options and their values as text.
 using OptionTexts = std::vector<std::pair<std::string, std::string>>;
 using TextCheck = std::function<void(const std::string&)>;
@@ -51,6 +57,8 @@ struct Option {
   std::vector<std::string> choices;  ///< the only texts allowed; empty: any of the kind
   /// All names of the flag, "-o,--output", that of an argument in capitals; empty for "--name".
   std::string flags;
+  Face face = Face::kBoth;
+  unsigned calls = kMeshing;
   Listed listed = Listed::kInHelp;
   bool required = false;
   bool only_flag = false;   ///< neither a key nor a variable has it
@@ -64,10 +72,15 @@ struct Option {
   std::function<OptionTexts(const std::string&)> implied;
 };
 
-/// The options of one command.  Each value comes from the strongest of: default < what another
-/// option implies < config file (the option "config") < environment (MW_NAME) < flag.
+/// The options of one job.  Each value comes from the strongest of: default < what another option
+/// implies < config file (the option "config") < environment (MW_NAME) < flag.  In the library
+/// there are flags alone.
 class OptionSet {
  public:
+  /// `face` is the program (the default) or the library; options of the other one are not taken.
+  OptionSet() = default;
+  explicit OptionSet(Face face) : face_(face) {}
+
   void add(Option option);
 
   /// Finds and assigns every value, in the order of the list; those with names of labels wait for
@@ -111,6 +124,7 @@ class OptionSet {
   static void check_named(const Entry& entry);
   [[nodiscard]] static bool waits_for_names(const Entry& entry);
 
+  Face face_ = Face::kProgram;
   std::vector<Entry> entries_;
 };
 
@@ -125,4 +139,4 @@ void refuse_unknown_variables(const std::vector<const OptionSet*>& all);
 /// Returns the words with `between` between them.
 [[nodiscard]] std::string joined(const std::vector<std::string>& words, const std::string& between);
 
-}  // namespace mw::cli
+}  // namespace mw::request

@@ -1,12 +1,12 @@
 // SPDX-FileCopyrightText: The mwmesh authors
 // SPDX-License-Identifier: Apache-2.0
 // Options about the input volume, shared by all subcommands that read one.
-#include "engine/cli/options/volume_options.h"
+#include "engine/request/volume_options.h"
 
 #include <algorithm>
 
-#include "engine/cli/options/shared_options.h"
-#include "engine/cli/options/values.h"
+#include "engine/request/shared_options.h"
+#include "engine/request/values.h"
 #include "engine/system/crew.h"
 #include "io/file/errors.h"
 #include "io/file/text_numbers.h"
@@ -15,7 +15,7 @@
 #include "io/volume/decode.h"
 #include "io/volume/open_volume.h"
 
-namespace mw::cli {
+namespace mw::request {
 namespace {
 
 std::array<double, 3> parse_spacing(const std::string& text) {
@@ -72,11 +72,13 @@ void add_raw_options(OptionSet& options, VolumeRequest& request) {
                .help = "voxels along each axis; says that the file is raw",
                .group = kInputGroup,
                .kind = ValueKind::kShape,
+               .calls = kOpening,
                .assign = into(request.shape, parse_shape)});
   options.add({.name = "dtype",
                .value = "TYPE",
                .help = "of raw voxels: u8 to u64, i8 to i64, f32, f64; u16be: big-endian",
                .group = kInputGroup,
+               .calls = kOpening,
                .assign = [&](const std::string& text) { parse_dtype(request, text); }});
   options.add({.name = "endian",
                .choices = {"little", "big"},
@@ -97,12 +99,14 @@ void add_place_options(OptionSet& options, VolumeRequest& request) {
                .help = "spacing of voxels in physical units [the file's]",
                .group = kInputGroup,
                .kind = ValueKind::kNumbers,
+               .calls = kOpening,
                .assign = into(request.open.spacing, parse_spacing)});
   options.add({.name = "origin",
                .value = "X,Y,Z",
                .help = "where the first corner, or that of --crop, lies [the file's]",
                .group = kInputGroup,
                .kind = ValueKind::kNumbers,
+               .calls = kOpening,
                .listed = Listed::kInHelpAll,
                .assign = into(request.open.origin, parse_numbers)});
   options.add({.name = "frame",
@@ -111,6 +115,7 @@ void add_place_options(OptionSet& options, VolumeRequest& request) {
                .group = kInputGroup,
                .fallback = "file",
                .choices = {"file", "ras", "lps", "voxel"},
+               .calls = kOpening,
                .listed = Listed::kInHelpAll,
                .assign = into(request.open.frame, [](const std::string& text) {
                  return io::parse_frame_choice(text).value();
@@ -120,6 +125,7 @@ void add_place_options(OptionSet& options, VolumeRequest& request) {
                .help = "place of a NIfTI file that has two [sform, else qform]",
                .group = kInputGroup,
                .choices = {"sform", "qform"},
+               .calls = kOpening,
                .listed = Listed::kInHelpAll,
                .assign = into(request.open.form, [](const std::string& text) {
                  return io::parse_form_choice(text).value();
@@ -131,12 +137,14 @@ void add_array_options(OptionSet& options, VolumeRequest& request) {
                .value = "PATH",
                .help = "array of several, of " + io::formats_with_datasets(),
                .group = kInputGroup,
+               .calls = kOpening,
                .assign = into(request.open.dataset)});
   options.add({.name = "scale",
                .value = "N",
                .help = "level, 0 the finest, of " + io::formats_with_scales(),
                .group = kInputGroup,
                .kind = ValueKind::kInteger,
+               .calls = kOpening,
                .listed = Listed::kInHelpAll,
                .assign = into(request.open.scale, parse_scale)});
 }
@@ -148,6 +156,7 @@ void add_step_options(OptionSet& options, VolumeRequest& request) {
                .value = "A,B=C;D=E",
                .help = "labels A and B become C, and D becomes E, all at once",
                .group = kLabelGroup,
+               .calls = kMeshing | kVerifying,
                .has_labels = true,
                .assign = into(request.steps.merge, parse_merge)});
   options.add({.name = "drop-specks",
@@ -155,11 +164,13 @@ void add_step_options(OptionSet& options, VolumeRequest& request) {
                .help = "parts below N voxels join a neighbour; N/26: parts join at corners",
                .group = kLabelGroup,
                .kind = ValueKind::kNumberOrText,
+               .calls = kMeshing | kVerifying,
                .assign = into(request.steps.specks, parse_specks)});
   options.add({.name = "weld",
                .value = "A,B",
                .help = "fill voxels of A and B where others meet by an edge or corner alone",
                .group = kLabelGroup,
+               .calls = kMeshing | kVerifying,
                .listed = Listed::kInHelpAll,
                .has_labels = true,
                .assign = into(request.steps.weld, parse_labels)});
@@ -167,6 +178,7 @@ void add_step_options(OptionSet& options, VolumeRequest& request) {
                .value = "FILE",
                .help = "names and colours: ITK-SNAP, FreeSurfer, Slicer, or CSV id,name",
                .group = kLabelGroup,
+               .calls = kOpening,
                .assign = into(request.names)});
 }
 
@@ -176,6 +188,7 @@ void add_input_option(OptionSet& options, std::filesystem::path& path) {
                .help = "labelled volume: file, folder, address; raw with --shape, --dtype",
                .group = kInputGroup,
                .flags = "INPUT,--input",
+               .face = Face::kProgram,
                .required = true,
                .assign = into(path)});
 }
@@ -189,6 +202,7 @@ void add_volume_options(OptionSet& options, VolumeRequest& request) {
                .help = "the label of a voxel in several masks; all: one for each set",
                .group = kInputGroup,
                .choices = {"first", "last", "all"},
+               .calls = kOpening,
                .listed = Listed::kInHelpAll,
                .assign = into(request.open.overlap, [](const std::string& text) {
                  return io::parse_overlap(text).value();
@@ -199,6 +213,7 @@ void add_volume_options(OptionSet& options, VolumeRequest& request) {
                .group = kInputGroup,
                .fallback = "labels",
                .choices = {"labels", "probabilities", "distances"},
+               .calls = kOpening,
                .listed = Listed::kInHelpAll,
                .assign = into(request.open.values, [](const std::string& text) {
                  return io::parse_voxel_values(text).value();
@@ -208,18 +223,21 @@ void add_volume_options(OptionSet& options, VolumeRequest& request) {
                .help = "the box from the first voxel to before the second",
                .group = kInputGroup,
                .kind = ValueKind::kBox,
+               .calls = kOpening,
                .assign = into(request.open.crop, parse_box)});
   options.add({.name = "object",
                .value = "LIST",
                .help = "only these labels, found by coarser scales; all others become 0",
                .group = kInputGroup,
                .kind = ValueKind::kLabels,
+               .calls = kOpening | kMeshing,
                .listed = Listed::kInHelpAll,
                .assign = into(request.open.object, parse_labels)});
   options.add({.name = "cache",
                .value = "DIR[,SIZE]",
                .help = "keeps what servers send, at most 10GiB: chunks are fetched once",
                .group = kInputGroup,
+               .calls = kOpening,
                .listed = Listed::kInHelpAll,
                .assign = into(request.open.cache, engine::parse_cache_folder)});
   options.add({.name = "trust-paths",
@@ -227,6 +245,7 @@ void add_volume_options(OptionSet& options, VolumeRequest& request) {
                .group = kInputGroup,
                .kind = ValueKind::kSwitch,
                .fallback = "false",
+               .calls = kOpening,
                .listed = Listed::kInHelpAll,
                .assign = into(request.open.trust_paths)});
 }
@@ -236,4 +255,4 @@ std::string volume_note() {
                   ".\n");
 }
 
-}  // namespace mw::cli
+}  // namespace mw::request

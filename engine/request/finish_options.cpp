@@ -1,12 +1,12 @@
 // SPDX-FileCopyrightText: The mwmesh authors
 // SPDX-License-Identifier: Apache-2.0
-#include "engine/cli/options/finish_options.h"
+#include "engine/request/finish_options.h"
 
-#include "engine/cli/options/shared_options.h"
-#include "engine/cli/options/values.h"
+#include "engine/request/shared_options.h"
+#include "engine/request/values.h"
 #include "engine/sample/sample_text.h"
 
-namespace mw::cli {
+namespace mw::request {
 
 void add_connect_options(OptionSet& options, engine::ConnectOptions& connect) {
   options.add({.name = "parts",
@@ -50,4 +50,4 @@ void add_sample_option(OptionSet& options, std::vector<engine::SampleImage>& sam
                .assign = into(samples, engine::parse_samples)});
 }
 
-}  // namespace mw::cli
+}  // namespace mw::request

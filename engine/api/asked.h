@@ -1,0 +1,40 @@
+// SPDX-FileCopyrightText: The mwmesh authors
+// SPDX-License-Identifier: Apache-2.0
+// What a caller's options ask for, in the terms of the engine.
+#pragma once
+
+#include "engine/api/handles.h"
+#include "engine/request/mesh_request.h"
+#include "engine/request/option_set.h"
+
+namespace mw::api {
+
+/// The options of a call, as the program has those of a command.
+class Asked {
+ public:
+  /// given has texts by flag.  ERRORS (both): mw::Error(kUsage) naming an option.
+  explicit Asked(const std::map<std::string, std::string>& given);
+  /// options may be null: none are given.
+  explicit Asked(const mw_options* options);
+  Asked(const Asked&) = delete;
+  Asked& operator=(const Asked&) = delete;
+
+  [[nodiscard]] request::MeshRequest& request() { return request_; }
+  [[nodiscard]] request::OptionSet& options() { return options_; }
+
+ private:
+  request::MeshRequest request_;
+  request::OptionSet options_;
+};
+
+/// Returns the name of an option as the command line has it, "max-distance".
+[[nodiscard]] std::string flag_of(std::string name);
+
+/// Returns the message in words for a caller of functions: "--max-distance" becomes "max_distance".
+/// Flags that are no option of the library stay as they are: they belong to commands.
+[[nodiscard]] std::string in_words(const std::string& message);
+
+/// Returns the name of the option that a message begins with; empty if it begins with none.
+[[nodiscard]] std::string option_of(const std::string& message);
+
+}  // namespace mw::api
