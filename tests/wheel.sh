@@ -1,15 +1,18 @@
 #!/usr/bin/env bash
 # SPDX-FileCopyrightText: The mwmesh authors
 # SPDX-License-Identifier: Apache-2.0
-# Tries the wheel of configs/package.sh in a new Debian 12 that has Python and numpy, and none of the
-# libraries: it meshes, verifies, saves and reads back.  As root; needs debootstrap and the package
-# mirror of this machine; takes some minutes.
+# Tries the wheel and the archive of configs/package.sh in new systems that have Python and numpy, and
+# none of our packages: they mesh, verify, save, draw and read back, and the digest is the same on all.
+# As root; needs debootstrap and the package mirror of this machine; takes some minutes a system.
+#
+#   bash tests/wheel.sh [SYSTEM ...]      default: bookworm trixie (Debian 12 and 13)
 set -euo pipefail
 
 root="$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)"
+packages="$root/build/packages"
 folder="$(mktemp -d)"
 trap 'rm -rf --one-file-system "$folder"' EXIT
-system="$folder/system"
+(($#)) || set -- bookworm trixie
 
 fail() {
   echo "wheel: FAILED: $*" >&2
@@ -17,15 +20,16 @@ fail() {
 }
 
 mirror() {
-  apt-cache policy | sed -n 's/^ *[0-9]* \(http[^ ]*\) bookworm\/main.*/\1/p' | head -n 1
+  apt-cache policy | sed -n 's/^ *[0-9]* \(http[^ ]*\) [a-z]*\/main.*/\1/p' | head -n 1
 }
 
 ((EUID == 0)) || fail "needs root"
-ls "$root"/build/packages/*manylinux*.whl >/dev/null 2>&1 || fail "no wheel; run configs/package.sh"
-debootstrap --variant=minbase --include=python3,python3-numpy,python3-pip bookworm "$system" \
-  "$(mirror)" >"$folder/log" 2>&1 || fail "debootstrap: $(tail -n 5 "$folder/log")"
-cp "$root"/build/packages/*manylinux*.whl "$system/root"
-cat >"$system/root/smoke.py" <<'END'
+ls "$packages"/*manylinux*.whl "$packages"/*.tar.xz >/dev/null 2>&1 || fail "no wheel; run configs/package.sh"
+
+cat >"$folder/smoke.py" <<'END'
+import subprocess
+import sys
+
 import mwmesh
 import numpy
 
@@ -35,9 +39,33 @@ assert sorted(mesh.volumes()) == numpy.unique(voxels).tolist() and mesh.verify(v
 for name in ("m.vtu", "m.vtkhdf", "m.msh"):
     mesh.save(name)
     assert mwmesh.read(name).digest == mesh.digest, name
+assert mesh.picture(200, 200).startswith(b"\x89PNG")
+program = sys.argv[1]
+numpy.save("v.npy", voxels)
+subprocess.run([program, "mesh", "v.npy", "-o", "p.vtkhdf"], check=True, stdout=subprocess.DEVNULL)
+subprocess.run([program, "verify", "v.npy", "p.vtkhdf"], check=True, stdout=subprocess.DEVNULL)
+assert mwmesh.read("p.vtkhdf").digest == mesh.digest
 print(mesh.digest)
 END
-chroot "$system" sh -c \
-  'cd /root && pip3 install --no-deps --break-system-packages ./*.whl && python3 -B smoke.py' \
-  >"$folder/log" 2>&1 || fail "$(tail -n 5 "$folder/log")"
-echo "wheel: $(tail -n 1 "$folder/log")"
+
+# Prints the digest that a way to install has.
+try_in() { # SYSTEM COMMAND WHAT
+  chroot "$1" sh -c "cd /root && $2" >"$folder/log" 2>&1 || fail "$3: $(tail -n 5 "$folder/log")"
+  tail -n 1 "$folder/log"
+}
+
+digests=()
+for release in "$@"; do
+  system="$folder/$release"
+  debootstrap --variant=minbase --include=python3,python3-numpy,python3-pip,xz-utils "$release" "$system" \
+    "$(mirror)" >"$folder/log" 2>&1 || fail "debootstrap: $(tail -n 5 "$folder/log")"
+  cp "$packages"/*manylinux*.whl "$packages"/*.tar.xz "$folder/smoke.py" "$system/root"
+  by_wheel="$(try_in "$system" "pip3 install --no-deps --break-system-packages ./*.whl &&
+    python3 -B smoke.py mwmesh && pip3 uninstall --yes --break-system-packages mwmesh >/dev/null 2>&1" "the wheel on $release")"
+  by_archive="$(try_in "$system" "tar xf ./*.tar.xz && cd mwmesh-*/ &&
+    PYTHONPATH=python python3 -B ../smoke.py bin/mwmesh" "the archive on $release")"
+  echo "wheel: $release: $by_wheel, archive: $by_archive"
+  digests+=("$by_wheel" "$by_archive")
+  rm -rf --one-file-system "$system"
+done
+(($(printf '%s\n' "${digests[@]}" | sort -u | wc -l) == 1)) || fail "the digests differ"

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The whole command line: commands, messages, exit codes.
 #include "engine/cli/program.h"
+#include "engine/cli/options/config_file.h"
 #include "engine/version.h"
 
 #include <fcntl.h>
@@ -63,7 +64,9 @@ int run_command(const CommandLine& line, const std::vector<Command>& commands) {
   for (const Command& command : commands) all.push_back(&command.options);
   refuse_unknown_variables(all);
   OptionSet options = line.command->options;
-  options.resolve(line.flags);
+  const auto config = line.flags.find("config");
+  options.resolve(line.flags, config == line.flags.end() ? ConfigTexts()
+                                                         : read_config(config->second, options));
   if (line.flags.contains("print-config")) {
     if (run_processes().speaks()) std::cout << options.toml();
     return kExitDone;

@@ -17,7 +17,7 @@ set_target_properties(mwmesh_shared PROPERTIES VERSION ${PROJECT_VERSION}
 
 # One archive of all our objects.  What they need, by its names in pkg-config, and libbz2 and DCMTK,
 # which have none there; Debian's hdf5 is named after what it was built for.
-set(mw_needed_modules blosc draco libcrypto libcurl liblz4 liblzma libpng libtiff-4 libzstd pugixml tbb tomlplusplus zlib)
+set(mw_needed_modules blosc draco libcrypto libcurl liblz4 liblzma libpng libtiff-4 libzstd pugixml tbb zlib)
 pkg_check_modules(mw_serial_hdf5 QUIET hdf5-serial)
 if(mw_serial_hdf5_FOUND)
   list(APPEND mw_needed_modules hdf5-serial)

@@ -8,7 +8,6 @@
 #include <algorithm>
 #include <cctype>
 #include <cstdlib>
-#include <fstream>
 #include <optional>
 #include <set>
 
@@ -28,38 +27,6 @@ constexpr const char* kPrefix = "MW_";
   io::fail_usage(where + reason);
 }
 
-std::string key_of(const Option& option) {
-  std::string key = option.name;
-  std::replace(key.begin(), key.end(), '-', '_');
-  return key;
-}
-
-std::string content_of(const std::filesystem::path& path) {
-  std::error_code ignored;
-  std::ifstream file(path, std::ios::binary);
-  if (!file || std::filesystem::is_directory(path, ignored)) {
-    refuse(path.string(), ": cannot read this config file");
-  }
-  constexpr std::size_t kMaxBytes = 1 << 20;
-  std::string content(kMaxBytes + 1, '\0');
-  file.read(content.data(), static_cast<std::streamsize>(content.size()));
-  content.resize(static_cast<std::size_t>(file.gcount()));
-  if (content.size() <= kMaxBytes) return content;
-  refuse(path.string(), ": is no config file: it has more than 1 MiB");
-}
-
-std::string line_of(const std::string& file, const toml::source_region& source) {
-  return file + ":" + std::to_string(source.begin.line) + ": ";
-}
-
-toml::table parse_config(const std::filesystem::path& path) {
-  try {
-    return toml::parse(content_of(path), path.string());
-  } catch (const toml::parse_error& error) {
-    refuse(line_of(path.string(), error.source()), std::string(error.description()));
-  }
-}
-
 /// Returns the names of the variables with our prefix that are not empty.
 std::set<std::string> set_variables() {
   std::set<std::string> out;
@@ -72,6 +39,12 @@ std::set<std::string> set_variables() {
 }
 
 }  // namespace
+
+std::string key_of(const Option& option) {
+  std::string key = option.name;
+  std::replace(key.begin(), key.end(), '-', '_');
+  return key;
+}
 
 std::string joined(const std::vector<std::string>& words, const std::string& between) {
   std::string out;
@@ -95,17 +68,15 @@ OptionSet::Entry& OptionSet::find(const std::string& name) {
   return const_cast<Entry&>(std::as_const(*this).find(name));
 }
 
-void OptionSet::resolve(const std::map<std::string, std::string>& flags) {
+void OptionSet::resolve(const std::map<std::string, std::string>& flags,
+                        const ConfigTexts& config) {
   for (Entry& entry : entries_) {
     entry.text = entry.option.fallback;
     entry.where = entry.option.name;
     entry.is_given = entry.is_flag = false;
   }
-  if (face_ == Face::kProgram) {
-    const auto config = flags.find("config");
-    if (config != flags.end()) read_config(config->second);
-    read_environment();
-  }
+  read_config(config);
+  if (face_ == Face::kProgram) read_environment();
   read_flags(flags);
   read_implied();
   for (Entry& entry : entries_) {
@@ -145,24 +116,12 @@ void OptionSet::resolve_names(const std::function<io::LabelNames()>& names) {
   }
 }
 
-void OptionSet::read_config(const std::filesystem::path& path) {
-  const toml::table table = parse_config(path);
-  for (const auto& [key, node] : table) {
-    const std::string name(key.str());
-    const std::string where = line_of(path.string(), node.source()) + name;
-    const auto found = std::find_if(entries_.begin(), entries_.end(), [&](const Entry& entry) {
-      return !entry.option.only_flag && key_of(entry.option) == name;
-    });
-    if (found == entries_.end()) refuse(where, ": unknown key; see mwmesh mesh --print-config");
-    const ValueKind kind = found->option.kind;
-    const std::optional<std::string> text = text_of_toml(kind, node);
-    if (!text) refuse(where, std::string(": wrong type; expected ") + toml_type(kind));
-    found->text = *text;
-    found->where = where + " = " + *text;
-    found->is_given = true;
-    if (text->empty()) refuse(where, ": empty; leave the key out instead");
-    // The system would end the name of a file there.
-    if (text->find('\0') != text->npos) refuse(where, ": has a zero byte in it");
+void OptionSet::read_config(const ConfigTexts& config) {
+  for (const auto& [name, given] : config) {
+    Entry& entry = find(name);
+    entry.text = given.text;
+    entry.where = given.where;
+    entry.is_given = true;
   }
 }
 

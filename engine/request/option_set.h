@@ -3,7 +3,6 @@
 // One list of options: flags, config keys, environment variables, defaults and help from one entry.
 #pragma once
 
-#include <filesystem>
 #include <functional>
 #include <map>
 #include <string>
@@ -72,8 +71,18 @@ struct Option {
   std::function<OptionTexts(const std::string&)> implied;
 };
 
+/// The name of an option as keys of config files and the library have it: "max_distance".
+[[nodiscard]] std::string key_of(const Option& option);
+
+/// A value of a config file, and where it stands: "run.toml:3: window = 41".
+struct ConfigText {
+  std::string text;
+  std::string where;
+};
+using ConfigTexts = std::map<std::string, ConfigText>;  ///< by the option's name
+
 /// The options of one job.  Each value comes from the strongest of: default < what another option
-/// implies < config file (the option "config") < environment (MW_NAME) < flag.  In the library
+/// implies < config file < environment (MW_NAME) < flag.  In the library
 /// there are flags alone.
 class OptionSet {
  public:
@@ -86,7 +95,7 @@ class OptionSet {
   /// Finds and assigns every value, in the order of the list; those with names of labels wait for
   /// resolve_names().  flags holds the texts of those that were given, by name; a switch is "true"
   /// or "false".  ERRORS: mw::Error(kUsage) naming flag, variable, or file, line and key.
-  void resolve(const std::map<std::string, std::string>& flags);
+  void resolve(const std::map<std::string, std::string>& flags, const ConfigTexts& config = {});
   /// REQUIRES (all that follow): resolve().
   /// Assigns the values with names of labels (engine/settings/named_labels.h); only if there are
   /// any, it calls names().  ERRORS: those of resolve() and of names().
@@ -116,7 +125,7 @@ class OptionSet {
  private:
   [[nodiscard]] Entry& find(const std::string& name);
   [[nodiscard]] const Entry& find(const std::string& name) const;
-  void read_config(const std::filesystem::path& path);
+  void read_config(const ConfigTexts& config);
   void read_environment();
   void read_flags(const std::map<std::string, std::string>& flags);
   void read_implied();

@@ -63,30 +63,6 @@ std::string canonical_box(const std::string& text) {
   return io::box_text(parse_box(text));
 }
 
-std::optional<std::string> number_of_toml(const toml::node& node) {
-  if (const auto* integer = node.as_integer()) return std::to_string(integer->get());
-  if (const auto* number = node.as_floating_point()) return format_number(number->get());
-  return std::nullopt;
-}
-
-/// Returns the elements of an array of numbers, joined by commas.
-std::optional<std::string> list_of_toml(const toml::node& node) {
-  const toml::array* array = node.as_array();
-  if (array == nullptr) return std::nullopt;
-  std::string out;
-  for (const toml::node& element : *array) {
-    const std::optional<std::string> number = number_of_toml(element);
-    if (!number) return std::nullopt;
-    out += (out.empty() ? "" : ",") + *number;
-  }
-  return out;
-}
-
-std::optional<std::string> string_of_toml(const toml::node& node) {
-  const auto* text = node.as_string();
-  return text == nullptr ? std::nullopt : std::optional(text->get());
-}
-
 }  // namespace
 
 std::array<double, 3> parse_numbers(std::string_view text) {
@@ -160,66 +136,6 @@ std::string canonical_text(ValueKind kind, const std::string& text) {
       return parse_switch(text) ? "true" : "false";
   }
   return text;
-}
-
-std::optional<std::string> text_of_toml(ValueKind kind, const toml::node& node) {
-  switch (kind) {
-    case ValueKind::kText:
-    case ValueKind::kSize:
-      return string_of_toml(node);
-    case ValueKind::kNumberOrText:
-      return node.is_number() ? number_of_toml(node) : string_of_toml(node);
-    case ValueKind::kInteger:
-      return node.is_integer() ? number_of_toml(node) : std::nullopt;
-    case ValueKind::kNumber:
-      return number_of_toml(node);
-    case ValueKind::kNumberOrNone:
-    case ValueKind::kNumberOrAuto:
-      return string_of_toml(node) == word_of(kind) ? word_of(kind) : number_of_toml(node);
-    case ValueKind::kNumbers:
-      if (const auto one = number_of_toml(node)) return one;
-      return list_of_toml(node);
-    case ValueKind::kShape:
-    case ValueKind::kBox:
-      return list_of_toml(node);
-    case ValueKind::kLabels:
-      if (node.is_integer()) return number_of_toml(node);
-      return node.is_string() ? string_of_toml(node) : list_of_toml(node);
-    case ValueKind::kSwitch:
-      if (!node.is_boolean()) return std::nullopt;
-      return node.as_boolean()->get() ? "true" : "false";
-  }
-  return std::nullopt;
-}
-
-const char* toml_type(ValueKind kind) {
-  switch (kind) {
-    case ValueKind::kText:
-      return "a string";
-    case ValueKind::kInteger:
-      return "an integer";
-    case ValueKind::kNumber:
-      return "a number";
-    case ValueKind::kNumberOrNone:
-      return "a number or \"none\"";
-    case ValueKind::kNumberOrAuto:
-      return "a number or \"auto\"";
-    case ValueKind::kNumbers:
-      return "three numbers [X, Y, Z], or one";
-    case ValueKind::kShape:
-      return "three integers [X, Y, Z]";
-    case ValueKind::kBox:
-      return "six integers [X0, Y0, Z0, X1, Y1, Z1]";
-    case ValueKind::kLabels:
-      return "integers [1, 2] or a string \"1,2\"";
-    case ValueKind::kSize:
-      return "a string such as \"4G\"";
-    case ValueKind::kSwitch:
-      return "true or false";
-    case ValueKind::kNumberOrText:
-      return "a number or a string";
-  }
-  return "";
 }
 
 bool fits_in_toml(const std::string& text) {

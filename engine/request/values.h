@@ -3,8 +3,6 @@
 // Converts values of options from text and back, and between their forms: text, TOML, JSON.
 #pragma once
 
-#include <toml++/toml.h>
-
 #include <array>
 #include <cstdint>
 #include <filesystem>
@@ -68,12 +66,6 @@ template <class T, class Parse>
 /// Returns a text that is the same for equal values; labels and sizes stay as they are written.
 /// ERRORS: mw::Error(kUsage) when the text is not of the kind.
 [[nodiscard]] std::string canonical_text(ValueKind kind, const std::string& text);
-
-/// Returns a config file's value as text, or nothing when its type is not that of the kind.
-[[nodiscard]] std::optional<std::string> text_of_toml(ValueKind kind, const toml::node& node);
-
-/// Returns what a config file holds for the kind, in words for messages: "an integer".
-[[nodiscard]] const char* toml_type(ValueKind kind);
 
 /// Returns whether a config file can hold the text: its strings are UTF-8.
 [[nodiscard]] bool fits_in_toml(const std::string& text);

@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: The mwmesh authors
 // SPDX-License-Identifier: Apache-2.0
 // Values of options, and config files.
+#include "engine/cli/options/config_file.h"
 #include "engine/request/mesh_request.h"
 #include "engine/request/option_set.h"
 #include "engine/request/values.h"
@@ -16,7 +17,7 @@ class MeshOptions {
  public:
   MeshOptions() { request::add_mesh_options(options_, request_); }
   std::string effective(const std::filesystem::path& config) {
-    options_.resolve({{"config", config.string()}});
+    options_.resolve({}, cli::read_config(config, options_));
     return options_.toml();
   }
 

@@ -158,7 +158,8 @@ bool engine_may(const std::string& file, const Include& include) {
     return is_standard(name) || is_posix(name) ||
            is_below(name, {"tbb/", "oneapi/", "boost/interprocess/"});
   }
-  if (is_below(name, {"engine/cli/", "engine/api/", "engine/request/"}) || is_concrete_io(name)) return false;
+  if (is_below(name, {"engine/cli/", "engine/api/", "engine/request/"}) || is_concrete_io(name))
+    return false;
   if (is_below(name, {kTeam}) && !is_below(file, {kTeam})) return false;
   if (is_below(name, {"engine/codt/worker/"}) && !is_below(file, {"engine/codt/worker/"}))
     return false;
@@ -200,8 +201,7 @@ bool may(const std::string& file, const Include& include) {
   }
   // What both are asked: the program by flags and files of options, the library by texts.
   if (file.starts_with("engine/request/")) {
-    return is_below(include.name, {"toml++/"}) ||
-           (api_may(include) && !is_below(include.name, {"engine/api/"}));
+    return api_may(include) && !is_below(include.name, {"engine/api/"});
   }
   if (file.starts_with("engine/api/")) return api_may(include);
   if (file.starts_with("engine/cli/")) return cli_may(file, include);

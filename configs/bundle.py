@@ -1,17 +1,18 @@
 #!/usr/bin/env python3
 # SPDX-FileCopyrightText: The mwmesh authors
 # SPDX-License-Identifier: Apache-2.0
-"""Puts the shared libraries that a wheel needs into it, so that it runs where none of them is.
+"""Puts the shared libraries that programs need beside them, so that they run where none of them is.
 
-Usage: bundle_wheel.py WHEEL FOLDER
+Usage: bundle.py WHEEL FOLDER    writes the wheel with its libraries into FOLDER, and prints its path
+       bundle.py TREE            puts them into TREE/lib/bundled, for a tree that can be moved
 
-Writes the wheel with its libraries into FOLDER and prints its path.  Libraries that PEP 600 lets a
-wheel expect of every system stay outside.  The new wheel has the platform tag manylinux_2_N, where
-2.N is the latest version of glibc that any file in it asks for, as readelf reads it.
-Needs patchelf and binutils.
+Libraries that PEP 600 lets a wheel expect of every system stay outside.  The new wheel has the
+platform tag manylinux_2_N, where 2.N is the latest version of glibc that any file in it asks for,
+as readelf reads it.  Needs patchelf and binutils.
 """
 import base64
 import hashlib
+import os
 import pathlib
 import platform
 import re
@@ -33,6 +34,12 @@ def output_of(*command):
 def needed_by(file):
     """The names that the file asks the loader for."""
     return re.findall(r"\(NEEDED\).*\[(.+)\]", output_of("readelf", "-d", file))
+
+
+def soname_of(file):
+    """What others call a shared library; the name of the file where it does not say."""
+    found = re.findall(r"\(SONAME\).*\[(.+)\]", output_of("readelf", "-d", file))
+    return found[0] if found else file.name
 
 
 def found_by_loader(file):
@@ -59,33 +66,40 @@ def bundled_name(path):
     return f"{stem}-{digest}.so{rest}"
 
 
-def bundle(tree):
-    """Copies libraries into the tree and lets all look for each other there.  Returns all files."""
-    modules = list(tree.rglob("*.so"))
-    folder = tree / "mwmesh.libs"
-    folder.mkdir()
+def is_binary(path):
+    """Whether it is a program or a shared library."""
+    if not path.is_file() or path.is_symlink():
+        return False
+    with path.open("rb") as file:
+        return file.read(4) == b"\x7fELF"
+
+
+def bundle(tree, folder):
+    """Copies libraries into the folder and lets all look for each other there.  Returns all files."""
+    modules = sorted(filter(is_binary, tree.rglob("*")))
+    ours = {name for module in modules for name in (module.name, soname_of(module))}
+    folder.mkdir(parents=True)
     places = {}
     for module in modules:
         places.update({name: path for name, path in found_by_loader(module).items()
-                       if not OF_THE_SYSTEM.match(name)})
+                       if name not in ours and not OF_THE_SYSTEM.match(name)})
     names = {name: bundled_name(path.resolve()) for name, path in places.items()}
     for name, path in sorted(places.items()):
         shutil.copyfile(path, folder / names[name])
+    for module in modules:
+        module.chmod(0o755)
     files = modules + sorted(folder.iterdir())
     for file in files:
-        renamed = [(name, names[name]) for name in needed_by(file) if name in names]
         missing = [name for name in needed_by(file)
-                   if name not in names and not OF_THE_SYSTEM.match(name)]
+                   if name not in names and name not in ours and not OF_THE_SYSTEM.match(name)]
         if missing:
-            sys.exit(f"bundle_wheel: {file.name}: {', '.join(missing)} is not on this system")
-        for name, bundled in renamed:
-            patch(file, "--replace-needed", name, bundled)
+            sys.exit(f"bundle: {file.name}: {', '.join(missing)} is not on this system")
+        for name in needed_by(file):
+            if name in names:
+                patch(file, "--replace-needed", name, names[name])
         if file.parent == folder:
             patch(file, "--set-soname", file.name)
-            patch(file, "--set-rpath", "$ORIGIN")
-        else:
-            up = "../" * len(file.parent.relative_to(tree).parts)
-            patch(file, "--set-rpath", f"$ORIGIN/{up}mwmesh.libs")
+        patch(file, "--set-rpath", f"$ORIGIN/{os.path.relpath(folder, file.parent)}")
     return files
 
 
@@ -105,18 +119,13 @@ def write_wheel(tree, info, target):
             out.write(file, file.relative_to(tree))
 
 
-def main():
-    if len(sys.argv) != 3:
-        sys.exit(__doc__)
-    wheel, target = map(pathlib.Path, sys.argv[1:])
-    for tool in ("patchelf", "readelf"):
-        if shutil.which(tool) is None:
-            sys.exit(f"bundle_wheel: needs {tool}: apt-get install patchelf binutils")
+def bundle_wheel(wheel, target):
     with tempfile.TemporaryDirectory() as folder:
         tree = pathlib.Path(folder)
         with zipfile.ZipFile(wheel) as old:
             old.extractall(tree)
-        major, minor = max(glibc_asked_for(file) for file in bundle(tree))
+        files = bundle(tree, tree / "mwmesh.libs")
+        major, minor = max(glibc_asked_for(file) for file in files)
         tag = f"manylinux_{major}_{minor}_{platform.machine()}"
         (info,) = tree.glob("*.dist-info")
         facts = info / "WHEEL"
@@ -125,6 +134,19 @@ def main():
         target.mkdir(parents=True, exist_ok=True)
         write_wheel(tree, info, target / name)
         print(target / name)
+
+
+def main():
+    paths = [pathlib.Path(argument) for argument in sys.argv[1:]]
+    if len(paths) not in (1, 2):
+        sys.exit(__doc__)
+    for tool in ("patchelf", "readelf"):
+        if shutil.which(tool) is None:
+            sys.exit(f"bundle: needs {tool}: apt-get install patchelf binutils")
+    if len(paths) == 2:
+        bundle_wheel(*paths)
+    else:
+        bundle(paths[0], paths[0] / "lib" / "bundled")
 
 
 main()
