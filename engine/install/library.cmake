@@ -36,7 +36,8 @@ foreach(library mwmesh_shared mwmesh_static)
   set_target_properties(${library} PROPERTIES OUTPUT_NAME mwmesh
     LIBRARY_OUTPUT_DIRECTORY ${CMAKE_BINARY_DIR}/lib
     ARCHIVE_OUTPUT_DIRECTORY ${CMAKE_BINARY_DIR}/lib)
-  target_compile_features(${library} INTERFACE cxx_std_20)
+  # mwmesh.h is C++20; mwmesh_c.h is all that there is for C.
+  target_compile_features(${library} INTERFACE c_std_11 cxx_std_20)
   target_include_directories(${library} INTERFACE $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}>)
 endforeach()
 
@@ -45,7 +46,7 @@ install(TARGETS mwmesh_shared EXPORT mwmeshTargets
   LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR} COMPONENT library NAMELINK_COMPONENT development)
 install(TARGETS mwmesh_static EXPORT mwmeshStaticTargets
   ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR} COMPONENT development)
-install(FILES engine/mwmesh.h DESTINATION ${CMAKE_INSTALL_INCLUDEDIR} COMPONENT development)
+install(FILES engine/mwmesh_c.h engine/mwmesh.h DESTINATION ${CMAKE_INSTALL_INCLUDEDIR} COMPONENT development)
 foreach(set mwmeshTargets mwmeshStaticTargets)
   install(EXPORT ${set} NAMESPACE mwmesh:: DESTINATION ${mw_cmake_folder} COMPONENT development)
 endforeach()

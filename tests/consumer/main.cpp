@@ -38,9 +38,8 @@ int main(int argc, char** argv) {
   try {
     const auto volume = mwmesh::Volume::of(mwmesh::ArrayVolume{
         .data = labels.data(), .type = mwmesh::VoxelType::kU8, .shape = kShape});
-    const auto settings = mwmesh::Settings().set("optimizer", argv[2]);
-    std::cout << mwmesh::digest(mwmesh::mesh(volume, settings)) << '\n';
-  } catch (const mwmesh::Error& error) {  // of the library, across its border
+    std::cout << mwmesh::mesh(volume, {{"optimizer", argv[2]}}).digest() << '\n';
+  } catch (const mwmesh::Error& error) {
     std::cerr << error.what() << '\n';
     return static_cast<int>(error.kind());
   }

@@ -1,9 +1,10 @@
 // SPDX-FileCopyrightText: The mwmesh authors
 // SPDX-License-Identifier: Apache-2.0
-// Settings, numbers, places and paths: what the library takes, and how it words what it refuses.
+// Options, numbers, places and paths: what the library takes, and how it words what it refuses.
 #include <gmock/gmock.h>
 
-#include "engine/api/guarded.h"
+#include <nlohmann/json.hpp>
+
 #include "tests/engine/api/library.h"
 #include "tests/engine/cli/run_program.h"
 
@@ -16,85 +17,87 @@ using testing::StartsWith;
 
 using LibraryPathsTest = mw::cli::ProgramTest;
 
-TEST(LibrarySettings, AreThoseOfTheProgram) {
-  Settings settings;
-  for (const SettingInfo& info : Settings::all()) {
-    EXPECT_EQ(settings.get(info.name), info.fallback) << info.name;
-    EXPECT_EQ(info.name.find('-'), std::string::npos);
-    EXPECT_EQ(info.help.find("--"), std::string::npos) << info.help;
+TEST(LibraryOptions, AreThoseOfTheProgram) {
+  Options options;
+  std::set<std::string> names;
+  for (const auto& row : nlohmann::json::parse(Options::table())) {
+    const std::string name = row["name"], help = row["help"];
+    names.insert(name);
+    EXPECT_EQ(options.get(name), row["default"].is_null() ? "" : std::string(row["default"]))
+        << name;
+    EXPECT_EQ(name.find('-'), std::string::npos);
+    EXPECT_EQ(help.find("--"), std::string::npos) << help;
   }
-  EXPECT_EQ(settings.set("max_distance", "none").get("max_distance"), "none");
-  EXPECT_THAT(failure(ErrorKind::kUsage, [&] { settings.set("max_distanse", "1"); }),
-              HasSubstr("did you mean max_distance?"));
-  EXPECT_THAT(failure(ErrorKind::kUsage, [&] { settings.set("prest", "fine"); }),
-              HasSubstr("did you mean preset?"));
-  EXPECT_THAT(failure(ErrorKind::kUsage, [&] { settings.set("zzzz", "1"); }),
-              HasSubstr("there are preset, window"));
+  for (const char* name : {"max_distance", "crop", "merge", "threads", "sample", "write_values"}) {
+    EXPECT_EQ(names.count(name), 1U) << name;
+  }
+  for (const char* name : {"output", "report", "config"}) EXPECT_EQ(names.count(name), 0U) << name;
+  EXPECT_EQ(options.set("max-distance", "none").get("max_distance"), "none");
+  EXPECT_EQ(mw_options_set(options.handle(), "max_distance", nullptr, nullptr), MW_OK);
+  EXPECT_EQ(options.get("max_distance"), "1.5");
   const auto refusal = [&](const char* name, const char* text) {
-    return failure(ErrorKind::kUsage, [&] { settings.set(name, text); });
+    return failure(ErrorKind::kUsage, [&] { options.set(name, text); });
   };
+  EXPECT_THAT(refusal("max_distanse", "1"), HasSubstr("did you mean max_distance?"));
+  EXPECT_THAT(refusal("prest", "fine"), HasSubstr("did you mean preset?"));
+  EXPECT_THAT(refusal("zzzz", "1"), HasSubstr("there are "));
   EXPECT_EQ(refusal("window", "5"), "window: must be an even number from 4 to 256");
   EXPECT_EQ(refusal("quality_floor", "1"), "quality_floor: must be from 0 to 0.5");
   EXPECT_EQ(refusal("surface", "smoth"), "surface: expected one of smooth, voxel, got 'smoth'");
   EXPECT_THAT(refusal("preset", "quick"), HasSubstr("preset: "));
-  EXPECT_EQ(settings.changed().size(), 1U);
+  const Options moved = std::move(options);
+  EXPECT_EQ(refusal("window", "6"), "this object was moved from");
 }
 
 TEST(LibraryNumbers, AreRefusedAsByTheProgram) {
   const auto labels = grains();
   const Volume volume = volume_of(labels);
-  for (const int threads : {-1, 1025, 30'000, 1'000'000'000}) {
-    for (const bool verified : {false, true}) {
-      const std::string message = failure(ErrorKind::kUsage, [&] {
-        if (verified) (void)verify({}, volume, {.threads = threads});
-        (void)mesh(volume, {}, {.threads = threads});
-      });
-      EXPECT_EQ(message, "threads must be from 1 to 1024, or 0 for all cores");
-    }
+  for (const char* threads : {"-1", "1025", "30000", "1000000000", "two"}) {
+    EXPECT_THAT(failure(ErrorKind::kUsage,
+                        [&] {
+                          (void)Options({{"threads", threads}});
+                        }),
+                StartsWith("threads"));
   }
   ArrayVolume array{.data = labels.data(), .type = VoxelType::kU64, .shape = kShape};
   for (const double bad : {-1.0, 0.0, std::nan(""), HUGE_VAL}) {
     array.space = {.spacing = {1, bad, 1}};
     EXPECT_THAT(failure(ErrorKind::kUsage, [&] { (void)Volume::of(array); }), HasSubstr("spacing"));
-    EXPECT_THAT(failure(ErrorKind::kUsage,
-                        [&] { (void)Volume::open({.path = "v", .spacing = array.space.spacing}); }),
-                HasSubstr("spacing"));
   }
   array.space = {.origin = {0, 0, std::nan("")}};
   EXPECT_THAT(failure(ErrorKind::kUsage, [&] { (void)Volume::of(array); }), HasSubstr("origin"));
   array.space = {.axes = {{{2, 0, 0}, {0, 1, 0}, {0, 0, 1}}}};
   EXPECT_THAT(failure(ErrorKind::kUsage, [&] { (void)Volume::of(array); }), HasSubstr("axes"));
-  EXPECT_THAT(failure(ErrorKind::kUsage, [] { (void)Volume::open({.path = "v", .scale = -1}); }),
-              HasSubstr("scale"));
+  for (const char* option : {"scale=-1", "spacing=1,-1,1", "spacing=1,0,1", "spacing=1,nan,1"}) {
+    const std::string name(option, std::strchr(option, '='));
+    EXPECT_THAT(failure(ErrorKind::kUsage,
+                        [&] {
+                          (void)Options({{name, option + name.size() + 1}});
+                        }),
+                StartsWith(name));
+  }
   RegionVolume region{.shape = kShape, .chunk = {8, -8, 8}};
   region.read = [](const Box&, std::span<std::uint64_t>) {};
   EXPECT_THAT(failure(ErrorKind::kUsage, [&] { (void)Volume::of(region); }), HasSubstr("chunk"));
   std::vector<std::uint64_t> out(8);
   failure(ErrorKind::kUsage, [&] { volume.read({{21, 0, 0}, {23, 2, 2}}, out); });
   failure(ErrorKind::kUsage, [&] { volume.read({{0, 0, 0}, {3, 2, 2}}, out); });
-  failure(ErrorKind::kUsage, [] { (void)picture({}, 15, 900); });
+  failure(ErrorKind::kUsage, [] { (void)Mesh({}, {}, {}).picture(15, 900); });
 }
 
 #pragma GCC diagnostic push
 #pragma GCC diagnostic error "-Wmissing-field-initializers"
 
 TEST(Library, MembersThatAreNotNamedDoNotWarn) {
-  EXPECT_EQ(Options{.threads = 2}.merge.size(), 0U);
   EXPECT_FALSE(Hooks{.cancel = [] { return false; }}.progress);
   EXPECT_FALSE(Hooks{.progress = [](const Progress&) {}}.cancel);
   EXPECT_EQ(Progress{.done = 1}.seconds_left, std::nullopt);
   EXPECT_EQ(LabelName{.label = 1}.name, "");
   EXPECT_EQ((Box{.lo = {1, 1, 1}}.hi), Index{});
   EXPECT_EQ((Space{.spacing = {1, 1, 2}}.frame), "own");
-  EXPECT_EQ(VolumeFile{.dataset = "a"}.path, "");
   EXPECT_EQ((ArrayVolume{.shape = {1, 1, 1}}.data), nullptr);
   EXPECT_FALSE((RegionVolume{.shape = {1, 1, 1}}.read));
-  EXPECT_EQ(FileOptions{.deck = true}.element, "tet4");
-  EXPECT_TRUE(Mesh{.points = {}}.tets.empty());
-  EXPECT_TRUE(Wedges{.rows = {}}.labels.empty());
-  EXPECT_FALSE(Check{.name = "a"}.passed);
   EXPECT_FALSE(Verdict{.report = "a"}.passed);
-  EXPECT_EQ(SettingInfo{.name = "a"}.help, "");
 }
 
 #pragma GCC diagnostic pop
@@ -102,12 +105,13 @@ TEST(Library, MembersThatAreNotNamedDoNotWarn) {
 TEST(LibraryNumbers, PathsHaveNoZeroByte) {
   const std::string path("a\0b", 3);
   const auto labels = grains();
-  failure(ErrorKind::kUsage, [&] { (void)Volume::open({.path = path}); });
-  failure(ErrorKind::kUsage, [&] { (void)read_names(path); });
+  const Volume volume = volume_of(labels);
+  const Mesh none({}, {}, {});
+  failure(ErrorKind::kUsage, [&] { (void)Volume::open(path); });
   failure(ErrorKind::kUsage, [&] { (void)read_mesh(path); });
-  failure(ErrorKind::kUsage, [&] { write_mesh({}, path); });
-  failure(ErrorKind::kUsage, [&] { mesh_to_file(path, volume_of(labels)); });
-  failure(ErrorKind::kUsage, [&] { (void)mesh(volume_of(labels), {}, {.workdir = path}); });
+  failure(ErrorKind::kUsage, [&] { none.save(path); });
+  failure(ErrorKind::kUsage, [&] { mesh_to_file(path, volume); });
+  failure(ErrorKind::kUsage, [&] { (void)Options({{"workdir", path}}); });
 }
 
 TEST(LibrarySpace, OfAnAffine) {
@@ -168,32 +172,27 @@ TEST(LibrarySpace, OfAnArrayIsTheOneGiven) {
 }
 
 TEST(LibraryErrors, AreWordedForCallers) {
-  EXPECT_EQ(mw::api::library_words("--max-distance: must be 0 -- or none (--surface voxel)"),
-            "max_distance: must be 0 -- or none (surface voxel)");
-  EXPECT_EQ(mw::api::library_words("a--b --"), "a--b --");
   EXPECT_EQ(failure(ErrorKind::kInput, [] { (void)read_mesh("/nowhere/m.vtu"); }).find("mwmesh:"),
             std::string::npos);
   failure(ErrorKind::kUsage, [] { (void)Volume::of(ArrayVolume{.shape = {2, 2, 2}}); });
   failure(ErrorKind::kUsage, [] { (void)synth("cubes", {2, 2, 2}, 2, 1); });
   failure(ErrorKind::kResource, [] { (void)synth("noise", {1 << 20, 1 << 20, 1 << 20}, 2, 1); });
-  EXPECT_EQ(mw::api::library_words("go on by --from, or (--from)"),
-            "go on by from_kept, or (from_kept)");
-  for (const char* command : {"with gdcmconv --raw", "'mwmesh convert --pieces N'",
-                              "raw files with --shape and --dtype", "text (--ascii)"}) {
-    EXPECT_EQ(mw::api::library_words(command), command);
-  }
   const auto labels = grains();
-  EXPECT_THAT(
-      failure(ErrorKind::kUsage, [&] { (void)mesh(volume_of(labels), {}, {.keep_bytes = 9}); }),
-      HasSubstr("keep_bytes: is the size of a folder"));
-  EXPECT_THAT(
-      failure(ErrorKind::kUsage, [&] { (void)mesh(volume_of(labels), {}, {.from_kept = true}); }),
-      HasSubstr("from_kept: needs the folder"));
+  EXPECT_THAT(failure(ErrorKind::kUsage,
+                      [&] {
+                        (void)mesh(volume_of(labels), {{"keep_bytes", "9"}});
+                      }),
+              HasSubstr("keep_bytes: is the size of a folder"));
+  EXPECT_THAT(failure(ErrorKind::kUsage,
+                      [&] {
+                        (void)mesh(volume_of(labels), {{"changed", "0,0,0,1,1,1"}});
+                      }),
+              StartsWith("changed: "));
 }
 
 TEST(LibraryErrors, AdviseWhatCanBeDoneToAnArray) {
   const auto labels = grains();
-  const Settings periodic = Settings().set("periodic", "z");
+  const Options periodic{{"periodic", "z"}};
   EXPECT_THAT(failure(ErrorKind::kUsage,
                       [&] {
                         (void)mesh(volume_of(labels, {22, 18, 19}), periodic);
@@ -206,27 +205,20 @@ TEST(LibraryErrors, AdviseWhatCanBeDoneToAnArray) {
 }
 
 TEST(LibraryErrors, NameTheOption) {
-  const auto labels = grains();
-  const Volume volume = volume_of(labels);
-  const std::pair<const char*, Options> runs[] = {
-      {"certify: is none", {.certify = static_cast<Certify>(9)}},
-      {"parts: expected", {.parts = "0"}},
-      {"split: expected", {.split = "1|x"}},
-      {"cohesive: expected", {.cohesive = "1"}},
-      {"sample: expected", {.sample = "a"}},
-      {"object: the volume has no", {.object = {99}}}};
-  for (const auto& [start, options] : runs) {
-    EXPECT_THAT(failure(ErrorKind::kUsage, [&] { (void)mesh(volume, {}, options); }),
-                StartsWith(start));
+  const std::pair<const char*, const char*> bad[] = {
+      {"certify", "maybe"}, {"parts", "0"},        {"split", "1|x"},     {"cohesive", "1"},
+      {"sample", "a"},      {"materials", "hu=0"}, {"materials", "hu="}, {"materials", "hu=5:1:0"},
+      {"cache", "/dir,x"},  {"merge", "1"},        {"deck", "dynamic"},  {"element", "tet5"}};
+  for (const auto& [name, text] : bad) {
+    try {
+      (void)Options({{name, text}});
+      ADD_FAILURE() << name << "=" << text;
+    } catch (const Error& error) {
+      EXPECT_EQ(error.kind(), ErrorKind::kUsage);
+      EXPECT_EQ(error.option(), name);
+      EXPECT_THAT(error.what(), StartsWith(name + std::string(":")));
+    }
   }
-  for (const char* materials : {"hu=0", "hu=", "hu=5:1:0"}) {
-    EXPECT_THAT(
-        failure(ErrorKind::kUsage, [&] { write_mesh({}, "m.inp", {.materials = materials}); }),
-        StartsWith("materials: "));
-  }
-  EXPECT_THAT(
-      failure(ErrorKind::kUsage, [] { (void)Volume::open({.path = "v", .cache = "/dir,x"}); }),
-      StartsWith("cache: expected a size"));
 }
 
 TEST_F(LibraryPathsTest, FailsAsAnErrorWherePathsCannotBeLookedAt) {
@@ -234,19 +226,17 @@ TEST_F(LibraryPathsTest, FailsAsAnErrorWherePathsCannotBeLookedAt) {
   std::filesystem::create_symlink(loop, loop);
   const auto labels = grains();
   const Volume volume = volume_of(labels);
-  const Settings colour = Settings().set("order", "colour");
   for (const std::string& path : {(folder() / (std::string(300, 'a') + ".npy")).string(), loop}) {
     const auto expect_named = [&](ErrorKind kind, const std::function<void()>& work) {
       EXPECT_THAT(failure(kind, work), HasSubstr(path));
     };
-    expect_named(ErrorKind::kInput, [&] { (void)Volume::open({.path = path}); });
-    expect_named(ErrorKind::kInput, [&] { (void)mesh(volume, {}, {.sample = "a=" + path}); });
-    expect_named(ErrorKind::kUsage, [&] { (void)mesh(volume, colour, {.keep = path}); });
-    expect_named(ErrorKind::kUsage,
-                 [&] { (void)mesh(volume, colour, {.keep = path, .from_kept = true}); });
+    expect_named(ErrorKind::kInput, [&] { (void)Volume::open(path); });
+    expect_named(ErrorKind::kInput, [&] { (void)mesh(volume, {{"sample", "a=" + path}}); });
+    expect_named(ErrorKind::kUsage, [&] { (void)mesh(volume, {{"keep", path}}); });
+    expect_named(ErrorKind::kUsage, [&] { (void)mesh(volume, {{"from", path}}); });
     expect_failure(3, "info '" + path + "'", path);
     try {
-      (void)mesh(volume, {}, {.workdir = path});
+      (void)mesh(volume, {{"workdir", path}});
       ADD_FAILURE() << path;
     } catch (const Error& error) {
       EXPECT_THAT(error.what(), HasSubstr(path));
@@ -263,9 +253,11 @@ TEST(LibraryErrors, ImagesWithoutAPlaceHaveTheVoxelsOfTheVolume) {
       << std::string("\x93NUMPY\x01\x00\x76\x00", 10) << head << "\n\x07";
   const auto labels = grains();
   const std::string sample = "a=" + (folder.path() / "one.npy").string();
-  EXPECT_THAT(
-      failure(ErrorKind::kInput, [&] { (void)mesh(volume_of(labels), {}, {.sample = sample}); }),
-      HasSubstr("has 1 x 1 x 1 voxels"));
+  EXPECT_THAT(failure(ErrorKind::kInput,
+                      [&] {
+                        (void)mesh(volume_of(labels), {{"sample", sample}});
+                      }),
+              HasSubstr("has 1 x 1 x 1 voxels"));
 }
 
 }  // namespace
