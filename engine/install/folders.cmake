@@ -10,8 +10,8 @@ import site, sys, sysconfig
 prefix = sys.argv[1].rstrip("/")
 known = [p[len(prefix) + 1:] for p in site.getsitepackages() if p.startswith(prefix + "/")]
 known = [p for p in known if p.startswith("lib")]
-bases = {"base": "", "platbase": ""}
-print(known[0] if known else sysconfig.get_path("platlib", "posix_prefix", bases).lstrip("/"))
+bases = {"base": ""}
+print(known[0] if known else sysconfig.get_path("purelib", "posix_prefix", bases).lstrip("/"))
 ]])
 set(MW_PYTHON_DIR "" CACHE STRING
   "Folder below the prefix that gets the Python package (empty: where python3 looks)")
@@ -21,7 +21,7 @@ if(MW_BUILD_PYTHON)
   if(NOT Python3_EXECUTABLE AND EXISTS /usr/bin/python3)
     set(Python3_EXECUTABLE /usr/bin/python3)
   endif()
-  find_package(Python3 3.9 REQUIRED COMPONENTS Interpreter Development.Module)
+  find_package(Python3 3.9 REQUIRED COMPONENTS Interpreter)
 endif()
 if(MW_BUILD_PYTHON AND NOT mw_python_folder)
   execute_process(COMMAND ${Python3_EXECUTABLE} -c "${mw_python_place}" "${CMAKE_INSTALL_PREFIX}"

@@ -90,9 +90,9 @@ if(TARGET mwmesh_python)
   mw_package(python python3-mwmesh "labelled voxels to tetrahedral meshes - Python package"
     "This package has the Python module: numpy arrays in, numpy arrays out.")
   set(CPACK_DEBIAN_PYTHON_PACKAGE_SECTION python)
-  math(EXPR mw_next_python "${Python3_VERSION_MINOR} + 1")
-  string(JOIN ", " CPACK_DEBIAN_PYTHON_PACKAGE_DEPENDS python3-numpy
-    "python3 (>= 3.${Python3_VERSION_MINOR})" "python3 (<< 3.${mw_next_python})")
+  set(CPACK_DEBIAN_PYTHON_PACKAGE_ARCHITECTURE all)
+  set(CPACK_DEBIAN_PYTHON_PACKAGE_DEPENDS
+    "python3 (>= 3.9), python3-numpy, ${library_name} (= ${PROJECT_VERSION})")
   set(CPACK_DEBIAN_PYTHON_PACKAGE_SUGGESTS
     "mwmesh-codt, python3-nibabel, python3-tqdm, python3-meshio")
 endif()

@@ -145,7 +145,6 @@ TEST(Layers, RuleForbids) {
       {"engine/api/a.cpp", {"io/mesh/vtu/vtu.h", true}},
       {"engine/mwmesh.h", {"engine/run/run.h", true}},
       {"engine/mwmesh_c.h", {"cstdint", false}},
-      {"engine/python/core.cpp", {"engine/run/run.h", true}},
       {"engine/mwmesh.h", {"Eigen/Dense", false}},
       {"engine/cli/a.cpp", {"tests/engine/a.h", true}},
       {"engine/cli/a.h", {"tetgen.h", false}},

@@ -62,7 +62,9 @@ class _Volume:
 
 _Source: TypeAlias = _Path | _RegionArray | _Image | _Volume | npt.NDArray[Any]
 
-class Error(Exception): ...
+class Error(Exception):
+    option: str
+
 class InternalError(Error): ...
 class UsageError(Error, ValueError): ...
 class InputError(Error, ValueError): ...
@@ -87,7 +89,7 @@ class Verdict:
     passed: bool
     checks: list[tuple[str, bool, str]]
     report: dict[str, Any]
-    def __init__(self, verdict: Any) -> None: ...
+    def __init__(self, text: str) -> None: ...
     def __bool__(self) -> bool: ...
 
 class Mesh:
@@ -134,6 +136,7 @@ class Mesh:
         materials: str | None = None,
         deck: bool = False,
         pairs: _Path | None = None,
+        ascii: bool = False,
     ) -> None: ...
     def verify(
         self,
@@ -163,6 +166,8 @@ def as_volume(
     unit: str | None = None,
     axes: _Axes | None = None,
     names: _Names | None = None,
+    shape: Sequence[int] | None = None,
+    dtype: str | None = None,
     dataset: str | None = None,
     scale: int | None = None,
     crop: _Box | None = None,
@@ -184,6 +189,8 @@ def mesh(
     unit: str | None = ...,
     axes: _Axes | None = ...,
     names: _Names | None = ...,
+    shape: Sequence[int] | None = ...,
+    dtype: str | None = ...,
     dataset: str | None = ...,
     scale: int | None = ...,
     crop: _Box | None = ...,
@@ -201,6 +208,7 @@ def mesh(
     drop_specks: _Specks | None = ...,
     weld: _Label | Iterable[_Label] | None = ...,
     workdir: _Path | None = ...,
+    save_every: float = ...,
     resume: bool = ...,
     keep: _Path | None = ...,
     keep_bytes: int | str | None = ...,
@@ -239,6 +247,7 @@ def mesh_to_file(
     materials: str | None = None,
     deck: bool = False,
     pairs: _Path | None = None,
+    ascii: bool = False,
     progress: _Progress | None = None,
     **arguments: Any,
 ) -> dict[str, Any] | None: ...

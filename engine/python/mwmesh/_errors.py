@@ -6,6 +6,8 @@
 class Error(Exception):
     """Any error of mwmesh.  The message names the thing, the reason and the way out."""
 
+    option = ""  #: the argument that it is about, where the library tells
+
 
 class InternalError(Error):
     """An invariant broke: please report it, with the volume and the settings."""
@@ -45,5 +47,13 @@ _KINDS = {
 }
 
 
-def _error_of(kind, message):
-    return _KINDS[kind](message)
+#: Options that go by another name here.
+NAMES = {"from": "from_kept", "measure": "report"}
+
+
+def error_of(kind, message, option):
+    """Returns an error of the library, whose message names the argument that it is about."""
+    option = NAMES.get(option, option)
+    error = _KINDS.get(kind, Error)(message if option in message else f"{option}: {message}")
+    error.option = option
+    return error

@@ -13,11 +13,13 @@ from typing import NamedTuple
 
 import numpy as np
 
-from . import _core
+from . import _handles
 from ._errors import MissingPackageError, UsageError
+from ._options import arguments_of, options_of
 from ._values import label as label_bits
-from ._values import (file_options, name_rows, numbers, one_or_more, path_bytes, unexpected,
+from ._values import (check_names, named, numbers, one_or_more, path_bytes, switch, unexpected,
                       whole, whole_numbers)
+from ._volume import PLACE, as_volume
 
 #: The corners of a tet's faces, seen counterclockwise from outside.
 _FACES = np.array([[1, 2, 3], [0, 3, 2], [0, 1, 3], [0, 2, 1]])
@@ -58,9 +60,8 @@ def _areas(points, triangles):
 def _restored(points, tets, labels, names, record, in_parts, values):
     """Returns a mesh from the parts of its pickle."""
     mesh = Mesh(points, tets, labels)
-    mesh._core.names = [_core.LabelName(*row) for row in names]
-    mesh._core.record = record
-    mesh._core.in_parts = in_parts
+    mesh._core.with_names([_handles.LabelName(*row) for row in names])
+    mesh._core.set_record(record, in_parts)
     for name, column in values.items():
         mesh._core.set_values(name, column)
     return mesh
@@ -141,12 +142,13 @@ def _window(grid):
 class Verdict:
     """The result of a verification.  It is true when all checks hold."""
 
-    def __init__(self, verdict):
-        self.passed = verdict.passed
-        #: (name, passed, detail) of each check.
-        self.checks = verdict.checks
+    def __init__(self, text):
         #: The keys of ``mwmesh verify --report`` without version, settings and performance.
-        self.report = json.loads(verdict.report)
+        self.report = json.loads(text)
+        self.passed = self.report["passed"]
+        #: (name, passed, detail) of each check.
+        self.checks = [(check["name"], check["passed"], check["detail"])
+                       for check in self.report["checks"]]
 
     def __bool__(self):
         return self.passed
@@ -176,8 +178,9 @@ class Mesh:
         tets, labels = whole_numbers(tets, "tets"), whole_numbers(labels, "labels")
         if tets.size and (tets.min() < 0 or tets.max() >= len(points)):
             raise UsageError(f"tets: rows of points are 0 to {len(points) - 1}")
-        self._core = _core.Mesh(points, tets, labels.view(np.uint64), labels.dtype.kind == "i")
-        self._core.names = name_rows(self._core, names)
+        self._core = _handles.Mesh.of_arrays(points, tets, labels.view(np.uint64),
+                                          labels.dtype.kind == "i")
+        named(self._core, names)
         self._begin()
 
     @classmethod
@@ -195,7 +198,7 @@ class Mesh:
         self._known = {}
 
     def __reduce__(self):
-        rows = [(row.label, row.name, row.colour) for row in self._core.names]
+        rows = [tuple(row) for row in self._core.names]
         arrays = self.points, self.tets, self.labels
         run = self._core.record, self._core.in_parts
         return _restored, (*arrays, rows, *run, self.values), {"report": self.report}
@@ -235,10 +238,8 @@ class Mesh:
 
     def _cohesive(self):
         if "wedges" not in self._known:
-            rows, labels = _core.wedges(self._core)
-            labels = labels.view(self.labels.dtype)
-            rows.flags.writeable = labels.flags.writeable = False
-            self._known["wedges"] = rows, labels
+            rows, labels = self._core.column("wedges"), self._core.column("wedge_labels")
+            self._known["wedges"] = rows.view(np.int64), labels
         return self._known["wedges"]
 
     def __repr__(self):
@@ -427,7 +428,7 @@ class Mesh:
                 for p, s in zip(known, sums)}
 
     def save(self, path, element="tet4", values=True, materials=None, deck=False,
-             pairs=None):
+             pairs=None, **options):
         """Writes a file of any format of ``mwmesh convert``, which appears under its name only once
         it is whole.  element: "tet4", "tet10" or "tet10-curved", which gives a mesh that was
         read from curved tets its nodes again.  values: False leaves out the values of tets, for which some
@@ -435,26 +436,27 @@ class Mesh:
         ranges of a value, which a format with a place for values then has to have, too.  deck: with
         a job for CalculiX (.inp) or FEBio (.feb).  pairs: a file (.csv, or .inp with equations) for
         the nodes on the faces of a mesh that was made with ``periodic``, and those that they are
-        images of."""
-        _core.write_mesh(self._core, path_bytes(path, "path"),
-                         file_options(element, values, materials, deck, pairs))
+        images of.  ascii: a .msh as text."""
+        check_names(options, arguments_of("write"))
+        options.update(element=element, write_values=switch(values, "values"), materials=materials,
+                       deck=deck, pairs=pairs)
+        self._core.write(path_bytes(path, "path"), options_of(None, options))
 
-    def verify(self, volume, *, threads=0, memory=None, labels=None, background=None, merge=None,
-               drop_specks=None, weld=None, **place):
-        """Checks the mesh against its volume.  The arguments are those of :func:`mwmesh.mesh`.
+    def verify(self, volume, **arguments):
+        """Checks the mesh against its volume.  The arguments are those of :func:`mwmesh.mesh` that
+        say where the volume is and what its labels become, threads and memory.
 
         >>> import mwmesh
         >>> grains = mwmesh.synth("voronoi", (12, 10, 8), labels=3, seed=1)
         >>> bool(mwmesh.mesh(grains).verify(grains))
         True
         """
-        from . import _options, as_volume
-        given = place.pop("names", self)
+        check_names(arguments, arguments_of("verify"), (*PLACE, "names"))
+        place = {name: arguments.pop(name) for name in PLACE if name in arguments}
+        given = arguments.pop("names", self)
         volume = as_volume(volume, **place)
         volume = as_volume(volume, names=self._names_in(volume) if given is self else given)
-        options = _options(volume, threads=threads, memory=memory, labels=labels,
-                           background=background, merge=merge, drop_specks=drop_specks, weld=weld)
-        return Verdict(_core.verify(self._core, volume, options))
+        return Verdict(_handles.verify(self._core, volume, options_of(volume, arguments)))
 
     def _names_in(self, volume):
         """Returns the names of labels that a volume can have, as its labels are signed or not."""
@@ -489,7 +491,7 @@ class Mesh:
             if not is_off_screen:
                 warnings.warn("plot: no window can be opened here; this returns a picture (PNG)",
                               RuntimeWarning, stacklevel=2)
-            return Picture(_core.picture(shown._core, 1000, 800))
+            return Picture(shown._core.picture(1000, 800))
         if pyvista is None:
             return _window(grid).Start()
         return pyvista.wrap(grid).plot(**{"scalars": "label", **arguments})
@@ -497,7 +499,7 @@ class Mesh:
     def _repr_png_(self):
         """Returns the picture that a notebook shows, unless it would take long."""
         most = 2_000_000
-        return _core.picture(self._core, 800, 600) if 0 < len(self.tets) <= most else None
+        return self._core.picture(800, 600) if 0 < len(self.tets) <= most else None
 
     def _wedge_cells(self):
         """Returns the rows of wedges, the tet under each, and its interface's number from 1 on."""

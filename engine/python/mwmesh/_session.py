@@ -11,7 +11,7 @@ import weakref
 
 import numpy as np
 
-from . import _core
+from . import _handles
 from ._errors import UsageError
 from ._values import numbers, unexpected, unmasked, whole
 from ._volume import PLACE, array_of, as_volume, native
@@ -158,7 +158,7 @@ class Session:
     def _volume(self):
         """The labels as they are now, where the session's volume lies."""
         array = self._array.T if self._is_zyx else self._array
-        return _core.volume_of_array(array, self._space, self._names)
+        return _handles.volume_of_array(array, self._space, self._names)
 
     def _labels_kept(self):
         """What tells the file of labels in the folder from those of other runs."""

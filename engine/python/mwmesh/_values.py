@@ -1,7 +1,7 @@
 # SPDX-FileCopyrightText: The mwmesh authors
 # SPDX-License-Identifier: Apache-2.0
-"""Converts arguments to the types that the core takes.  A value of another type is an error that
-names the argument; the core checks which numbers are allowed, the same for all its callers."""
+"""Converts arguments to the types that the library takes.  A value of another type is an error that
+names the argument; the library checks which numbers are allowed, the same for all its callers."""
 
 import contextlib
 import difflib
@@ -11,13 +11,20 @@ from collections.abc import Iterable
 
 import numpy as np
 
-from . import _core
+from ._handles import LabelName
 from ._errors import Error, UsageError
+from ._library import checked, encoded
+
+
+def about(name, error):
+    """Returns the error, which tells the argument that it is about."""
+    error.option = name
+    return error
 
 
 def unexpected(name, expected, value):
     """Returns the error for a value that is not what was expected."""
-    return UsageError(f"{name}: expected {expected}, got {value!r}")
+    return about(name, UsageError(f"{name}: expected {expected}, got {value!r}"))
 
 
 def check_names(arguments, known, others=()):
@@ -32,16 +39,16 @@ def check_names(arguments, known, others=()):
 
 @contextlib.contextmanager
 def naming(name):
-    """Puts the name of the argument in front of the core's errors."""
+    """Puts the name of the argument in front of the library's errors."""
     try:
         yield
     except Error as error:
-        raise type(error)(f"{name}: {error}") from None
+        raise about(name, type(error)(f"{name}: {error}")) from None
 
 
 def whole(value, name, bits=64):
     """Returns a whole number from an int, a number of numpy, or a float without a fraction.  What
-    a signed number of these bits cannot hold becomes the nearest, which the core refuses."""
+    a signed number of these bits cannot hold becomes the nearest, which the library refuses."""
     try:
         if isinstance(value, (bool, np.bool_)):
             raise TypeError
@@ -78,7 +85,7 @@ def text(value, name):
 def path_bytes(value, name):
     """Returns the bytes of a path."""
     try:
-        return os.fsencode(value)
+        return checked(os.fsencode(value), name)
     except TypeError:
         raise unexpected(name, "a path", value) from None
 
@@ -96,9 +103,7 @@ def numbers(value, name, expected, *shapes):
 
 
 def three(value, name):
-    """Returns (x, y, z) from three numbers or from one for all of them; None stays None."""
-    if value is None:
-        return None
+    """Returns (x, y, z) from three numbers or from one for all of them."""
     return np.broadcast_to(numbers(value, name, "three numbers, or one", (), (3,)), 3).tolist()
 
 
@@ -134,28 +139,21 @@ def label(of, value, name):
     """Returns the label of a volume or a mesh that has this number or name, as 64 bits."""
     digits = value if isinstance(value, str) else str(whole(value, name, 80))
     with naming(name):
-        return _core.find_label(of, digits)
+        return of.find_label(encoded(digits, name))
 
 
-def name_rows(of, names):
-    """Returns the core's rows of names.  names: {label: name}, a list of the names of labels 0, 1,
-    2 and so on, or a file of them."""
+def named(of, names):
+    """Returns a volume or a mesh with names.  names: {label: name}, a list of the names of labels 0,
+    1, 2 and so on, or a file of them."""
     if names is None:
-        return []
+        return of
     if isinstance(names, (str, bytes, os.PathLike)):
-        return _core.read_names(path_bytes(names, "names"))
+        return of.read_names(path_bytes(names, "names"))
     if isinstance(names, (set, frozenset)):
         raise unexpected("names", "{label: name}, a list, or a file", names)
     try:
         rows = names.items() if hasattr(names, "items") else enumerate(names)
     except TypeError:
         raise unexpected("names", "{label: name}, a list, or a file", names) from None
-    return [_core.LabelName(label(of, key, "names"), text(name, "names"), None)
-            for key, name in rows]
-
-
-def file_options(element, values, materials, deck, pairs):
-    """Returns how a file is written."""
-    return _core.FileOptions(text(element, "element"), switch(values, "values"),
-                             text(materials, "materials"), switch(deck, "deck"),
-                             "" if pairs is None else path_bytes(pairs, "pairs"))
+    return of.with_names([LabelName(label(of, key, "names"), text(name, "names"))
+                          for key, name in rows])

@@ -7,10 +7,12 @@ import warnings
 
 import numpy as np
 
-from . import _core
+from . import _handles
 from ._errors import InputError, UsageError
-from ._values import (check_names, name_rows, numbers, path_bytes, switch, text, three,
-                      unexpected, unmasked, whole, whole_numbers)
+from ._library import encoded
+from ._options import arguments_of, options_of
+from ._values import (check_names, named, numbers, path_bytes, text, three, unexpected, unmasked,
+                      whole_numbers)
 
 #: Arrays are indexed [z, y, x], as .npy, HDF5, Zarr and TIFF have them, unless told otherwise.
 AXES = ("zyx", "xyz")
@@ -18,9 +20,10 @@ AXES = ("zyx", "xyz")
 FRAMES = ("own", "ras", "lps", "voxel")
 #: How far a label in floats may be from the whole number that it is taken for.
 _ROUNDING = 1e-3
-#: The arguments that say which part of a source the volume is, and where it lies.
-PLACE = ("spacing", "origin", "affine", "frame", "unit", "axes", "dataset", "scale", "crop",
-         "overlap", "values", "object", "trust_paths", "cache", "use_form")
+#: The arguments that say where an array lies, and all that say where a source lies or which part of
+#: it the volume is.
+_OF_ARRAYS = ("spacing", "origin", "affine", "frame", "unit", "axes")
+PLACE = (*_OF_ARRAYS, *(name for name in arguments_of("open") if name not in _OF_ARRAYS))
 
 
 def _is_image(source):
@@ -69,14 +72,15 @@ def _space(spacing, origin, affine, frame, unit, stated=None):
     if affine is not None and (spacing is not None or origin is not None):
         raise UsageError("affine: spacing and origin follow from it, leave them out")
     if affine is not None:
-        space = _core.space_of_affine(_affine_rows(affine).tolist(), frame or "own", stated)
-        space.unit = unit
-        return space
-    space = _core.Space()
-    space.spacing = three(1 if spacing is None else spacing, "spacing")
-    space.origin = three(0 if origin is None else origin, "origin")
-    space.frame = "own" if frame == "voxel" else frame or "own"
-    space.unit = unit
+        space = _handles.space_of_affine(_affine_rows(affine), frame or "own", stated)
+    else:
+        space = _handles.Space()
+        space.spacing[:] = three(1 if spacing is None else spacing, "spacing")
+        space.origin[:] = three(0 if origin is None else origin, "origin")
+        for axis in range(3):
+            space.axes[axis][axis] = 1
+        space.frame = b"own" if frame == "voxel" else frame.encode() or b"own"
+    space.unit = encoded(unit, "unit")
     return space
 
 
@@ -108,8 +112,8 @@ def _region_labels(values, first):
 
 
 def _check_sign(labels, dtype):
-    """Refuses labels of a region that the array's type cannot have; the core, which has the bits
-    of labels alone, refuses those that are too large for it."""
+    """Refuses labels of a region that the array's type cannot have; the library, which has
+    the bits of labels alone, refuses those that are too large for it."""
     is_signed = np.dtype(dtype).kind in "if"
     limit = np.iinfo(np.int64).max
     if labels.size and (labels.max() > limit if is_signed else labels.min() < 0):
@@ -132,7 +136,7 @@ def _region_volume(array, axes, space):
         _check_sign(labels, array.dtype)
         return np.ascontiguousarray(labels)
 
-    return _core.volume_of_region(fetch, np.dtype(array.dtype), shape, chunk, space, [])
+    return _handles.volume_of_region(fetch, np.dtype(array.dtype), shape, chunk, space)
 
 
 def _array_volume(array, axes, space):
@@ -140,42 +144,22 @@ def _array_volume(array, axes, space):
         array = np.ascontiguousarray(array)
     if array.dtype.byteorder not in "=|" and not array.dtype.isnative:
         array = array.astype(array.dtype.newbyteorder("="))
-    return _core.volume_of_array(array.T if axes == "zyx" else array, space, [])
+    return _handles.volume_of_array(array.T if axes == "zyx" else array, space)
 
 
-def _file_volume(source, spacing, origin, frame, dataset, scale, crop, overlap, values, object,
-                 trust_paths, cache, use_form):
-    box = None
-    if crop is not None:
-        corners = [whole(v, "crop") for v in np.ravel(np.asarray(crop, dtype="O"))]
-        if len(corners) != 6:
-            raise unexpected("crop", "((x0, y0, z0), (x1, y1, z1))", crop)
-        box = (corners[:3], corners[3:])
-    wanted = [] if object is None else whole_numbers(np.ravel(object), "object")
-    return _core.open_volume(
-        path_bytes(source, "volume"), text(dataset, "dataset"),
-        None if scale is None else whole(scale, "scale", 32), three(spacing, "spacing"),
-        three(origin, "origin"), frame or "file", box, text(overlap, "overlap"),
-        text(values, "values") or "labels", np.asarray(wanted).view(np.uint64).tolist(),
-        False if trust_paths is None else switch(trust_paths, "trust_paths"), "" if cache is None else path_bytes(cache, "cache"),
-        text(use_form, "use_form"))
-
-
-def _volume(source, spacing, origin, affine, frame, unit, axes, dataset, scale, crop,
-            overlap, values, object, trust_paths, cache, use_form):
-    frame, unit_text = text(frame, "frame"), text(unit, "unit")
+def _volume(source, place):
+    given = {name: value for name, value in place.items() if value is not None}
     if isinstance(source, (str, os.PathLike)):
-        if affine is not None or unit is not None or axes is not None:
+        if given.keys() & {"affine", "unit", "axes"}:
             raise UsageError("affine, unit and axes are for arrays: files tell their own")
-        return _file_volume(source, spacing, origin, frame, dataset, scale, crop, overlap,
-                            values, object, trust_paths, cache, use_form)
-    for_files = {"dataset": dataset, "scale": scale, "crop": crop, "overlap": overlap,
-                 "values": values, "object": object, "trust_paths": trust_paths or None,
-                 "cache": cache, "use_form": use_form}
-    given = [name for name, value in for_files.items() if value is not None]
-    if given:
-        raise UsageError(f"{', '.join(given)}: for files only, and this is an array"
-                         + ("; slice it" if "crop" in given else ""))
+        return _handles.open_volume(path_bytes(source, "volume"), options_of(None, given))
+    others = [name for name in PLACE
+              if name not in _OF_ARRAYS and given.get(name, False) is not False]
+    if others:
+        raise UsageError(f"{', '.join(others)}: for files only, and this is an array"
+                         + ("; slice it" if "crop" in others else ""))
+    spacing, origin, affine, frame, unit, axes = map(given.get, _OF_ARRAYS)
+    frame, unit_text = text(frame, "frame"), text(unit, "unit")
     stated = None
     if _is_image(source):
         if spacing is not None or origin is not None:
@@ -210,7 +194,7 @@ def native(array):
 def array_of(source, volume, place):
     """Returns a copy of the labels of a source, as an array of its own type, and whether that is
     indexed [z, y, x].  volume: as_volume(source, **place)."""
-    if isinstance(source, (str, os.PathLike, _core.Volume)):
+    if isinstance(source, (str, os.PathLike, _handles.Volume)):
         labels = volume.labels()
         stored = labels.astype(volume.dtype)
         # Scaled numbers need not fit the type of what is stored.
@@ -225,9 +209,8 @@ def as_volume(source, *, names=None, **place):
     """Returns a volume from a path, a nibabel image, a numpy array, or an array that is read by
     region (h5py, Zarr, dask: an object with shape, dtype and slices).  See mwmesh.mesh()."""
     check_names(place, PLACE)
-    if not isinstance(source, _core.Volume):
-        source = _volume(source, **{**dict.fromkeys(PLACE), **place})
+    if not isinstance(source, _handles.Volume):
+        source = _volume(source, place)
     elif place:
         raise UsageError(f"{next(iter(place))}: the volume has its place already")
-    rows = name_rows(source, names)
-    return source.with_names(rows) if rows else source
+    return named(source, names)

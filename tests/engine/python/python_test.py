@@ -15,6 +15,8 @@ import json
 import os
 import pathlib
 import pickle
+import re
+import resource
 import shutil
 import signal
 import socket
@@ -50,6 +52,12 @@ def needs(name):
     return unittest.skipUnless(optional(name), f"no {name}")
 
 
+def options(use):
+    """The arguments of a use that are neither settings nor about the place of a volume."""
+    return [name for name in mwmesh._options.arguments_of(use)
+            if name not in mwmesh.settings() and name not in mwmesh.PLACE]
+
+
 def grains(shape=(22, 18, 20), labels=6, seed=3):
     return mwmesh.synth("voronoi", shape, labels, seed)
 
@@ -79,24 +87,44 @@ class Documentation(unittest.TestCase):
             self.assertGreater(result.attempted, 0)
 
     def test_every_argument_is_documented(self):
-        for name in (*mwmesh.PLACE, "names", *mwmesh._OPTIONS):
+        for name in (*mwmesh.PLACE, "names", *options("mesh")):
             self.assertIn(name, mwmesh.mesh.__doc__)
+        for name in options("write"):
+            self.assertIn(name.replace("write_values", "values"), mwmesh.Mesh.save.__doc__)
         self.assertIn("max_distance", mwmesh.settings())
         self.assertEqual([name for name in dir(mwmesh) if not name.startswith("_")],
                          sorted(mwmesh.__all__))
 
-
-    def test_a_core_of_another_build_is_refused(self):
+    def test_a_library_of_another_version_is_refused(self):
         with tempfile.TemporaryDirectory() as folder:
             package = pathlib.Path(folder, "mwmesh")
             shutil.copytree(pathlib.Path(mwmesh.__file__).parent, package)
             call = [sys.executable, "-B", "-c", "import mwmesh"]
             environment = {**os.environ, "PYTHONPATH": folder}
             subprocess.run(call, env=environment, check=True)
-            (package / "_stamp.py").write_text("STAMP = 'another'\n", encoding="utf-8")
+            version = package / "_version.py"
+            text = version.read_text(encoding="utf-8").replace(mwmesh.__version__, "77.0.0")
+            version.write_text(text, encoding="utf-8")
+            done = subprocess.run(call, env=environment, capture_output=True, text=True)
+            for piece in ("ImportError: mwmesh: ", str(package / "libmwmesh.so"), "77.0.0",
+                          "build the target mwmesh_python again"):
+                self.assertIn(piece, done.stderr)
+            (package / "libmwmesh.so").write_bytes(b"no library")
             done = subprocess.run(call, env=environment, capture_output=True, text=True)
             self.assertIn("ImportError: mwmesh: ", done.stderr)
-            self.assertIn("build the target mwmesh_python again", done.stderr)
+
+    def test_functions_are_those_of_the_header(self):
+        header = pathlib.Path(__file__).parents[3] / "engine" / "mwmesh_c.h"
+        declared = re.findall(r"MW_PUBLIC [^;(]*\bmw_(\w+)\(([^;]*)\);",
+                              header.read_text(encoding="utf-8"))
+        known = {**mwmesh._library._CERTAIN, **mwmesh._library._FALLIBLE}
+        takes = {name: arguments.count(",") + (arguments != "void")
+                 for name, arguments in declared if "(*read)" not in arguments}
+        self.assertLessEqual(known.keys() - {"volume_of_reader"}, takes.keys())
+        for name, count in takes.items():
+            if name in known:
+                own = len(known[name]) - 1 + (name in mwmesh._library._FALLIBLE)
+                self.assertEqual(own, count, name)
 
     def test_types_are_of_what_there_is(self):
         stub = pathlib.Path(mwmesh.__file__).with_suffix(".pyi")
@@ -108,8 +136,10 @@ class Documentation(unittest.TestCase):
                 stubs[node.name] = {argument.arg for argument in arguments}
         place = {*mwmesh.PLACE, "names"}
         self.assertEqual(stubs["as_volume"], {"source", *place})
-        self.assertEqual(stubs["mesh"], {"volume", "progress", *place, *mwmesh._OPTIONS})
-        for function in (mwmesh.Mesh.save, mwmesh.Mesh.surface, mwmesh.read, mwmesh.synth):
+        self.assertEqual(stubs["mesh"], {"volume", "progress", *place, *options("mesh")})
+        self.assertEqual(stubs["verify"], {"self", "volume", *options("verify")})
+        self.assertEqual(stubs["save"], {"self", "path", "values", *options("write")} - {"write_values"})
+        for function in (mwmesh.Mesh.surface, mwmesh.read, mwmesh.synth):
             self.assertEqual(stubs[function.__name__], {*inspect.signature(function).parameters})
         self.assertLessEqual({*inspect.signature(mwmesh.mesh_to_file).parameters} - {"arguments"},
                              stubs["mesh_to_file"])
@@ -1065,6 +1095,23 @@ class Runs(InFolder):
             mwmesh.mesh(grey)
         self.assertGreater(len(mwmesh.mesh(grey, force=True, certify="off").tets), 1000)
 
+    def test_memory_does_not_grow(self):
+        labels = grains((6, 6, 6), 3)
+
+        def fail(*_):
+            raise KeyboardInterrupt
+
+        def work(times):
+            for _ in range(times):
+                mesh = mwmesh.mesh(labels, threads=1, names={1: "one"})
+                self.assertEqual((mesh.points.shape[1], mesh.report["digest"]), (3, mesh.digest))
+                with self.assertRaises(KeyboardInterrupt):
+                    mwmesh.mesh(labels, threads=1, progress=fail)
+            return resource.getrusage(resource.RUSAGE_SELF).ru_maxrss
+
+        before = work(250)
+        self.assertLess(work(1000) - before, 4 << 10)  # in KiB
+
     @needs("tqdm")
     def test_bar(self):
         mwmesh.mesh(grains(), progress=True)
@@ -1170,6 +1217,10 @@ class Errors(InFolder):
 
     def test_arguments(self):
         labels = grains()
+        for bad in ({"threads": 5000}, {"max_distance": -1}, {"labels": ["x"]}, {"resume": True}):
+            with self.assertRaises(mwmesh.UsageError) as caught:
+                mwmesh.mesh(labels, **bad)
+            self.assertEqual(caught.exception.option, *bad)
         self.check(mwmesh.UsageError, "mean max_distance?", labels, max_distanse=1)
         self.check(mwmesh.UsageError, "mean background?", labels, backgroud=1)
         self.check(mwmesh.UsageError, "there are preset", labels, xyzzy=1)
