@@ -2,7 +2,8 @@
 # SPDX-FileCopyrightText: The mwmesh authors
 # SPDX-License-Identifier: Apache-2.0
 # Installs a build into a folder and uses it from there as others would: by CMake (shared and static),
-# by pkg-config, from Python and as a program, all of which must make one mesh.
+# by pkg-config, from C, from Python and as a program, all of which must make one mesh.  What was in
+# the interface of an earlier build of this version (tests/consumer/interface.abi) must be there.
 #
 #   bash tests/consumer.sh [BUILD]      default: build/release, all of it built
 set -euo pipefail
@@ -25,12 +26,12 @@ expect() { # WHAT DIGEST ; the same as the program's
   echo "consumer: $1: the program's mesh"
 }
 
-# Nothing but what mwmesh.h declares leaves the library.
+# Just what mwmesh_c.h declares leaves the library.
 check_symbols() { # LIBRARY
-  local strange
-  strange="$(nm -DC --defined-only "$1" | grep -v -E ' (mwmesh::|(typeinfo|typeinfo name|vtable) for mwmesh::|MWMESH_)' || true)"
-  [[ -z "$strange" ]] || fail "$1 has other symbols: $strange"
-  nm -DC --defined-only "$1" | grep -q ' mwmesh::mesh(' || fail "$1 has no mwmesh::mesh"
+  local declared defined
+  declared="$("${CC:-gcc}" -E -P "$prefix/include/mwmesh_c.h" | grep -oE '\bmw_[a-z_]+ ?\(' | tr -d ' (' | sort -u)"
+  defined="$(nm -D --defined-only "$1" | awk '$3 !~ /^MWMESH_/ {sub(/@.*/, "", $3); print $3}' | sort)"
+  [[ "$declared" == "$defined" ]] || fail "$1: declared (<) and defined (>) differ: $(diff <(echo "$declared") <(echo "$defined") || true)"
 }
 
 by_program() {
@@ -62,6 +63,7 @@ cmake --build "$folder/cmake" >"$folder/log" 2>&1 || fail "the build by CMake: $
 export PKG_CONFIG_PATH="$library/pkgconfig"
 read -ra flags <<<"$(pkg-config --cflags --libs mwmesh)"
 "${CXX:-g++}" -std=c++20 "$root/tests/consumer/main.cpp" "${flags[@]}" -o "$folder/by_pkg_config"
+"${CC:-gcc}" -std=c11 -pedantic -Wall -Wextra -Werror "$root/tests/consumer/main.c" "${flags[@]}" -o "$folder/in_c"
 
 "$folder/cmake/consumer_shared" "$folder/v.raw" local >/dev/null
 optimizers=(local)
@@ -71,6 +73,7 @@ for optimizer in "${optimizers[@]}"; do
   [[ "$wanted" == sha256:* ]] || fail "the program has no digest: $wanted"
   expect "shared, $optimizer" "$("$folder/cmake/consumer_shared" "$folder/v.raw" "$optimizer")"
   expect "by pkg-config, $optimizer" "$(LD_LIBRARY_PATH="$library" "$folder/by_pkg_config" "$folder/v.raw" "$optimizer")"
+  expect "C, $optimizer" "$(LD_LIBRARY_PATH="$library" "$folder/in_c" "$folder/v.raw" "$folder/c.vtu" "$optimizer")"
   [[ -z "$python" ]] || expect "Python, $optimizer" "$(by_python "$optimizer")"
 done
 wanted="$(by_program local)"

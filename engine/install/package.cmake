@@ -63,9 +63,9 @@ set(library_name libmwmesh${mw_soversion})
 mw_package(program mwmesh "labelled voxels to tetrahedral meshes, topology kept"
   "This package has the program, its manual page and what shells complete.")
 mw_package(library ${library_name} "labelled voxels to tetrahedral meshes - shared library"
-  "This package has the C++ library.")
+  "This package has the library for C and C++.")
 mw_package(development libmwmesh-dev "labelled voxels to tetrahedral meshes - development files"
-  "This package has the header, the static library, and what CMake and\npkg-config need.")
+  "This package has the headers, the static library, and what CMake and\npkg-config need.")
 set(CPACK_DEBIAN_PROGRAM_PACKAGE_SUGGESTS mwmesh-codt)
 set(CPACK_DEBIAN_LIBRARY_PACKAGE_SECTION libs)
 set(CPACK_DEBIAN_LIBRARY_PACKAGE_SUGGESTS mwmesh-codt)

@@ -460,9 +460,11 @@ TEST(Library, AsksOftenWhetherToGoOn) {
     return false;
   }};
   // Sizes far below a voxel: most of the time goes into cutting tets.
-  const Mesh coarse = mesh(volume, {{"certify", "off"}, {"size", "1.4"}}, hooks);
+  const Mesh coarse =
+      mesh(volume, {{"certify", "off"}, {"measure", "false"}, {"size", "1.4"}}, hooks);
   const int before = asked.exchange(0);
-  const Mesh fine = mesh(volume, {{"certify", "off"}, {"size", "0.7"}}, hooks);
+  const Mesh fine =
+      mesh(volume, {{"certify", "off"}, {"measure", "false"}, {"size", "0.7"}}, hooks);
   EXPECT_GT(fine.tets().size(), 4 * coarse.tets().size());
   EXPECT_GT(asked, before + static_cast<int>(fine.tets().size() / 8192));
   asked = 0;

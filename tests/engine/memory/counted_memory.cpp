@@ -11,6 +11,14 @@ namespace {
 
 std::atomic<std::uint64_t> allocated = 0;
 std::atomic<std::uint64_t> peak = 0;
+std::atomic<std::uint64_t> calls = 0;
+std::atomic<std::uint64_t> first_failure = ~std::uint64_t{0};
+std::atomic<bool> all_fail_then = false;
+
+bool fails() {
+  const std::uint64_t call = ++calls, first = first_failure;
+  return call == first || (call > first && all_fail_then);
+}
 
 std::uint64_t size_of(void* piece) {
   return malloc_usable_size(piece) + sizeof(std::size_t);
@@ -40,13 +48,14 @@ void give_back(void* piece) {
 // The array forms end in these by default; so does the nothrow form (std::stable_sort's), but not
 // under AddressSanitizer.
 void* operator new(std::size_t size) {
-  return counted(std::malloc(size));
+  return counted(fails() ? nullptr : std::malloc(size));
 }
 void* operator new(std::size_t size, const std::nothrow_t&) noexcept {
-  return counted_or_null(std::malloc(size));
+  return counted_or_null(fails() ? nullptr : std::malloc(size));
 }
 void* operator new(std::size_t size, std::align_val_t alignment) {
   const auto multiple = static_cast<std::size_t>(alignment);
+  if (fails()) throw std::bad_alloc();
   return counted(std::aligned_alloc(multiple, (size + multiple - 1) / multiple * multiple));
 }
 void operator delete(void* piece) noexcept {
@@ -74,6 +83,17 @@ std::uint64_t peak_allocated_bytes() {
 
 void start_peak() {
   peak = allocated.load();
+}
+
+void fail_allocations(std::uint64_t first, bool lasting) {
+  calls = 0;
+  all_fail_then = lasting;
+  first_failure = first;
+}
+
+std::uint64_t end_failures() {
+  first_failure = ~std::uint64_t{0};
+  return calls;
 }
 
 }  // namespace mw::test
