@@ -320,7 +320,10 @@ class Options {
     return detail::call(mw_options_get, handle(), detail::c_text(name));
   }
   /// Returns all options as JSON.
-  [[nodiscard]] static std::string table() { return mw_options_table(); }
+  [[nodiscard]] static std::string table() {
+    if (const char* text = mw_options_table()) return text;
+    throw Error(ErrorKind::kResource, "memory is out");
+  }
   [[nodiscard]] mw_options* handle() const { return detail::held(handle_.get()); }
 
  private:

@@ -90,9 +90,9 @@ MW_PUBLIC mw_status mw_options_set(mw_options* options, const char* name, const 
 MW_PUBLIC const char* mw_options_get(const mw_options* options, const char* name, mw_error** error);
 /* Returns all options as JSON, in the order of the documentation: a list of {"name", "kind",
  * "value" (what help calls the value), "help", "group", "default" (null where there is none),
- * "choices" (all that it may be; empty for a number
- * or a list), "calls" (which functions take it: "open", "mesh", "write", "verify"), "setting"
- * (whether the mesh depends on it and reports list it)}.  The text lives as long as the library. */
+ * "choices" (all that it may be; empty for a number or a list), "calls" (which functions take it:
+ * "open", "mesh", "write", "verify"), "setting" (whether the mesh depends on it and reports list
+ * it)}.  The text lives as long as the library.  Returns NULL where memory is out. */
 MW_PUBLIC const char* mw_options_table(void);
 
 /* --- Watching a run --- */

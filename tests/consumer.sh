@@ -49,6 +49,24 @@ print(mwmesh.mesh(voxels, optimizer=sys.argv[2]).digest)
 END
 }
 
+# One allocation that fails, whichever it is, is an error of the function that was called, or does no
+# harm; the program in C then says so or goes on.
+fail_allocations() { # TIMES
+  local preload="$build/libfailing_malloc.so" all n code
+  [[ -e "$preload" ]] || return 0
+  local run=(env LD_LIBRARY_PATH="$library" LD_PRELOAD="$preload")
+  "${run[@]}" FAILING_MALLOC_COUNT="$folder/count" "$folder/in_c" "$folder/v.raw" "$folder/c.vtu" local >/dev/null
+  all="$(cat "$folder/count")"
+  ((all > 1000)) || fail "the module that fails allocations is not there"
+  for ((n = 7; n < all; n += all / $1)); do
+    code=0
+    "${run[@]}" FAILING_MALLOC_AT="$n" "$folder/in_c" "$folder/v.raw" "$folder/c.vtu" local \
+      >/dev/null 2>"$folder/log" || code=$?
+    ((code == 0)) || { ((code == 1)) && grep -qE 'memory|NULL' "$folder/log"; } ||
+      fail "allocation $n: exit $code: $(cat "$folder/log")"
+  done
+}
+
 cmake --install "$build" --prefix "$prefix" >"$folder/log" || fail "cmake --install: $(tail -n 3 "$folder/log")"
 library="$(find "$prefix" -name libmwmesh.so -printf '%h\n')"
 python="$(find "$prefix" -path '*/mwmesh/__init__.py' -printf '%h\n' | xargs -r dirname)"
@@ -78,3 +96,5 @@ for optimizer in "${optimizers[@]}"; do
 done
 wanted="$(by_program local)"
 expect "static" "$("$folder/cmake/consumer_static" "$folder/v.raw" local)"
+fail_allocations 25
+echo "consumer: allocations that fail are errors in C"

@@ -15,20 +15,9 @@ namespace {
 
 using Library = nlohmann::json;
 
-/// The library's value that keeps the order of fields.
-using Ordered = nlohmann::ordered_json;
-
-Ordered library_value(const Json& value) {
-  if (value.is_object()) {
-    Ordered::object_t out;
-    for (const auto& [key, field] : value.items()) out.push_back({key, library_value(field)});
-    return out;
-  }
-  if (value.is_array()) {
-    Ordered::array_t out;
-    for (const Json& element : value.elements()) out.push_back(library_value(element));
-    return out;
-  }
+/// Returns what is neither array nor object.  Only such values of the library's are made here: its
+/// arrays and objects ask for memory when they are destroyed, and end the program where it is out.
+Library plain_value(const Json& value) {
   if (value.is_boolean()) return value.boolean();
   if (value.is_string()) return value.text();
   if (value.is_unsigned()) return value.integer();
@@ -37,11 +26,59 @@ Ordered library_value(const Json& value) {
   return nullptr;
 }
 
-std::string text_of(const Json& value, int indent, bool ascii) {
-  return library_value(value).dump(indent, ' ', ascii, Ordered::error_handler_t::replace);
+/// How a text is written: with lines for elements, indented by two, or without any space.
+struct Style {
+  bool indents = false;
+  bool ascii = false;
+};
+
+void append(const Json& value, Style style, std::size_t depth, std::string& out);
+
+void append_plain(const Json& value, Style style, std::string& out) {
+  out += plain_value(value).dump(-1, ' ', style.ascii, Library::error_handler_t::replace);
 }
 
-/// Returns a value that the library has parsed, and takes its texts out of it.
+/// Appends what comes before an element that is not there yet, or before the end.
+void append_break(Style style, std::size_t depth, std::string& out) {
+  if (style.indents) out.append(1, '\n').append(2 * depth, ' ');
+}
+
+void append_field(const Json& element, Style style, std::size_t depth, std::string& out) {
+  append(element, style, depth, out);
+}
+
+void append_field(const Json::Field& field, Style style, std::size_t depth, std::string& out) {
+  append_plain(field.key, style, out);
+  out += style.indents ? ": " : ":";
+  append(field.value, style, depth, out);
+}
+
+template <class Rows>
+void append_rows(const Rows& rows, std::string_view brackets, Style style, std::size_t depth,
+                 std::string& out) {
+  out += brackets[0];
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    if (i > 0) out += ',';
+    append_break(style, depth + 1, out);
+    append_field(rows[i], style, depth + 1, out);
+  }
+  if (!rows.empty()) append_break(style, depth, out);
+  out += brackets[1];
+}
+
+void append(const Json& value, Style style, std::size_t depth, std::string& out) {
+  if (value.is_object()) return append_rows(value.items(), "{}", style, depth, out);
+  if (value.is_array()) return append_rows(value.elements(), "[]", style, depth, out);
+  append_plain(value, style, out);
+}
+
+std::string text_of(const Json& value, Style style) {
+  std::string out;
+  append(value, style, 0, out);
+  return out;
+}
+
+/// Returns a value that the library has parsed, and empties it: see plain_value().
 Json taken(Library& value) {
   if (value.is_boolean()) return value.get<bool>();
   if (value.is_string()) return std::move(value.get_ref<std::string&>());
@@ -52,12 +89,14 @@ Json taken(Library& value) {
     Json::Array out;
     out.reserve(value.size());
     for (Library& element : value) out.push_back(taken(element));
+    value.clear();
     return out;
   }
   if (!value.is_object()) return nullptr;
   Json::Object out;
   out.reserve(value.size());
   for (const auto& [key, field] : value.items()) out.push_back({key, taken(field)});
+  value.clear();
   return Json(std::move(out));
 }
 
@@ -167,15 +206,15 @@ void Json::erase(std::string_view key) {
 }
 
 std::string Json::dump() const {
-  return text_of(*this, -1, false);
+  return text_of(*this, {});
 }
 
 std::string Json::dump_indented() const {
-  return text_of(*this, 2, false);
+  return text_of(*this, {.indents = true});
 }
 
 std::string Json::dump_ascii() const {
-  return text_of(*this, -1, true);
+  return text_of(*this, {.ascii = true});
 }
 
 Json parse_json(std::string_view text, std::string_view file) {

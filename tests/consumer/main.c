@@ -73,6 +73,7 @@ static void try_options(mw_options* options) {
   expect_error(&error, MW_USAGE, "window", __LINE__);
   EXPECT(mw_options_set(options, "window", "5", NULL) == MW_USAGE);
   EXPECT(mw_options_get(options, "zzzz", NULL) == NULL);
+  EXPECT(mw_options_table() != NULL);
   EXPECT(strstr(mw_options_table(), "\"max_distance\"") != NULL);
 }
 
