@@ -31,15 +31,23 @@ wanted_packages() {
   sed 's/#.*//' "${lists[@]}" | tr -s ' \t' '\n' | sed '/^$/d'
 }
 
+# True if apt has lists of packages, and $1 is in none of them.
+is_unknown() {
+  compgen -G '/var/lib/apt/lists/*_Packages*' >/dev/null && [[ -z "$(apt-cache show "$1" 2>/dev/null)" ]]
+}
+
 is_installed() {
   [[ "$(dpkg-query -W -f='${db:Status-Status}\n' "$1" 2>/dev/null)" == *installed* ]] &&
     [[ "$(dpkg-query -W -f='${db:Status-Status}\n' "$1" 2>/dev/null)" != *not-installed* ]]
 }
 
+# What ends in '?' in a list is left out where the system does not have it.
 missing_packages() {
-  local package
-  for package in $(wanted_packages); do
-    is_installed "$package" || echo "$package"
+  local package wanted
+  for wanted in $(wanted_packages); do
+    package="${wanted%\?}"
+    is_installed "$package" || { [[ "$wanted" != "$package" ]] && is_unknown "$package"; } ||
+      echo "$package"
   done
 }
 
@@ -65,6 +73,7 @@ install_packages() {
   echo "setup: installing ${missing[*]} (about a minute)"
   quietly as_root apt-get update ||
     die "apt-get update failed (no network?); these packages are missing: ${missing[*]}"
+  mapfile -t missing < <(missing_packages)
   quietly as_root apt-get install --yes --no-install-recommends "${missing[@]}" ||
     die "apt-get install failed (see above); these packages are missing: ${missing[*]}"
 }

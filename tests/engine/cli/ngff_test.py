@@ -8,8 +8,8 @@ import pathlib
 import shutil
 import unittest
 
-from stores import Stores, numpy, write
-from zarr_test import Array, save_v2
+from stores import Stores, numpy, save_v2, write
+from zarr_test import Array
 
 
 class Images(Stores):

@@ -50,6 +50,22 @@ def voxels(facts):
     return out.tolist()
 
 
+def save_v2(folder, labels, chunks, write_empty_chunks=False, dimension_separator=".", compressor=None,
+            **others):
+    """An array of Zarr 2 by zarr 2 or 3, which have different words for the same."""
+    import zarr
+    others = {"store": folder, "shape": labels.shape, "chunks": chunks, "dtype": labels.dtype,
+              "fill_value": 0, **others}
+    if hasattr(zarr, "create_array"):
+        array = zarr.create_array(
+            zarr_format=2, compressors=compressor, config={"write_empty_chunks": write_empty_chunks},
+            chunk_key_encoding={"name": "v2", "separator": dimension_separator}, **others)
+    else:
+        array = zarr.create(compressor=compressor, write_empty_chunks=write_empty_chunks,
+                            dimension_separator=dimension_separator, **others)
+    array[:] = labels
+
+
 def write(path, content):
     """Makes the folders above, too; what is no text or bytes is written as JSON."""
     path = pathlib.Path(path)

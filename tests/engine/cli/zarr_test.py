@@ -14,11 +14,11 @@ import sys
 import unittest
 
 from stores import (TYPES, Stores, cells, crc32c, distinct, name_of, numpy, padded, pick_shape,
-                    voxels, write)
+                    save_v2, voxels, write)
 
 try:
     import numcodecs
-    import zarr
+    import zarr  # which save_v2() writes with
 except ImportError as missing:
     print(f"skipped: {missing}")
     sys.exit(77)
@@ -104,13 +104,6 @@ class Array:
             key = key if self.v2_keys else f"c{self.separator}{key}"
             write(f"{folder}/{key}", self.shard(whole[where], is_fill[where]) if self.inner
                   else self.packed(whole[where]))
-
-
-def save_v2(folder, labels, chunks, **others):
-    array = zarr.create(labels.shape, chunks=chunks, dtype=labels.dtype, **{
-        "store": zarr.DirectoryStore(folder), "compressor": None, "fill_value": 0,
-        "write_empty_chunks": False, "dimension_separator": ".", **others})
-    array[:] = labels
 
 
 def set_at(place, value):
