@@ -109,6 +109,9 @@ herr_t refuse_to_write(H5FD_t*, H5FD_mem_t, hid_t, haddr_t, std::size_t, const v
 
 hid_t register_driver() {
   H5FD_class_t driver{};
+#ifdef H5FD_CLASS_VERSION  // HDF5 1.14 registers no driver without it
+  driver.version = H5FD_CLASS_VERSION;
+#endif
   driver.name = "mwmesh_source";
   driver.maxaddr = static_cast<haddr_t>(std::numeric_limits<std::int64_t>::max());
   driver.fc_degree = H5F_CLOSE_STRONG;
