@@ -9,7 +9,8 @@
 //   mesh.save("mesh.vtu");
 //
 // Each function does what the C function of its name does, whose comment has guarantees, units,
-// threads and errors.  All throw Error; what callbacks throw ends the run and passes through.
+// threads and errors.  All throw Error, and std::bad_alloc where this header itself gets no memory;
+// what callbacks throw ends the run and passes through.
 // Objects that were moved from have nothing in them (kUsage).
 #pragma once
 
@@ -24,6 +25,7 @@
 #include <map>
 #include <memory>
 #include <mutex>
+#include <new>
 #include <optional>
 #include <span>
 #include <stdexcept>
@@ -535,10 +537,13 @@ inline std::string mesh_to_file(const std::filesystem::path& path, const Volume&
   });
 }
 
-/// Returns a random volume, x fastest.  ERRORS: kUsage; kResource where memory cannot hold it.
+/// Returns a random volume, x fastest.  ERRORS: kUsage.
 [[nodiscard]] inline std::vector<std::uint64_t> synth(const std::string& kind, const Index& shape,
                                                       std::uint64_t labels, std::uint64_t seed) {
-  std::vector<std::uint64_t> voxels(detail::voxels({}, shape));
+  std::vector<std::uint64_t> voxels;
+  const std::uint64_t count = detail::voxels({}, shape);
+  if (count > voxels.max_size()) throw std::bad_alloc();
+  voxels.resize(count);
   detail::call(mw_synth, detail::c_text(kind), shape.data(), labels, seed, voxels.data());
   return voxels;
 }
