@@ -78,34 +78,88 @@ std::string text_of(const Json& value, Style style) {
   return out;
 }
 
-/// Returns a value that the library has parsed, and empties it: see plain_value().
-Json taken(Library& value) {
-  if (value.is_boolean()) return value.get<bool>();
-  if (value.is_string()) return std::move(value.get_ref<std::string&>());
-  if (value.is_number_unsigned()) return value.get<std::uint64_t>();
-  if (value.is_number_integer()) return value.get<std::int64_t>();
-  if (value.is_number_float()) return value.get<double>();
-  if (value.is_array()) {
-    Json::Array out;
-    out.reserve(value.size());
-    for (Library& element : value) out.push_back(taken(element));
-    value.clear();
-    return out;
-  }
-  if (!value.is_object()) return nullptr;
-  Json::Object out;
-  out.reserve(value.size());
-  for (const auto& [key, field] : value.items()) out.push_back({key, taken(field)});
-  value.clear();
-  return Json(std::move(out));
-}
-
 /// Returns the library's message without the name and number in front, "[json.exception...] ".
 std::string_view reason_of(const Library::exception& error) {
   const std::string_view what = error.what();
   const std::size_t end = what.find("] ");
   return end == what.npos ? what : what.substr(end + 2);
 }
+
+/// Takes what the library reads of a text, piece by piece, and makes a value of it; see
+/// plain_value().
+class Builder : public nlohmann::json_sax<Library> {
+ public:
+  explicit Builder(std::string_view file) : file_(file) {}
+  [[nodiscard]] Json&& value() { return std::move(value_); }
+
+  bool null() override { return add(nullptr); }
+  bool boolean(bool value) override { return add(value); }
+  bool number_integer(std::int64_t value) override { return add(value); }
+  bool number_unsigned(std::uint64_t value) override { return add(value); }
+  bool number_float(double value, const std::string& /*text*/) override { return add(value); }
+  bool string(std::string& text) override { return add(std::move(text)); }
+  bool binary(Library::binary_t& /*bytes*/) override { return false; }
+  bool start_array(std::size_t /*size*/) override { return open(Json::array()); }
+  bool start_object(std::size_t /*size*/) override { return open(Json::object()); }
+  bool end_array() override { return close(); }
+  bool key(std::string& text) override {
+    check_depth();
+    keys_.push_back(std::move(text));
+    return true;
+  }
+  /// Fields are sorted by key; of several of one key the last counts.
+  bool end_object() override {
+    Json::Object& fields = open_.back().items();
+    std::ranges::stable_sort(fields, {}, &Json::Field::key);
+    const auto same = [](const Json::Field& one, const Json::Field& other) {
+      return one.key == other.key;
+    };
+    const auto rest = std::unique(fields.rbegin(), fields.rend(), same);
+    fields.erase(fields.begin(), rest.base());
+    return close();
+  }
+  bool parse_error(std::size_t /*at*/, const std::string& /*token*/,
+                   const Library::exception& error) override {
+    fail_input(file_, "JSON", reason_of(error), "the file is damaged or not JSON");
+  }
+
+ private:
+  void check_depth() const {
+    if (open_.size() <= kMaxJsonDepth) return;
+    fail_input(file_, "JSON", mw::io::text("nested deeper than ", kMaxJsonDepth, " levels"),
+               "the file is damaged");
+  }
+  bool open(Json empty) {
+    check_depth();
+    open_.push_back(std::move(empty));
+    return true;
+  }
+  bool close() {
+    Json whole = std::move(open_.back());
+    open_.pop_back();
+    return put(std::move(whole));
+  }
+  bool add(Json value) {
+    check_depth();
+    return put(std::move(value));
+  }
+  bool put(Json value) {
+    if (open_.empty()) {
+      value_ = std::move(value);
+    } else if (open_.back().is_array()) {
+      open_.back().push_back(std::move(value));
+    } else {
+      open_.back().items().push_back({std::move(keys_.back()), std::move(value)});
+      keys_.pop_back();
+    }
+    return true;
+  }
+
+  std::string_view file_;
+  std::vector<Json> open_;         ///< arrays and objects that have not ended
+  std::vector<std::string> keys_;  ///< of the fields whose values are not there yet
+  Json value_;
+};
 
 }  // namespace
 
@@ -218,17 +272,9 @@ std::string Json::dump_ascii() const {
 }
 
 Json parse_json(std::string_view text, std::string_view file) {
-  const auto check_depth = [&](int depth, Library::parse_event_t, Library&) {
-    if (depth <= kMaxJsonDepth) return true;
-    fail_input(file, "JSON", mw::io::text("nested deeper than ", kMaxJsonDepth, " levels"),
-               "the file is damaged");
-  };
-  try {
-    Library value = Library::parse(text, check_depth);
-    return taken(value);
-  } catch (const Library::exception& error) {
-    fail_input(file, "JSON", reason_of(error), "the file is damaged or not JSON");
-  }
+  Builder builder(file);
+  Library::sax_parse(text, &builder);
+  return builder.value();
 }
 
 Json read_json(const Place& place, std::uint64_t most) {

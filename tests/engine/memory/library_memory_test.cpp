@@ -48,7 +48,7 @@ class LibraryMemory : public testing::Test {
   const std::vector<std::uint64_t> labels_ = synth("voronoi", kShape, 3, 1);
   const Volume volume_ =
       Volume::of(ArrayVolume{.data = labels_.data(), .type = VoxelType::kU64, .shape = kShape});
-  const Options options_{{"threads", "1"}, {"certify", "off"}, {"measure", "false"}};
+  const Options options_{{"threads", "1"}, {"certify", "off"}};
   const Mesh mesh_ = mesh(volume_, options_);
   const mw_name name_{.label = 1, .name = "a name that no string keeps inside of itself"};
 };
