@@ -10,7 +10,7 @@ import sys
 def main():
     program = os.path.join(os.path.dirname(os.path.abspath(__file__)), "bin", "mwmesh")
     if not os.path.exists(program):
-        sys.exit(f"mwmesh: there is no {program}; the wheel has it, other packages have mwmesh itself")
+        sys.exit(f"mwmesh: there is no {program}; only the wheel has it there")
     for ignored in (signal.SIGPIPE, signal.SIGXFSZ):  # by Python alone
         signal.signal(ignored, signal.SIG_DFL)
     os.execv(program, [program, *sys.argv[1:]])

@@ -260,7 +260,7 @@ def run(name, made, *arguments, progress=None, out=()):
                     look()
             except BaseException:
                 stop.value = 1
-                while thread.ident is not None and not done.is_set():
+                while thread.is_alive() and not done.is_set():  # there is none after a fork
                     with contextlib.suppress(KeyboardInterrupt):
                         done.wait()
                 LIB.mw_error_free(error)

@@ -491,15 +491,19 @@ class Mesh:
             if not is_off_screen:
                 warnings.warn("plot: no window can be opened here; this returns a picture (PNG)",
                               RuntimeWarning, stacklevel=2)
-            return Picture(shown._core.picture(1000, 800))
+            return shown.picture(1000, 800)
         if pyvista is None:
             return _window(grid).Start()
         return pyvista.wrap(grid).plot(**{"scalars": "label", **arguments})
 
+    def picture(self, width=1200, height=900):
+        """Returns the :class:`Picture` (PNG) that ``mwmesh picture`` draws."""
+        return Picture(self._core.picture(whole(width, "width", 32), whole(height, "height", 32)))
+
     def _repr_png_(self):
         """Returns the picture that a notebook shows, unless it would take long."""
         most = 2_000_000
-        return self._core.picture(800, 600) if 0 < len(self.tets) <= most else None
+        return self.picture(800, 600) if 0 < len(self.tets) <= most else None
 
     def _wedge_cells(self):
         """Returns the rows of wedges, the tet under each, and its interface's number from 1 on."""

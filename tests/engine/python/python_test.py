@@ -139,7 +139,7 @@ class Documentation(unittest.TestCase):
         self.assertEqual(stubs["mesh"], {"volume", "progress", *place, *options("mesh")})
         self.assertEqual(stubs["verify"], {"self", "volume", *options("verify")})
         self.assertEqual(stubs["save"], {"self", "path", "values", *options("write")} - {"write_values"})
-        for function in (mwmesh.Mesh.surface, mwmesh.read, mwmesh.synth):
+        for function in (mwmesh.Mesh.surface, mwmesh.Mesh.picture, mwmesh.read, mwmesh.synth):
             self.assertEqual(stubs[function.__name__], {*inspect.signature(function).parameters})
         self.assertLessEqual({*inspect.signature(mwmesh.mesh_to_file).parameters} - {"arguments"},
                              stubs["mesh_to_file"])
@@ -818,6 +818,12 @@ class Seen(InFolder):
         self.program("picture", "m.vtu", "-o", "m.png", "--pixels", "800x600")
         with open(self.path("m.png"), "rb") as file:
             self.assertEqual(self.mesh._repr_png_(), file.read())
+        self.program("picture", "m.vtu", "-o", "m.png")
+        with open(self.path("m.png"), "rb") as file:
+            self.assertEqual(self.mesh.picture(), file.read())
+        for bad in ({"width": 15}, {"height": 10**30}, {"width": "x"}):
+            with self.assertRaisesRegex(mwmesh.UsageError, "pixels|width"):
+                self.mesh.picture(**bad)
         self.assertIsNone(mwmesh.Mesh([], np.zeros((0, 4), int), [])._repr_png_())
 
     @needs("vtkmodules")
