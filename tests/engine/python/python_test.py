@@ -1037,6 +1037,17 @@ class Runs(InFolder):
                 done = subprocess.run([sys.executable, "-c", script], capture_output=True, timeout=600)
                 self.assertEqual(done.returncode, 0, done.stderr)
 
+    def test_a_child_that_a_function_for_progress_forks_can_exit(self):
+        script = ("import mwmesh, os, sys\n"
+                  "def fork(*_):\n"
+                  "  child = os.fork()\n"
+                  "  if child == 0: sys.exit(3)\n"
+                  "  print(os.waitstatus_to_exitcode(os.waitpid(child, 0)[1]))\n"
+                  "mwmesh.mesh(mwmesh.synth('voronoi', (9, 9, 9), 3, 1), progress=fork)\n")
+        done = subprocess.run([sys.executable, "-c", script], capture_output=True, text=True,
+                              timeout=120)
+        self.assertEqual(set(done.stdout.split()), {"3"}, done.stderr)
+
     def test_resume(self):
         volume = grains((60, 60, 60), 40)
         options = {"window": 16, "workdir": self.path("work"), "threads": 1}
