@@ -26,57 +26,50 @@ Library plain_value(const Json& value) {
   return nullptr;
 }
 
-/// How a text is written: with lines for elements, indented by two, or without any space.
-struct Style {
-  bool indents = false;
-  bool ascii = false;
-};
-
-void append(const Json& value, Style style, std::size_t depth, std::string& out);
-
-void append_plain(const Json& value, Style style, std::string& out) {
-  out += plain_value(value).dump(-1, ' ', style.ascii, Library::error_handler_t::replace);
-}
-
-/// Appends what comes before an element that is not there yet, or before the end.
-void append_break(Style style, std::size_t depth, std::string& out) {
-  if (style.indents) out.append(1, '\n').append(2 * depth, ' ');
-}
-
-void append_field(const Json& element, Style style, std::size_t depth, std::string& out) {
-  append(element, style, depth, out);
-}
-
-void append_field(const Json::Field& field, Style style, std::size_t depth, std::string& out) {
-  append_plain(field.key, style, out);
-  out += style.indents ? ": " : ":";
-  append(field.value, style, depth, out);
-}
-
-template <class Rows>
-void append_rows(const Rows& rows, std::string_view brackets, Style style, std::size_t depth,
-                 std::string& out) {
-  out += brackets[0];
-  for (std::size_t i = 0; i < rows.size(); ++i) {
-    if (i > 0) out += ',';
-    append_break(style, depth + 1, out);
-    append_field(rows[i], style, depth + 1, out);
+/// Writes values, with lines for elements that are indented by two, or without any space.
+class Writer {
+ public:
+  Writer(bool indents, bool ascii) : indents_(indents), ascii_(ascii) {}
+  [[nodiscard]] std::string text(const Json& value) {
+    write(value, 0);
+    return std::move(out_);
   }
-  if (!rows.empty()) append_break(style, depth, out);
-  out += brackets[1];
-}
 
-void append(const Json& value, Style style, std::size_t depth, std::string& out) {
-  if (value.is_object()) return append_rows(value.items(), "{}", style, depth, out);
-  if (value.is_array()) return append_rows(value.elements(), "[]", style, depth, out);
-  append_plain(value, style, out);
-}
+ private:
+  void write(const Json& value, std::size_t depth) {
+    if (value.is_object()) {
+      write_rows(value.items(), "{}", depth, [&](const Json::Field& field) {
+        write(field.key, 0);
+        out_ += indents_ ? ": " : ":";
+        write(field.value, depth + 1);
+      });
+    } else if (value.is_array()) {
+      write_rows(value.elements(), "[]", depth,
+                 [&](const Json& element) { write(element, depth + 1); });
+    } else {
+      out_ += plain_value(value).dump(-1, ' ', ascii_, Library::error_handler_t::replace);
+    }
+  }
+  template <class Rows, class Write>
+  void write_rows(const Rows& rows, std::string_view brackets, std::size_t depth,
+                  const Write& write_row) {
+    out_ += brackets[0];
+    for (const auto& row : rows) {
+      if (&row != rows.data()) out_ += ',';
+      begin_line(depth + 1);
+      write_row(row);
+    }
+    if (!rows.empty()) begin_line(depth);
+    out_ += brackets[1];
+  }
+  void begin_line(std::size_t depth) {
+    if (indents_) out_.append(1, '\n').append(2 * depth, ' ');
+  }
 
-std::string text_of(const Json& value, Style style) {
-  std::string out;
-  append(value, style, 0, out);
-  return out;
-}
+  bool indents_;
+  bool ascii_;
+  std::string out_;
+};
 
 /// Returns the library's message without the name and number in front, "[json.exception...] ".
 std::string_view reason_of(const Library::exception& error) {
@@ -137,13 +130,15 @@ class Builder : public nlohmann::json_sax<Library> {
   bool close() {
     Json whole = std::move(open_.back());
     open_.pop_back();
-    return put(std::move(whole));
+    put(std::move(whole));
+    return true;
   }
   bool add(Json value) {
     check_depth();
-    return put(std::move(value));
+    put(std::move(value));
+    return true;
   }
-  bool put(Json value) {
+  void put(Json value) {
     if (open_.empty()) {
       value_ = std::move(value);
     } else if (open_.back().is_array()) {
@@ -152,7 +147,6 @@ class Builder : public nlohmann::json_sax<Library> {
       open_.back().items().push_back({std::move(keys_.back()), std::move(value)});
       keys_.pop_back();
     }
-    return true;
   }
 
   std::string_view file_;
@@ -260,15 +254,15 @@ void Json::erase(std::string_view key) {
 }
 
 std::string Json::dump() const {
-  return text_of(*this, {});
+  return Writer(false, false).text(*this);
 }
 
 std::string Json::dump_indented() const {
-  return text_of(*this, {.indents = true});
+  return Writer(true, false).text(*this);
 }
 
 std::string Json::dump_ascii() const {
-  return text_of(*this, {.ascii = true});
+  return Writer(false, true).text(*this);
 }
 
 Json parse_json(std::string_view text, std::string_view file) {
