@@ -1,15 +1,15 @@
 #!/usr/bin/env bash
 # SPDX-FileCopyrightText: The mwmesh authors
 # SPDX-License-Identifier: Apache-2.0
-# Tries the filter of mwmesh.paraview_plugin in ParaView, in a new Debian 12 that has ParaView and the
-# wheel of configs/package.sh, without a display: ParaView's package and the VTK of the other tests
-# exclude each other.  As root; needs debootstrap, the package mirror of this machine, and 3 GB; takes
-# about ten minutes.
+# Tries the filter of mwmesh.paraview_plugin in ParaView, in a new Debian that has ParaView and the
+# wheel of configs/package.sh: ParaView's package and the VTK of the other tests exclude each other.
+# As root; needs debootstrap, the package mirror of this machine and 3 GB; takes twenty minutes.
 #
-#   bash tests/paraview.sh [PICTURE]      PICTURE (.png) keeps what ParaView drew
+#   bash tests/paraview.sh [SYSTEM [PICTURE]]      default: bookworm; PICTURE.png: what ParaView drew
 set -euo pipefail
 
 root="$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)"
+release="${1:-bookworm}"
 folder="$(mktemp -d)"
 trap 'rm -rf --one-file-system "$folder"' EXIT
 system="$folder/system"
@@ -20,7 +20,14 @@ fail() {
 }
 
 mirror() {
-  apt-cache policy | sed -n 's/^ *[0-9]* \(http[^ ]*\) bookworm\/main.*/\1/p' | head -n 1
+  apt-cache policy | sed -n 's/^ *[0-9]* \(http[^ ]*\) [a-z]*\/main.*/\1/p' | head -n 1
+}
+
+try_in() { # COMMAND
+  DEBIAN_FRONTEND=noninteractive unshare --mount sh -c \
+    "mount -t proc proc '$system/proc' && exec chroot '$system' sh -c \"\$1\"" sh "cd /root && $1" \
+    >"$folder/log" 2>&1 ||
+    fail "$(tail -n 40 "$folder/log")"
 }
 
 if ((EUID != 0)) || ! command -v debootstrap >/dev/null; then
@@ -28,16 +35,14 @@ if ((EUID != 0)) || ! command -v debootstrap >/dev/null; then
   exit 77
 fi
 ls "$root"/build/packages/*manylinux*.whl >/dev/null 2>&1 || fail "no wheel; run configs/package.sh"
-debootstrap --variant=minbase --include=python3-numpy,python3-pip bookworm "$system" "$(mirror)" \
+debootstrap --variant=minbase --include=python3-numpy,python3-pip "$release" "$system" "$(mirror)" \
   >"$folder/log" 2>&1 || fail "debootstrap: $(tail -n 5 "$folder/log")"
 cp "$root"/build/packages/*manylinux*.whl "$root/tests/engine/python/paraview_test.py" "$system/root"
-try_in() {
-  DEBIAN_FRONTEND=noninteractive chroot "$system" sh -c "cd /root && $1" >"$folder/log" 2>&1 ||
-    fail "$(tail -n 40 "$folder/log")"
-}
-try_in 'apt-get install --yes --no-install-recommends python3-paraview'
+try_in 'apt-get install --yes --no-install-recommends python3-paraview xauth xvfb'
 try_in 'pip3 install --no-deps --break-system-packages ./*.whl'
-try_in 'pvpython --force-offscreen-rendering paraview_test.py picture.png'
+# A server that starts anew when ParaView closes its first window would lose the next one.
+try_in "xvfb-run -a -s '-noreset -screen 0 800x600x24' \
+  pvpython --force-offscreen-rendering paraview_test.py picture.png"
 ! grep -q skipped "$folder/log" || fail "$(grep skipped "$folder/log")"
-[[ -z "${1:-}" ]] || cp "$system/root/picture.png" "$1"
-echo "paraview: $(tail -n 1 "$folder/log")"
+[[ -z "${2:-}" ]] || cp "$system/root/picture.png" "$2"
+echo "paraview: $release: $(tail -n 1 "$folder/log")"
