@@ -6,7 +6,7 @@
 #include <sstream>
 
 #include "engine/store/journal/work_file.h"
-#include "engine/store/journal/workdir.h"
+#include "engine/store/journal/identity.h"
 #include "io/file/errors.h"
 
 namespace mw::engine {

@@ -26,7 +26,7 @@
 #include "engine/settings/number_text.h"
 #include "engine/settings/promises.h"
 #include "engine/settings/together.h"
-#include "engine/store/journal/workdir.h"
+#include "engine/store/journal/identity.h"
 #include "engine/system/crew.h"
 #include "engine/system/memory.h"
 #include "engine/verify/verify_mesh.h"

@@ -5,7 +5,7 @@
 #include "engine/run/processes.h"
 #include "engine/run/run.h"
 #include "engine/run/run_context.h"
-#include "engine/store/journal/workdir.h"
+#include "engine/store/journal/run_folder.h"
 
 namespace mw::engine {
 namespace {
@@ -58,7 +58,7 @@ class WholeRun : public RunPart {
   [[nodiscard]] std::exception_ptr fail(const std::exception_ptr& error) override { return error; }
   [[nodiscard]] bool keep_work(const RunStore& store) override {
     if (workdir_ == nullptr || !store.has_saved_work()) return false;
-    workdir_->keep();
+    workdir_->stay();
     return true;
   }
 

@@ -16,7 +16,7 @@
 #include "engine/labels/label_need.h"
 #include "engine/march/arrival_front.h"
 #include "engine/output/finish.h"
-#include "engine/store/journal/workdir.h"
+#include "engine/store/journal/run_folder.h"
 #include "engine/store/memory_budget.h"
 #include "engine/store/run_store.h"
 #include "engine/window/window_visitor.h"

@@ -8,7 +8,7 @@
 #include "engine/labels/label_scan.h"
 #include "engine/labels/periodic_labels.h"
 #include "engine/settings/promises.h"
-#include "engine/store/journal/workdir.h"
+#include "engine/store/journal/identity.h"
 #include "engine/system/crew.h"
 #include "engine/window/window_memory.h"
 #include "io/file/errors.h"

@@ -7,7 +7,7 @@
 #include <utility>
 
 #include "engine/store/journal/work_file.h"
-#include "engine/store/journal/workdir.h"
+#include "engine/store/journal/run_folder.h"
 #include "io/file/errors.h"
 #include "kernels/core/assert.h"
 #include "kernels/mesh/block_mesh.h"

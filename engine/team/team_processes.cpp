@@ -89,7 +89,7 @@ void TeamPart::take_up(RunStore& store) {
   }
   saved.for_each_block([&](const SavedBlock& block) {
     if (!traffic_.stays(block.version)) return;
-    store.receive(block.version, saved.read(block), block.memory_bytes);
+    store.receive(block.version, saved.read(block), block.place.memory_bytes);
     traffic_.committed({&block.version, 1});
   });
   epochs_->save_now();
@@ -144,7 +144,7 @@ std::exception_ptr TeamPart::fail(const std::exception_ptr& error) {
 
 bool TeamPart::keep_work(const RunStore& store) {
   if (!work_) return false;
-  if (store.has_saved_work()) work_->own().keep();
+  if (store.has_saved_work()) work_->own().stay();
   return work_->has_saved_work();
 }
 

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Sizes end to end: limits on edges, gradation and inner vertices of whole runs, all promises kept.
 #include "engine/labels/voxel_lattice.h"
-#include "engine/store/journal/workdir.h"
+#include "engine/store/journal/identity.h"
 #include "kernels/core/index.h"
 #include "kernels/core/lattice.h"
 #include "tests/engine/memory_run.h"

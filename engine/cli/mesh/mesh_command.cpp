@@ -16,7 +16,7 @@
 #include "engine/report/run_report.h"
 #include "engine/settings/promises.h"
 #include "engine/settings/size_text.h"
-#include "engine/store/journal/workdir.h"
+#include "engine/store/journal/run_folder.h"
 #include "engine/system/crew.h"
 #include "engine/system/memory.h"
 #include "io/file/errors.h"

@@ -6,8 +6,8 @@
 #include <utility>
 
 #include "engine/store/journal/mapped_file.h"
+#include "engine/store/journal/run_folder.h"
 #include "engine/store/journal/work_file.h"
-#include "engine/store/journal/workdir.h"
 #include "engine/store/table/block_table.h"
 
 namespace mw::engine {
@@ -77,19 +77,15 @@ void SavedRun::for_each_block(const std::function<void(const SavedBlock&)>& use)
   for (const auto& [slot, found] : blocks_) {
     const auto& [folder, block] = found;
     const BlockKey key = layout_.key(slot);
-    use({.version = {key, last_done_over(key)},
-         .memory_bytes = block.memory_bytes,
-         .folder = folder,
-         .extent = block.extent,
-         .sum = block.sum});
+    use({{key, last_done_over(key)}, folder, block});
   }
 }
 
 std::vector<std::byte> SavedRun::read(const SavedBlock& block) const {
   std::vector<std::byte> out;
-  files_[block.folder]->read(block.extent.offset, block.extent.size,
+  files_[block.folder]->read(block.place.extent.offset, block.place.extent.size,
                              [&](std::span<const std::byte> bytes) {
-                               if (bytes.size() >= 8 && sum_of(bytes) == block.sum) {
+                               if (bytes.size() >= 8 && sum_of(bytes) == block.place.sum) {
                                  out.assign(bytes.begin(), bytes.end());
                                }
                              });

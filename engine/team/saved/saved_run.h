@@ -16,10 +16,8 @@ namespace mw::engine {
 /// A block in the version of the last epoch.
 struct SavedBlock {
   BlockVersion version;
-  std::uint64_t memory_bytes = 0;  ///< the size of the decoded block
   std::size_t folder = 0;
-  Extent extent;
-  std::uint32_t sum = 0;
+  JournalBlock place;
 };
 
 /// Reads the journals of all processes up to the last epoch that counts.  Many processes may do so

@@ -6,22 +6,20 @@
 #include <filesystem>
 #include <optional>
 
-#include "engine/store/journal/workdir.h"
+#include "engine/store/journal/run_folder.h"
 #include "engine/team/team.h"
-#include "io/file/file_descriptor.h"
 
 namespace mw::engine {
 
-/// A folder that all ranks see, with
-///     lock                  held by the first rank (folder_lock.h)
-///     epochs                what counts: lines "name = value" of generation, ranks and epochs,
-///                           then the identity of the run
+/// A RunFolder of the first rank that all ranks see, with
+///     epochs                saved work, which is what counts: generation, ranks and epochs
 ///     gen-0002/rank-0007/   a Workdir of each rank
 /// A run that goes on from another one is its next generation, and may have any number of ranks.
 /// It copies the blocks that it needs, counts an epoch, and only then removes the one before.
 class TeamWork {
  public:
-  /// REQUIRES: all ranks make one with the same arguments.
+  /// REQUIRES: all ranks make one with the same arguments; one that fails tells the others
+  /// (Team::fail()).
   /// ERRORS: mw::Error(kUsage) in the cases of Workdir; kInput when the file `epochs` is damaged.
   TeamWork(Team& team, const std::filesystem::path& folder, bool resume,
            const std::string& identity);
@@ -50,18 +48,15 @@ class TeamWork {
     std::uint64_t generation = 0;
     std::uint64_t ranks = 0;
     std::uint64_t epochs = 0;
-    std::string identity;
   };
 
-  void lock_for_all();
-  [[nodiscard]] std::optional<State> read_state(const std::string& text) const;
+  void read_state(const std::string& text);
   [[nodiscard]] std::filesystem::path folder_of(std::uint64_t generation) const;
   [[nodiscard]] std::filesystem::path folder_of(std::uint64_t generation, std::uint64_t rank) const;
 
   Team& team_;
   std::filesystem::path folder_;
-  std::string identity_;
-  io::FileDescriptor lock_;
+  std::optional<RunFolder> shared_;  ///< on the first rank
   std::optional<State> before_;
   std::uint64_t generation_ = 1;
   std::uint64_t counted_ = 0;

@@ -87,6 +87,7 @@ TEST_F(KeptFactsTest, ShrinkToWhatIsAskedAndGiveUpWhatIsFarFromTheLastVisits) {
     std::filesystem::remove_all(folder() / "kept");
     {
       KeepFolder folder = open();
+      folder.settle("window = 8\n");
       KeptFacts facts(folder, layout, {.windows = 1 + below(random, 40)});
       add(facts, layout, all_windows(layout), 1);
       facts.finish();
@@ -141,6 +142,7 @@ TEST_F(KeptFactsTest, AreTakenOverFromOtherProcessesOnce) {
   add(facts, layout, shares[0], 1);
   for (int rank = 1; rank < 3; ++rank) {
     KeepFolder part(kept_part(folder.path(), rank), KeepUse::kGoOn);
+    part.settle("window = 8\n");
     KeptFacts of_part(part, layout, {});
     add(of_part, layout, shares[static_cast<std::size_t>(rank)], 1);
     of_part.finish();

@@ -6,7 +6,7 @@
 
 #include "engine/settings/number_text.h"
 #include "engine/settings/setting_table.h"
-#include "engine/store/journal/workdir.h"
+#include "engine/store/journal/identity.h"
 #include "kernels/core/error.h"
 #include "tests/engine/settings/setting_samples.h"
 

@@ -4,7 +4,7 @@
 #include <condition_variable>
 #include <thread>
 
-#include "engine/store/journal/workdir.h"
+#include "engine/store/journal/run_folder.h"
 #include "kernels/core/error.h"
 #include "tests/engine/store/fake_run.h"
 #include "tests/engine/store/work_folder.h"

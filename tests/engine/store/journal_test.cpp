@@ -3,7 +3,8 @@
 // Whole records come back, and the first that is not whole ends the journal.
 #include "engine/store/journal/journal.h"
 #include "engine/store/journal/folder_lock.h"
-#include "engine/store/journal/workdir.h"
+#include "engine/store/journal/identity.h"
+#include "engine/store/journal/run_folder.h"
 #include "kernels/core/error.h"
 #include "tests/engine/store/random_blocks.h"
 #include "tests/engine/store/volatile_files.h"
@@ -181,7 +182,7 @@ class WorkdirTest : public test::FolderTest {
   void leave_work() const {
     Workdir workdir(path(), false, kSettings);
     save_something(workdir);
-    workdir.keep();
+    workdir.stay();
   }
 };
 
@@ -320,7 +321,7 @@ TEST_F(WorkdirTest, GoesOnWithSettingsOfAnySize) {
   {
     Workdir workdir(path(), false, settings);
     Journal(workdir.open(kJournalFile)).append({});
-    workdir.keep();
+    workdir.stay();
   }
   EXPECT_TRUE(is_identity_of(path(), settings));
   EXPECT_FALSE(is_identity_of(path(), settings.substr(0, settings.size() - 1)));

@@ -4,7 +4,7 @@
 // order of windows, and both of its directions against each other.
 #include "engine/store/run_layout.h"
 
-#include "engine/store/journal/workdir.h"
+#include "engine/store/journal/identity.h"
 #include "tests/engine/store/layouts.h"
 #include "tests/testing.h"
 

@@ -22,8 +22,14 @@ TEST_F(TeamWorkTest, NeedsAFolderThatCanBeMade) {
   std::ofstream(folder() / "file") << "no folder";
   for (const fs::path& path : {folder() / "file", folder() / "file" / "work"}) {
     test::for_ranks({.ranks = 2}, [&](Team& team) {
-      expect_error(ErrorKind::kUsage, {path.string(), "is not a folder", "--workdir"},
-                   [&] { const TeamWork work(team, path, false, ""); });
+      expect_error(ErrorKind::kUsage, {path.string(), "is not a folder", "--workdir"}, [&] {
+        try {
+          const TeamWork work(team, path, false, "");
+        } catch (...) {
+          team.fail(std::current_exception());
+          throw;
+        }
+      });
     });
   }
 }

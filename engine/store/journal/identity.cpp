@@ -1,29 +1,18 @@
 // SPDX-FileCopyrightText: The mwmesh authors
 // SPDX-License-Identifier: Apache-2.0
-// Making, locking, checking and removing a work folder; settings as lines of text.
-#include "engine/store/journal/workdir.h"
-
-#include <sys/stat.h>
-#include <unistd.h>
+// Settings as lines "name = value".
+#include "engine/store/journal/identity.h"
 
 #include <algorithm>
 #include <array>
-#include <cerrno>
 #include <cmath>
 #include <fstream>
 #include <map>
 #include <optional>
 #include <sstream>
-#include <vector>
 
 #include "engine/settings/setting_table.h"
-#include "engine/store/journal/folder_lock.h"
-#include "engine/store/journal/journal.h"
-#include "engine/store/journal/mapped_file.h"
 #include "io/file/errors.h"
-#include "io/file/scratch/scratch_file.h"
-#include "io/file/sink/atomic_file.h"
-#include "io/file/sink/partial_file.h"
 #include "io/file/text_numbers.h"
 
 namespace mw::engine {
@@ -31,28 +20,10 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr const char* kSettingsFile = "settings.txt";
-// They are in the order of removal: a kill on the way leaves nothing that looks like saved work.
-constexpr std::array<const char*, 4> kFiles{kJournalFile, kBlocksFile, kSettingsFile, kLockFile};
-constexpr const char* kPartialSettings = ".settings.txt.partial-";  // left by a killed AtomicFile
-
 constexpr std::uintmax_t kMaxSettings = 16 << 20;  // those that are expected may have any size
 // Sizes of many labels make long lines; those that differ are shown in part.
 constexpr std::size_t kMaxShown = 120;
 constexpr std::size_t kMaxTold = 8;
-
-/// True for the name of a file that a kill in an unlucky instant leaves.
-bool is_left_over(const std::string& name) {
-  return name.starts_with(kPartialSettings) || name.starts_with(io::kScratchPrefix);
-}
-
-bool is_ours(const std::string& name) {
-  return is_left_over(name) || std::find(kFiles.begin(), kFiles.end(), name) != kFiles.end();
-}
-
-[[noreturn]] void refuse(const fs::path& path, const std::string& why) {
-  io::fail_usage(path.string() + ": " + why);
-}
 
 using Lines = std::map<std::string, std::string>;
 
@@ -81,19 +52,6 @@ std::string told_name(const std::string& name) {
   const bool is_setting =
       std::ranges::find(setting_table(), name, &Setting::name) != setting_table().end();
   return (is_setting ? "--" : "") + io::printable(name, kMaxShown);
-}
-
-/// True if the text has only characters that identity_text() and the program write.
-bool is_plain(const std::string& text) {
-  return std::all_of(text.begin(), text.end(),
-                     [](char c) { return c == '\n' || (c >= ' ' && c <= '~'); });
-}
-
-/// Removes the file if it is there.
-void clear_away(const fs::path& path) {
-  std::error_code error;
-  fs::remove(path, error);
-  if (error) io::fail_output(path.string(), "remove", error.value());
 }
 
 std::string triple(const std::array<double, 3>& v) {
@@ -157,32 +115,6 @@ std::string differences(const std::string& before, const std::string& now) {
   return out;
 }
 
-Workdir::Workdir(const fs::path& path, bool resume, const std::string& settings)
-    : path_(fs::absolute(path).lexically_normal()) {
-  if (!path_.has_filename()) path_ = path_.parent_path();
-  lock();
-  if (has_saved_work()) {
-    resumes_ = keep_ = true;
-    if (!resume) {
-      refuse(path_,
-             "holds the saved work of a run that did not end; add --resume to go on with "
-             "it, or delete the folder to start again; --force replaces outputs, not this work");
-    }
-    check_settings(settings);
-    return;
-  }
-  try {
-    start_afresh(settings);
-  } catch (...) {
-    remove_files();
-    throw;
-  }
-}
-
-Workdir::~Workdir() {
-  if (!keep_) remove_files();
-}
-
 std::optional<std::string> saved_value(const fs::path& path, const std::string& name) {
   return value_of(lines_of(settings_in(path / kSettingsFile)), name);
 }
@@ -223,85 +155,6 @@ io::VolumeSpace settled_space(const fs::path& path, const io::VolumeSpace& space
 
 bool is_identity_of(const fs::path& path, const std::string& settings) {
   return settings_in(path / kSettingsFile, settings) == settings;
-}
-
-void Workdir::make_folder() {
-  if (::mkdir(path_.c_str(), 0777) == 0) return;
-  if (errno != EEXIST) io::fail_output(path_.string(), "create the work folder", errno);
-  if (!fs::is_directory(path_)) refuse(path_, "is not a folder; give another --workdir");
-  refuse_files_of_others();
-}
-
-void Workdir::refuse_files_of_others() const {
-  // Another run may be about to make or to remove the folder, so it is looked at twice.
-  const bool was_of_runs = is_of_runs(path_);
-  std::error_code error;
-  const fs::directory_iterator entries(path_, error);
-  if (error) io::fail_output(path_.string(), "read the work folder", error.value());
-  std::vector<std::string> names;
-  for (const auto& entry : entries) names.push_back(entry.path().filename().string());
-  const bool may_be_ours = was_of_runs || is_of_runs(path_);
-  for (const std::string& name : names) {
-    if (may_be_ours && is_ours(name)) continue;
-    refuse(path_, "is no work folder of mwmesh: it holds " + name + "; give an empty or a new one");
-  }
-}
-
-void Workdir::lock() {
-  do {
-    make_folder();
-    std::optional<io::FileDescriptor> locked = lock_folder(path_);
-    if (!locked) {
-      refuse(path_, "another mwmesh is at work here; wait for it or give another --workdir");
-    }
-    lock_ = std::move(*locked);
-  } while (!lock_.valid());
-}
-
-bool Workdir::has_saved_work() {
-  if (!fs::exists(path_ / kJournalFile)) return false;
-  Journal journal(open(kJournalFile));
-  journal.replay([](const JournalRecord&) {});
-  return journal.records() > 0;
-}
-
-void Workdir::check_settings(const std::string& settings) const {
-  const std::string before = settings_in(path_ / kSettingsFile, settings);
-  if (before == settings) return;
-  const std::string different = differences(before, settings);
-  if (different.empty() || !is_plain(before)) {
-    refuse(path_, io::text("cannot go on, its ", kSettingsFile,
-                           " is damaged: delete the folder to start again"));
-  }
-  refuse(path_, "cannot go on, its work is that of another run: " + different +
-                    "; give the same input and settings, or delete the folder to start again");
-}
-
-void Workdir::start_afresh(const std::string& settings) {
-  clear_away(path_ / kJournalFile);
-  clear_away(path_ / kBlocksFile);
-  io::AtomicFile file(path_ / kSettingsFile);
-  file.append(settings);
-  file.commit();
-}
-
-void Workdir::remove_files() const {
-  std::error_code ignored;
-  for (const auto& entry : fs::directory_iterator(path_, ignored)) {
-    const std::string name = entry.path().filename().string();
-    if (is_left_over(name)) fs::remove(entry.path(), ignored);
-  }
-  for (const char* name : kFiles) {
-    fs::remove(path_ / name, ignored);
-    // A journal that a power cut brings back without the others would look like saved work, and any
-    // file without the lock like somebody else's.
-    if (name == kJournalFile || name == kSettingsFile) io::sync_folder(path_);
-  }
-  ::rmdir(path_.c_str());  // a link to the folder stays, as somebody else made it
-}
-
-std::unique_ptr<WorkFile> Workdir::open(const std::string& name) {
-  return std::make_unique<MappedFile>(path_ / name);
 }
 
 std::string identity_text(const io::VolumeInfo& volume, const MeshSettings& settings) {

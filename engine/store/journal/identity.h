@@ -1,64 +1,19 @@
 // SPDX-FileCopyrightText: The mwmesh authors
 // SPDX-License-Identifier: Apache-2.0
-// The work folder: whose it is, which run it belongs to, and whether it stays.
+// What the work of a run depends on, as lines of text, and how it differs from that of another run.
 #pragma once
 
 #include <filesystem>
 #include <optional>
 #include <string>
+#include <string_view>
 
 #include "engine/settings/settings.h"
-#include "engine/store/journal/work_file.h"
-#include "io/file/file_descriptor.h"
 #include "io/volume/label_volume.h"
 
 namespace mw::engine {
 
-inline constexpr const char* kBlocksFile = "blocks";
-inline constexpr const char* kJournalFile = "journal";
-
-/// A folder with
-///     lock          held by the process that works here (folder_lock.h)
-///     settings.txt  what the result depends on, a line each: "name = value"
-///     blocks        bytes of blocks, engine/store/codec/block_codec.h, where the journal says
-///     journal       engine/store/journal/journal.h
-/// and, while the run goes on, files without a name (PreparedLabels); nothing else.
-class Workdir : public WorkFiles {
- public:
-  /// Makes the folder, or takes over one whose run has ended.  `resume` allows to go on with work
-  /// saved there.  What a run that was killed early left without a record is removed silently.
-  /// ERRORS: mw::Error(kUsage) when saved work is there but resume is not set, or when it belongs
-  /// to other settings (each difference is named), when another process is at work here, when the
-  /// folder holds files of others, or cannot be made; kResource when a file cannot be written.
-  Workdir(const std::filesystem::path& path, bool resume, const std::string& settings);
-  /// Removes the folder unless keep() was called, or saved work was found and discard() not called.
-  ~Workdir() override;
-  Workdir(const Workdir&) = delete;
-  Workdir& operator=(const Workdir&) = delete;
-
-  [[nodiscard]] std::unique_ptr<WorkFile> open(const std::string& name) override;
-
-  /// True if saved work was found: the journal has records.
-  [[nodiscard]] bool resumes() const { return resumes_; }
-  /// Makes the folder stay, for a later run to go on from.
-  void keep() { keep_ = true; }
-  /// Makes the folder go, since the run is done.
-  void discard() { keep_ = false; }
-
- private:
-  void make_folder();
-  void refuse_files_of_others() const;
-  void lock();
-  [[nodiscard]] bool has_saved_work();
-  void check_settings(const std::string& settings) const;
-  void start_afresh(const std::string& settings);
-  void remove_files() const;
-
-  std::filesystem::path path_;
-  io::FileDescriptor lock_;
-  bool resumes_ = false;
-  bool keep_ = false;
-};
+inline constexpr const char* kSettingsFile = "settings.txt";
 
 /// Returns the text of a small file of a run.  A damaged file may have any size, so at most 16 MiB
 /// are read, or one byte more than the text that is expected, if that is more.
