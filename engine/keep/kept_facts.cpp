@@ -180,7 +180,8 @@ void KeptFacts::take_over(const std::filesystem::path& path, std::vector<std::ui
     save();
     part.discard();
   }
-  std::filesystem::remove(path);
+  std::error_code ignored;  // what stays holds no records, and the next run removes it
+  std::filesystem::remove(path, ignored);
 }
 
 /// Bytes that are given up leave gaps, not all of which can be filled, so it may take some rounds.
