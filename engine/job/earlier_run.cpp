@@ -5,8 +5,8 @@
 
 #include <sstream>
 
-#include "engine/store/journal/work_file.h"
 #include "engine/store/journal/identity.h"
+#include "engine/store/journal/work_file.h"
 #include "io/file/errors.h"
 
 namespace mw::engine {

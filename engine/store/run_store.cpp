@@ -6,8 +6,8 @@
 #include <algorithm>
 #include <utility>
 
-#include "engine/store/journal/work_file.h"
 #include "engine/store/journal/run_folder.h"
+#include "engine/store/journal/work_file.h"
 #include "io/file/errors.h"
 #include "kernels/core/assert.h"
 #include "kernels/mesh/block_mesh.h"

@@ -98,14 +98,15 @@ std::vector<fs::path> RunFolder::entries() const {
 }
 
 void RunFolder::make() {
-  is_made_ = ::mkdir(path_.c_str(), 0777) == 0;
+  const int error = ::mkdir(path_.c_str(), 0777) == 0 ? 0 : errno;
+  is_made_ = error == 0;
   if (is_made_) return;
   std::error_code ignored;
-  if (errno == ENOTDIR || (errno == EEXIST && !fs::is_directory(path_, ignored))) {
+  if (error == ENOTDIR || (error == EEXIST && !fs::is_directory(path_, ignored))) {
     refuse(io::text("is not a folder, or lies in what is none; give ", kind_.other));
   }
-  if (errno != EEXIST) {
-    io::fail_output(path_.string(), io::text("create the ", kind_.name), errno);
+  if (error != EEXIST) {
+    io::fail_output(path_.string(), io::text("create the ", kind_.name), error);
   }
   // Another run may be about to make or to remove the folder, so it is looked at twice.
   const bool was_of_runs = is_of_runs(path_);
