@@ -3,6 +3,7 @@
 // Rows of a mesh go into columns.
 #include "io/mesh/columns.h"
 
+#include "io/mesh/grouped/grouped_mesh.h"
 #include "kernels/core/assert.h"
 
 namespace mw::io {
@@ -121,6 +122,50 @@ RowPlace ColumnSink::finish_columns(std::string_view file) {
   MW_ASSERT(columns_.wedges() == header_.wedges.count);
   columns_.flush();
   return columns_.place();
+}
+
+namespace {
+
+void write_values_of(GroupedMesh& mesh, std::uint64_t tet, MeshSink& sink) {
+  std::vector<double> row(mesh.header().values.size());
+  for (std::size_t i = 0; i < row.size(); ++i) row[i] = mesh.value(tet, i);
+  sink.write_values(row);
+}
+
+void write_cells_of(GroupedMesh& mesh, Label rank, ColumnSink& sink) {
+  const RowRange range = mesh.label_tets()[rank];
+  for (std::uint64_t tet = range.begin; tet < range.end; ++tet) {
+    sink.write_cell(mesh.tet_nodes(tet), mesh.table().raw(rank));
+    write_values_of(mesh, tet, sink);
+  }
+}
+
+void write_wedges(GroupedMesh& mesh, ColumnSink& sink) {
+  std::uint64_t interface = 0;
+  for (const WedgeGroup& group : mesh.wedge_groups()) {
+    ++interface;
+    for (std::uint64_t w = group.wedges.begin; w < group.wedges.end; ++w) {
+      const Wedge wedge = mesh.wedge(w);
+      sink.write_wedge(mesh.wedge_nodes(wedge), mesh.table().raw(group.bottom), interface);
+      write_values_of(mesh, wedge.bottom_tet, sink);
+    }
+  }
+}
+
+}  // namespace
+
+void write_cells(GroupedMesh& mesh, ColumnSink& sink) {
+  MeshHeader header = mesh.header();
+  header.wedges.count = mesh.wedge_count();
+  for (const WedgeGroup& group : mesh.wedge_groups()) {
+    header.wedges.interfaces.push_back(
+        {mesh.table().raw(group.bottom), mesh.table().raw(group.top)});
+  }
+  sink.begin(header);
+  write_nodes(mesh, sink);
+  for (Label rank = 0; rank < mesh.table().size(); ++rank) write_cells_of(mesh, rank, sink);
+  write_wedges(mesh, sink);
+  sink.finish();
 }
 
 }  // namespace mw::io

@@ -121,13 +121,15 @@ class MeshColumns {
 };
 
 /// The common part of the sinks of such formats, which write rows into columns as they come.
-class ColumnSink : public CellSink {
+class ColumnSink : public MeshSink {
  public:
   void write_vertices(std::span<const Position> positions) override;
   void write_tets(std::span<const TetRows> tets, std::span<const RawLabel> labels) override;
-  void write_cell(std::span<const std::uint64_t> rows, RawLabel label) override;
-  void write_wedge(std::span<const std::uint64_t> rows, RawLabel bottom,
-                   std::uint64_t interface) override;
+  /// Takes the nodes of a tet, in the place of write_tets().
+  void write_cell(std::span<const std::uint64_t> rows, RawLabel label);
+  /// Takes the nodes of a wedge (NodeRows), the label under it, and the number of its interface
+  /// from 1 on.  REQUIRES: all tets were written; header.wedges tells of it.
+  void write_wedge(std::span<const std::uint64_t> rows, RawLabel bottom, std::uint64_t interface);
   void write_values(std::span<const double> rows) override { columns_.write_values(rows); }
 
  protected:
@@ -146,5 +148,9 @@ class ColumnSink : public CellSink {
   MeshHeader header_;
   MeshColumns columns_;
 };
+
+/// Writes a grouped mesh, from begin() to finish(), with wedges behind the tets.  A wedge has the
+/// values of the tet under it.
+void write_cells(GroupedMesh& mesh, ColumnSink& sink);
 
 }  // namespace mw::io

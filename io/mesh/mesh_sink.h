@@ -42,7 +42,7 @@ struct MeshHeader {
   LabelNames names;                   ///< names of the labels that are written
   MeshRecord record;                  ///< record of the run that made it
   std::vector<std::string> values{};  ///< names of numbers that each tet has: letters, digits, '_'
-  WedgeHeader wedges{};               ///< set by CellWriter alone (grouped/grouped_mesh.h)
+  WedgeHeader wedges{};               ///< set by write_cells() alone (columns.h)
   /// Set by readers alone: the file's tets are curved, and come as kTetParts
   /// (kernels/core/tet_nodes.h), the eight of each tet one after the other.
   bool in_parts = false;

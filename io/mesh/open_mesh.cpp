@@ -6,7 +6,6 @@
 #include <algorithm>
 #include <array>
 #include <functional>
-#include <type_traits>
 
 #include "io/file/errors.h"
 #include "io/file/source/inflated_source.h"
@@ -81,21 +80,19 @@ template <class Sink>
 std::unique_ptr<MeshSink> open_streamed(const std::filesystem::path& path, Element element,
                                         const MeshExtras& extras) {
   if (!has_middles(element) && !extras.wedges) return std::make_unique<Sink>(path);
-  auto writer = std::make_unique<CellWriter>(std::make_unique<Sink>(path, element));
-  return std::make_unique<GroupedSink>(path.parent_path(), std::move(writer), element);
+  const auto sink = std::make_shared<Sink>(path, element);
+  return std::make_unique<GroupedSink>(
+      path.parent_path(), [sink](GroupedMesh& mesh) { write_cells(mesh, *sink); }, element);
 }
 
-/// Opens a sink of a format that needs the whole mesh.
-template <class Writer>
+/// Opens the files of a format that needs the whole mesh, which kWrite writes into them.
+template <class Files, auto kWrite>
 std::unique_ptr<MeshSink> open_grouped(const std::filesystem::path& path, Element element,
                                        const MeshExtras& extras) {
-  std::unique_ptr<Writer> writer;
-  if constexpr (std::is_constructible_v<Writer, std::filesystem::path, MeshExtras>) {
-    writer = std::make_unique<Writer>(path, extras);
-  } else {
-    writer = std::make_unique<Writer>(path);
-  }
-  return std::make_unique<GroupedSink>(path.parent_path(), std::move(writer), element);
+  const auto files = std::make_shared<Files>(path, extras);
+  return std::make_unique<GroupedSink>(
+      path.parent_path(), [files](GroupedMesh& mesh) { std::invoke(kWrite, *files, mesh); },
+      element);
 }
 
 const std::array kFormats{
@@ -115,7 +112,7 @@ const std::array kFormats{
                .corners_alone = true},
     MeshFormat{.extension = ".msh",
                .read = &read_msh,
-               .open = &open_grouped<MshWriter>,
+               .open = &open_grouped<MshFiles, &write_msh>,
                .beside = {".msh.labels.csv"},
                .has_values = true,
                .wedges = WedgePlace::kSix,
@@ -123,33 +120,37 @@ const std::array kFormats{
                .takes_materials = true},
     MeshFormat{.extension = ".msh2",
                .read = &read_msh,
-               .open = &open_grouped<Msh2Writer>,
+               .open = &open_grouped<MshFiles, &write_msh2>,
                .beside = {".msh2.labels.csv"},
                .has_values = true,
                .wedges = WedgePlace::kSix,
                .takes_materials = true},
     MeshFormat{.extension = ".exo",
-               .open = &open_grouped<ExodusWriter>,
+               .open = &open_grouped<ExodusWriter, &ExodusWriter::write>,
                .beside = {".exo.labels.csv"},
                .has_values = true,
                .wedges = WedgePlace::kSix,
                .takes_materials = true},
-    MeshFormat{
-        .extension = ".bdf", .open = &open_grouped<BdfWriter>, .beside = {".bdf.labels.csv"}},
+    MeshFormat{.extension = ".bdf",
+               .open = &open_grouped<TabledFile, &write_bdf>,
+               .beside = {".bdf.labels.csv"}},
     MeshFormat{.extension = ".inp",
-               .open = &open_grouped<InpWriter>,
+               .open = &open_grouped<InpWriter, &InpWriter::write>,
                .wedges = WedgePlace::kSix,
                .takes_materials = true,
                .takes_deck = true},
     MeshFormat{.extension = ".xdmf",
-               .open = &open_grouped<XdmfWriter>,
+               .open = &open_grouped<XdmfWriter, &XdmfWriter::write>,
                .beside = {".h5", ".cells.xdmf", ".facets.csv", ".xdmf.labels.csv"},
                .has_values = true},
-    MeshFormat{.extension = ".k", .open = &open_grouped<LsdynaWriter>, .beside = {".k.labels.csv"}},
-    MeshFormat{
-        .extension = ".cdb", .open = &open_grouped<CdbWriter>, .beside = {".cdb.labels.csv"}},
+    MeshFormat{.extension = ".k",
+               .open = &open_grouped<TabledFile, &write_k>,
+               .beside = {".k.labels.csv"}},
+    MeshFormat{.extension = ".cdb",
+               .open = &open_grouped<TabledFile, &write_cdb>,
+               .beside = {".cdb.labels.csv"}},
     MeshFormat{.extension = ".feb",
-               .open = &open_grouped<FebioWriter>,
+               .open = &open_grouped<TabledFile, &write_feb>,
                .beside = {".feb.labels.csv"},
                .takes_deck = true},
     MeshFormat{.extension = kPiecesExtension, .read = &read_pvtu},
@@ -217,8 +218,8 @@ const MeshFormat& read_format(const std::filesystem::path& path) {
 /// Opens what writes a file, for a mesh with wedges or without.
 using OpenFile = std::function<std::unique_ptr<MeshSink>(bool has_wedges)>;
 
-/// Writes a file.  It settles what only the mesh's header tells: whether there are wedges, and
-/// whether the tets are parts of curved ones.
+/// Writes a file, and the pairs of nodes into one of their own.  It settles what only the mesh's
+/// header tells: whether there are wedges, and whether the tets are parts of curved ones.
 class FileSink : public MeshSink {
  public:
   struct File {
@@ -228,30 +229,51 @@ class FileSink : public MeshSink {
     OpenFile open;
   };
 
-  explicit FileSink(File file) : file_(std::move(file)), below_(file_.open(file_.extras.wedges)) {}
+  explicit FileSink(File file) : file_(std::move(file)) {
+    const std::filesystem::path& pairs = file_.extras.pairs;
+    if (!pairs.empty()) {
+      below_[1] =
+          std::make_unique<GroupedSink>(file_.path.parent_path(), open_pairs(pairs), file_.element);
+    }
+    below_[0] = file_.open(file_.extras.wedges);
+  }
 
   void begin(const MeshHeader& header) override {
     settle(header);
     MeshHeader written = header;
     if (splits(header) && written.record.promises) written.record.promises->quality_floor = 0;
-    below_->begin(written);
+    each([&](MeshSink& sink) { sink.begin(written); });
   }
   void write_vertices(std::span<const Position> positions) override {
-    below_->write_vertices(positions);
+    each([&](MeshSink& sink) { sink.write_vertices(positions); });
   }
   void write_tets(std::span<const TetRows> tets, std::span<const RawLabel> labels) override {
-    below_->write_tets(tets, labels);
+    each([&](MeshSink& sink) { sink.write_tets(tets, labels); });
   }
-  void write_values(std::span<const double> rows) override { below_->write_values(rows); }
-  void finish() override { below_->finish(); }
+  void write_values(std::span<const double> rows) override {
+    each([&](MeshSink& sink) { sink.write_values(rows); });
+  }
+  void finish() override {
+    each([&](MeshSink& sink) { sink.finish(); });
+  }
   void take(ScratchMesh& mesh, const std::function<void()>& between) override {
     if (splits(mesh.header())) return MeshSink::take(mesh, between);
     settle(mesh.header());
-    below_->take(mesh, between);
+    each([&](MeshSink& sink) { sink.take(mesh, between); });
   }
-  [[nodiscard]] std::uint64_t buffer_bytes() const override { return below_->buffer_bytes(); }
+  [[nodiscard]] std::uint64_t buffer_bytes() const override {
+    std::uint64_t out = 0;
+    each([&](const MeshSink& sink) { out += sink.buffer_bytes(); });
+    return out;
+  }
 
  private:
+  template <class Visit>
+  void each(Visit visit) const {
+    for (const auto& sink : below_) {
+      if (sink) visit(*sink);
+    }
+  }
   /// True if parts of curved tets are written as tets of their own, which do not hold the floor.
   [[nodiscard]] bool splits(const MeshHeader& header) const {
     return header.in_parts && file_.element != Element::kCurvedTet10;
@@ -261,51 +283,12 @@ class FileSink : public MeshSink {
     require_place_for_wedges(file_.path, file_.element);
     if (file_.extras.deck) refuse_wedges_in_deck(file_.path);
     if (file_.extras.wedges) return;
-    below_.reset();
-    below_ = file_.open(true);
+    below_[0].reset();
+    below_[0] = file_.open(true);
   }
 
   File file_;
-  std::unique_ptr<MeshSink> below_;
-};
-
-/// Writes a mesh and the pairs of its nodes.
-class PairedSink : public MeshSink {
- public:
-  PairedSink(std::unique_ptr<MeshSink> mesh, std::unique_ptr<MeshSink> pairs)
-      : mesh_(std::move(mesh)), pairs_(std::move(pairs)) {}
-
-  void begin(const MeshHeader& header) override {
-    mesh_->begin(header);
-    pairs_->begin(header);
-  }
-  void write_vertices(std::span<const Position> positions) override {
-    mesh_->write_vertices(positions);
-    pairs_->write_vertices(positions);
-  }
-  void write_tets(std::span<const TetRows> tets, std::span<const RawLabel> labels) override {
-    mesh_->write_tets(tets, labels);
-    pairs_->write_tets(tets, labels);
-  }
-  void write_values(std::span<const double> rows) override {
-    mesh_->write_values(rows);
-    pairs_->write_values(rows);
-  }
-  void finish() override {
-    mesh_->finish();
-    pairs_->finish();
-  }
-  void take(ScratchMesh& mesh, const std::function<void()>& between) override {
-    mesh_->take(mesh, between);
-    pairs_->take(mesh, between);
-  }
-  [[nodiscard]] std::uint64_t buffer_bytes() const override {
-    return mesh_->buffer_bytes() + pairs_->buffer_bytes();
-  }
-
- private:
-  std::unique_ptr<MeshSink> mesh_;
-  std::unique_ptr<MeshSink> pairs_;
+  std::array<std::unique_ptr<MeshSink>, 2> below_;  ///< of the mesh, and of pairs if there are any
 };
 
 }  // namespace
@@ -405,13 +388,6 @@ void copy_mesh(const std::filesystem::path& path, MeshSink& sink) {
 
 std::unique_ptr<MeshSink> open_mesh_sink(const std::filesystem::path& path, Element element,
                                          const MeshExtras& extras) {
-  if (!extras.pairs.empty()) {
-    auto pairs =
-        std::make_unique<GroupedSink>(path.parent_path(), open_pairs_writer(extras.pairs), element);
-    MeshExtras others = extras;
-    others.pairs.clear();
-    return std::make_unique<PairedSink>(open_mesh_sink(path, element, others), std::move(pairs));
-  }
   const MeshFormat& format = written_format(path);
   if (extras.encoding == Encoding::kText && !format.has_text) {
     fail_usage(path.string(), ": ", format.extension,

@@ -56,11 +56,10 @@ void check_jacobians(std::string_view file, const GroupedMesh& mesh) {
              "; mesh it with --spacing in a smaller unit, micrometres for instance");
 }
 
-}  // namespace
-
-class InpWriter::NumberRows {
+/// Writes numbers in rows of 16 to a line.
+class NumberRows {
  public:
-  explicit NumberRows(InpWriter& writer) : writer_(writer) {}
+  explicit NumberRows(AtomicFile& file) : file_(file) {}
 
   void add(std::uint64_t number) {
     constexpr std::size_t kMaxItems = 16;  // in a data line
@@ -68,16 +67,18 @@ class InpWriter::NumberRows {
     row_ += text(count_++ == 0 ? "" : ", ", number);
   }
   void end() {
-    if (count_ > 0) writer_.line(row_);
+    if (count_ > 0) file_.append_line(row_);
     row_.clear();
     count_ = 0;
   }
 
  private:
-  InpWriter& writer_;
+  AtomicFile& file_;
   std::string row_;
   std::size_t count_ = 0;
 };
+
+}  // namespace
 
 void InpWriter::write(GroupedMesh& mesh) {
   check_number(name_, std::max(mesh.node_count(), mesh.tet_count() + mesh.wedge_count()),
@@ -195,14 +196,14 @@ void InpWriter::write_surface(GroupedMesh& mesh, const std::string& name, RowRan
 void InpWriter::write_node_set(GroupedMesh& mesh, const std::string& name, RowRange facets,
                                bool of_second) {
   line("*NSET, NSET=", name);
-  NumberRows rows(*this);
+  NumberRows rows(file_);
   const auto add = [&](std::uint64_t row) { rows.add(row + 1); };
   for_each_facet_node(mesh, facets, add, of_second);
   rows.end();
 }
 
 void InpWriter::write_materials() {
-  NumberRows rows(*this);
+  NumberRows rows(file_);
   std::uint32_t last = 0;
   materials_->for_each([&](std::uint32_t material, std::uint64_t tet) {
     if (material != last) {
@@ -263,7 +264,7 @@ void InpWriter::write_material_sections(GroupedMesh& mesh) {
   }
   if (in_sets == mesh.tet_count()) return;
   line("*ELSET, ELSET=", rest_set());
-  NumberRows rows(*this);
+  NumberRows rows(file_);
   for (std::uint64_t t = 0; t < mesh.tet_count(); ++t) {
     if (materials_->material_of(t) == 0) rows.add(t + 1);
   }
@@ -274,7 +275,7 @@ void InpWriter::write_material_sections(GroupedMesh& mesh) {
 template <class Where>
 void InpWriter::write_nodes_where(GroupedMesh& mesh, const std::string& name, Where where) {
   line("*NSET, NSET=", name);
-  NumberRows rows(*this);
+  NumberRows rows(file_);
   for (std::uint64_t row = 0; row < mesh.node_count(); ++row) {
     if (where(mesh.node(row))) rows.add(row + 1);
   }

@@ -31,14 +31,15 @@ namespace mw::io {
 /// the elements in none, and one static step (MeshExtras::deck).
 /// Memory: 9 MiB.  ERRORS: see AtomicFile; mw::Error(kUsage) above 999,999,999 nodes or elements,
 /// which is all that Abaqus has numbers for, and of a deck with tets too small for CalculiX.
-class InpWriter : public GroupedWriter {
+class InpWriter {
  public:
-  explicit InpWriter(const std::filesystem::path& path, const MeshExtras& extras = {})
+  explicit InpWriter(const std::filesystem::path& path, const MeshExtras& extras)
       : name_(path.string()), file_(path), rule_(extras.materials), has_deck_(extras.deck) {
     if (rule_) table_.emplace(material_table_path(path));
   }
 
-  void write(GroupedMesh& mesh) override;
+  /// Writes the mesh and commits the files.  Called once.
+  void write(GroupedMesh& mesh);
 
  private:
   [[nodiscard]] std::vector<std::string> names_of_others() const;
@@ -56,8 +57,6 @@ class InpWriter : public GroupedWriter {
   void write_material_sections(GroupedMesh& mesh);
   template <class Where>
   void write_nodes_where(GroupedMesh& mesh, const std::string& name, Where where);
-  /// Writes numbers in rows of 16 to a line.
-  class NumberRows;
   void write_node_set(GroupedMesh& mesh, const std::string& name, RowRange facets, bool of_second);
   void line(std::string_view line, std::string_view more = {}) { file_.append_line(line, more); }
 

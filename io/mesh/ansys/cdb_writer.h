@@ -19,31 +19,6 @@ namespace mw::io {
 /// F_FACE_1_2 with normals out of label 1, and F_FACE_2_1 the other way.  Nodes and elements count
 /// from 1, tets first. Memory: 9 MiB.  ERRORS: see AtomicFile; mw::Error(kUsage) above 99,999,999
 /// nodes or elements, since fields have nine columns and one stays blank.
-class CdbWriter : public TabledWriter {
- public:
-  using TabledWriter::TabledWriter;
-
-  void write(GroupedMesh& mesh) override;
-
- private:
-  /// The triangles of one component.
-  struct Faces {
-    std::string name;
-    RowRange facets;
-    bool of_second = false;
-  };
-
-  template <class Visit>
-  static void for_each_faces(const GroupedMesh& mesh, const PlainNames& names, Visit visit);
-  void write_head(const GroupedMesh& mesh);
-  void write_nodes(GroupedMesh& mesh);
-  void write_tets(GroupedMesh& mesh, RowRange tets, std::uint64_t material);
-  void write_faces(GroupedMesh& mesh, const Faces& faces, std::uint64_t first);
-  void write_element(std::uint64_t material, std::uint64_t type, std::uint64_t number,
-                     const NodeRows& nodes);
-  /// Writes a component of elements.  REQUIRES: there is at least one.
-  void write_element_set(const std::string& name, const std::vector<RowRange>& ranges);
-  void write_node_set(GroupedMesh& mesh, const std::string& name, RowRange facets, bool of_second);
-};
+void write_cdb(TabledFile& file, GroupedMesh& mesh);
 
 }  // namespace mw::io

@@ -28,14 +28,15 @@ namespace mw::io {
 /// Masks (MASK_liver) and materials are element sets; materials without elements are left out.
 /// Memory: 26 MiB.
 /// ERRORS: see NetcdfOutput; mw::Error(kUsage) above 2,147,483,647 nodes or elements.
-class ExodusWriter : public GroupedWriter {
+class ExodusWriter {
  public:
-  explicit ExodusWriter(const std::filesystem::path& path, const MeshExtras& extras = {})
+  explicit ExodusWriter(const std::filesystem::path& path, const MeshExtras& extras)
       : name_(path.string()), out_(path), labels_(label_table_path(path)), rule_(extras.materials) {
     if (rule_) table_.emplace(material_table_path(path));
   }
 
-  void write(GroupedMesh& mesh) override;
+  /// Writes the mesh and commits the files.  Called once.
+  void write(GroupedMesh& mesh);
 
  private:
   /// Facets as one of their labels has them, or the nodes of these.

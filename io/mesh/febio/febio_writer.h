@@ -23,25 +23,6 @@ namespace mw::io {
 ///   Boundary, Step, LoadData, Output   only with a deck (MeshExtras::deck): a static step of ten
 ///                increments; where the mesh does not reach both sides there are node sets, too
 /// Parts and surfaces have the names of group_names.h, with _2 and so on behind taken ones.
-class FebioWriter : public TabledWriter {
- public:
-  explicit FebioWriter(const std::filesystem::path& path, const MeshExtras& extras = {})
-      : TabledWriter(path), has_deck_(extras.deck) {}
-  void write(GroupedMesh& mesh) override;
-
- private:
-  void write_materials(const std::vector<std::string>& parts, const LabelNumbers& numbers);
-  void write_nodes(GroupedMesh& mesh);
-  void write_part(GroupedMesh& mesh, RowRange tets, const std::string& name);
-  void write_masks(const GroupedMesh& mesh);
-  void write_surfaces(GroupedMesh& mesh);
-  /// REQUIRES: name is escaped.
-  void write_surface(GroupedMesh& mesh, RowRange facets, const std::string& name, bool is_turned);
-  void write_domains(const std::vector<std::string>& parts);
-  void write_node_sets(GroupedMesh& mesh, const DeckEnds& ends);
-  void write_job(const DeckEnds& ends);
-
-  bool has_deck_;
-};
+void write_feb(TabledFile& file, GroupedMesh& mesh);
 
 }  // namespace mw::io

@@ -21,7 +21,7 @@ namespace mw::io {
 /// first physical group of a tet's volume, or the volume's tag where it is in none, gives the
 /// label: the number itself, or what the table beside the file has for it (append_label_table).
 /// Without a table, names are those of physical volumes.  The record is that of a comment, where
-/// MshWriter has left one; the wedges follow from it.  Values are those of sections ElementData
+/// write_msh() has left one; the wedges follow from it.  Values are those of sections ElementData
 /// with one component, under the names of their views (value_names()).  ERRORS: mw::Error(kInput)
 /// with file and place; also for other versions, partitioned meshes, and elements of which none is
 /// a tet.
@@ -42,62 +42,11 @@ namespace mw::io {
 /// "hu_material" for values "hu", 0 where there is no value.  The tables of labels and of materials
 /// are written beside the mesh.  Entities may be in several pieces, which Gmsh's createTopology()
 /// parts, forgetting their groups; createTopology(False) keeps them.
-class MshWriter : public GroupedWriter {
- public:
-  explicit MshWriter(const std::filesystem::path& path, const MeshExtras& extras = {})
-      : out_(path, extras.encoding == Encoding::kText), tables_(path, extras.materials) {}
+void write_msh(MshFiles& files, GroupedMesh& mesh);
 
-  void write(GroupedMesh& mesh) override;
-
- private:
-  /// The contents of the mesh that all sections need.
-  struct Contents {
-    GroupedMesh& mesh;
-    LabelNumbers numbers;
-    NodeClasses classes;
-  };
-  /// The numbers by which Gmsh knows an entity.
-  struct Tag {
-    std::int32_t dimension = 0;
-    std::int32_t tag = 0;
-  };
-
-  static Tag tag_of(const Contents& contents, std::size_t entity);
-  void write_format();
-  void write_entities(Contents& contents);
-  void put_volumes(Contents& contents);
-  void put_entity(Contents& contents, std::size_t entity,
-                  const std::vector<std::int32_t>& physical);
-  void write_nodes(Contents& contents);
-  void put_nodes(Contents& contents, std::size_t entity);
-  void write_elements(const Contents& contents);
-  void put_facets(GroupedMesh& mesh, RowRange facets);
-  void put_tets(GroupedMesh& mesh, RowRange tets);
-  void put_wedges(const Contents& contents, std::size_t entity);
-
-  MshEncoder out_;
-  MshTables tables_;
-};
-
-/// Writes the groups, names, numbers and tables of MshWriter in version 2.2, as text, for programs
-/// that read no later one (GetFEM); Gmsh's own ending for it is .msh2.  Elements are triangles,
-/// then tets, then wedges.
-class Msh2Writer : public GroupedWriter {
- public:
-  explicit Msh2Writer(const std::filesystem::path& path, const MeshExtras& extras = {})
-      : out_(path, true), tables_(path, extras.materials) {}
-
-  void write(GroupedMesh& mesh) override;
-
- private:
-  void write_nodes(GroupedMesh& mesh);
-  void write_elements(GroupedMesh& mesh, const LabelNumbers& numbers);
-  /// physical and entity are the numbers of the element's groups; nodes are in Gmsh's order.
-  void write_element(std::uint64_t number, std::int32_t type, std::int64_t physical,
-                     std::int64_t entity, const NodeRows& nodes);
-
-  MshEncoder out_;
-  MshTables tables_;
-};
+/// Writes the groups, names, numbers and tables of write_msh() in version 2.2, as text, for
+/// programs that read no later one (GetFEM); Gmsh's own ending for it is .msh2.  Elements are
+/// triangles, then tets, then wedges.
+void write_msh2(MshFiles& files, GroupedMesh& mesh);
 
 }  // namespace mw::io

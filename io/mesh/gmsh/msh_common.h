@@ -16,6 +16,7 @@
 #include "io/mesh/grouped/grouped_mesh.h"
 #include "io/mesh/grouped/label_numbers.h"
 #include "io/mesh/grouped/material_sets.h"
+#include "io/mesh/mesh_extras.h"
 
 namespace mw::io {
 
@@ -89,7 +90,7 @@ inline constexpr std::string_view kMshRecord = "mwmesh ";
 /// or masks, which could not be found again without it.
 void write_record(MshEncoder& out, const GroupedMesh& mesh);
 
-/// Writes the section of the names of all physical surfaces and volumes (see MshWriter), those of
+/// Writes the section of the names of all physical surfaces and volumes (see write_msh()), those of
 /// masks only where an element may have several.
 void write_physical_names(MshEncoder& out, const GroupedMesh& mesh, const LabelNumbers& labels,
                           bool has_masks);
@@ -106,6 +107,16 @@ class MshTables {
   AtomicFile labels_;
   std::optional<MaterialRule> rule_;
   std::optional<AtomicFile> materials_;
+};
+
+/// A mesh that is written, and the files beside it.
+struct MshFiles {
+  MshFiles(const std::filesystem::path& path, const MeshExtras& extras)
+      : out(path, extras.encoding == Encoding::kText || path.extension() == ".msh2"),
+        tables(path, extras.materials) {}
+
+  MshEncoder out;
+  MshTables tables;
 };
 
 /// ERRORS: mw::Error(kUsage) naming the file where this many elements cannot have values, because

@@ -40,24 +40,20 @@ void for_each_boundary(const GroupedMesh& mesh, const LabelNumbers& labels, Visi
   visit_up_to(mesh.table().size());
 }
 
-}  // namespace
+/// The contents of the mesh that all sections need.
+struct Contents {
+  GroupedMesh& mesh;
+  LabelNumbers numbers;
+  NodeClasses classes;
+};
 
-void MshWriter::write(GroupedMesh& mesh) {
-  if (!mesh.header().values.empty()) {
-    check_element_data(out_, mesh.facet_count() + mesh.tet_count() + mesh.wedge_count());
-  }
-  Contents contents{mesh, msh_numbers(mesh), NodeClasses(mesh)};
-  write_format();
-  write_record(out_, mesh);
-  write_physical_names(out_, mesh, contents.numbers, true);
-  write_entities(contents);
-  write_nodes(contents);
-  write_elements(contents);
-  write_element_data(out_, mesh);
-  tables_.write_with(out_, mesh, contents.numbers);
-}
+/// The numbers by which Gmsh knows an entity.
+struct Tag {
+  std::int32_t dimension = 0;
+  std::int32_t tag = 0;
+};
 
-MshWriter::Tag MshWriter::tag_of(const Contents& contents, std::size_t entity) {
+Tag tag_of(const Contents& contents, std::size_t entity) {
   const std::size_t groups = contents.mesh.facet_groups().size();
   const std::size_t labels = contents.mesh.table().size();
   if (entity < groups) return {kMshSurface, surface_tag(contents.numbers, entity)};
@@ -69,37 +65,30 @@ MshWriter::Tag MshWriter::tag_of(const Contents& contents, std::size_t entity) {
   return {kMshVolume, static_cast<std::int32_t>(contents.numbers[rank])};
 }
 
-void MshWriter::write_format() {
-  out_.begin_section("MeshFormat");
-  out_.add_line(out_.ascii() ? "4.1 0 8" : "4.1 1 8");
-  if (out_.ascii()) {
-    out_.add_line("$EndMeshFormat");
+void write_format(MshEncoder& out) {
+  out.begin_section("MeshFormat");
+  out.add_line(out.ascii() ? "4.1 0 8" : "4.1 1 8");
+  if (out.ascii()) {
+    out.add_line("$EndMeshFormat");
     return;
   }
-  out_.put(std::int32_t{1});  // tells the byte order
-  out_.end_row();
-  out_.end_section("MeshFormat");
+  out.put(std::int32_t{1});  // tells the byte order
+  out.end_row();
+  out.end_section("MeshFormat");
 }
 
-void MshWriter::write_entities(Contents& contents) {
-  GroupedMesh& mesh = contents.mesh;
-  const FacetGroups& groups = mesh.facet_groups();
-  out_.begin_section("Entities");
-  for (const std::uint64_t count : {std::uint64_t{0}, std::uint64_t{0}, groups.size(),
-                                    mesh.table().size() + mesh.wedge_groups().size()}) {
-    out_.put(count);
-  }
-  out_.end_row();
-  for (std::size_t g = 0; g < groups.size(); ++g) {
-    put_entity(contents, g, {physical_surface(contents.numbers, groups[g], g)});
-    out_.put(std::uint64_t{0});  // no curves
-    out_.end_row();
-  }
-  put_volumes(contents);
-  out_.end_section("Entities");
+/// Puts the tag, box and physical groups of an entity; what bounds it comes behind.
+void put_entity(MshEncoder& out, Contents& contents, std::size_t entity,
+                const std::vector<std::int32_t>& physical) {
+  out.put(tag_of(contents, entity).tag);
+  const EntityBox box = contents.classes.box(entity);
+  for (const double x : box.lo) out.put(x);
+  for (const double x : box.hi) out.put(x);
+  out.put(std::uint64_t{physical.size()});
+  for (const std::int32_t group : physical) out.put(group);
 }
 
-void MshWriter::put_volumes(Contents& contents) {
+void put_volumes(MshEncoder& out, Contents& contents) {
   const GroupedMesh& mesh = contents.mesh;
   std::size_t entity = mesh.facet_groups().size();
   const std::vector<std::vector<std::int32_t>> masks = mask_volumes(contents.numbers, mesh);
@@ -108,129 +97,154 @@ void MshWriter::put_volumes(Contents& contents) {
     // Readers that know one physical group take the first, which is the label's.
     std::vector<std::int32_t> physical{tag_of(contents, entity).tag};
     physical.insert(physical.end(), masks[rank].begin(), masks[rank].end());
-    put_entity(contents, entity, physical);
+    put_entity(out, contents, entity, physical);
     ++entity;
     ++rank;
-    out_.put(std::uint64_t{surfaces.size()});
-    for (const std::int32_t tag : surfaces) out_.put(tag);
-    out_.end_row();
+    out.put(std::uint64_t{surfaces.size()});
+    for (const std::int32_t tag : surfaces) out.put(tag);
+    out.end_row();
   });
   for (std::size_t g = 0; g < mesh.wedge_groups().size(); ++g, ++entity) {
-    put_entity(contents, entity, {tag_of(contents, entity).tag});
-    out_.put(std::uint64_t{0});  // no surfaces
-    out_.end_row();
+    put_entity(out, contents, entity, {tag_of(contents, entity).tag});
+    out.put(std::uint64_t{0});  // no surfaces
+    out.end_row();
   }
 }
 
-/// Puts the tag, box and physical groups of an entity; what bounds it comes behind.
-void MshWriter::put_entity(Contents& contents, std::size_t entity,
-                           const std::vector<std::int32_t>& physical) {
-  out_.put(tag_of(contents, entity).tag);
-  const EntityBox box = contents.classes.box(entity);
-  for (const double x : box.lo) out_.put(x);
-  for (const double x : box.hi) out_.put(x);
-  out_.put(std::uint64_t{physical.size()});
-  for (const std::int32_t group : physical) out_.put(group);
+void write_entities(MshEncoder& out, Contents& contents) {
+  GroupedMesh& mesh = contents.mesh;
+  const FacetGroups& groups = mesh.facet_groups();
+  out.begin_section("Entities");
+  for (const std::uint64_t count : {std::uint64_t{0}, std::uint64_t{0}, groups.size(),
+                                    mesh.table().size() + mesh.wedge_groups().size()}) {
+    out.put(count);
+  }
+  out.end_row();
+  for (std::size_t g = 0; g < groups.size(); ++g) {
+    put_entity(out, contents, g, {physical_surface(contents.numbers, groups[g], g)});
+    out.put(std::uint64_t{0});  // no curves
+    out.end_row();
+  }
+  put_volumes(out, contents);
+  out.end_section("Entities");
 }
 
-void MshWriter::write_nodes(Contents& contents) {
+void put_nodes(MshEncoder& out, Contents& contents, std::size_t entity) {
+  const auto [dimension, tag] = tag_of(contents, entity);
+  const RowRange positions = contents.classes.nodes(entity);
+  for (const std::int32_t number : {dimension, tag, 0}) out.put(number);  // 0: not parametric
+  out.put(positions.size());
+  out.end_row();
+  for (std::uint64_t i = positions.begin; i < positions.end; ++i) {
+    out.put(contents.classes.row(i) + 1);
+    out.end_row();
+  }
+  for (std::uint64_t i = positions.begin; i < positions.end; ++i) {
+    for (const double x : contents.mesh.node(contents.classes.row(i))) out.put(x);
+    out.end_row();
+  }
+}
+
+void write_nodes(MshEncoder& out, Contents& contents) {
   std::uint64_t blocks = 0;
   for (std::size_t e = 0; e < contents.classes.entities(); ++e) {
     if (contents.classes.nodes(e).size() > 0) ++blocks;
   }
   const std::uint64_t nodes = contents.mesh.node_count();
-  out_.begin_section("Nodes");
+  out.begin_section("Nodes");
   for (const std::uint64_t count : {blocks, nodes, std::min<std::uint64_t>(nodes, 1), nodes}) {
-    out_.put(count);
+    out.put(count);
   }
-  out_.end_row();
+  out.end_row();
   for (std::size_t e = 0; e < contents.classes.entities(); ++e) {
-    if (contents.classes.nodes(e).size() > 0) put_nodes(contents, e);
+    if (contents.classes.nodes(e).size() > 0) put_nodes(out, contents, e);
   }
-  out_.end_section("Nodes");
+  out.end_section("Nodes");
 }
 
-void MshWriter::put_nodes(Contents& contents, std::size_t entity) {
+void put_facets(MshEncoder& out, GroupedMesh& mesh, RowRange facets) {
+  for (std::uint64_t f = facets.begin; f < facets.end; ++f) {
+    out.put(f + 1);
+    for (const std::uint64_t row : mesh.facet_nodes(mesh.facet(f))) out.put(row + 1);
+    out.end_row();
+  }
+}
+
+void put_wedges(MshEncoder& out, const Contents& contents, std::size_t entity) {
+  GroupedMesh& mesh = contents.mesh;
+  const std::size_t behind_tets = mesh.facet_groups().size() + mesh.table().size();
+  const RowRange wedges = mesh.wedge_groups()[entity - behind_tets].wedges;
   const auto [dimension, tag] = tag_of(contents, entity);
-  const RowRange positions = contents.classes.nodes(entity);
-  for (const std::int32_t number : {dimension, tag, 0}) out_.put(number);  // 0: not parametric
-  out_.put(positions.size());
-  out_.end_row();
-  for (std::uint64_t i = positions.begin; i < positions.end; ++i) {
-    out_.put(contents.classes.row(i) + 1);
-    out_.end_row();
-  }
-  for (std::uint64_t i = positions.begin; i < positions.end; ++i) {
-    for (const double x : contents.mesh.node(contents.classes.row(i))) out_.put(x);
-    out_.end_row();
+  for (const std::int32_t number : {dimension, tag, kMshPrism6}) out.put(number);
+  out.put(wedges.size());
+  out.end_row();
+  for (std::uint64_t w = wedges.begin; w < wedges.end; ++w) {
+    out.put(mesh.facet_count() + mesh.tet_count() + w + 1);
+    for (const std::uint64_t row : mesh.wedge_nodes(mesh.wedge(w))) out.put(row + 1);
+    out.end_row();
   }
 }
 
-void MshWriter::write_elements(const Contents& contents) {
+void put_tets(MshEncoder& out, GroupedMesh& mesh, RowRange tets) {
+  for (std::uint64_t t = tets.begin; t < tets.end; ++t) {
+    out.put(mesh.facet_count() + t + 1);
+    const NodeRows nodes = mesh.tet_nodes(t);
+    for (std::size_t i = 0; i < nodes.size(); ++i) {
+      out.put(nodes.begin()[kMshTetOrder[i]] + 1);
+    }
+    out.end_row();
+  }
+}
+
+void write_elements(MshEncoder& out, const Contents& contents) {
   GroupedMesh& mesh = contents.mesh;
   const bool quadratic = has_middles(mesh.element());
   const std::size_t groups = mesh.facet_groups().size();
   const std::size_t behind_tets = groups + mesh.table().size();
   const std::size_t blocks = behind_tets + mesh.wedge_groups().size();
   const std::uint64_t elements = mesh.facet_count() + mesh.tet_count() + mesh.wedge_count();
-  out_.begin_section("Elements");
+  out.begin_section("Elements");
   for (const std::uint64_t count :
        {std::uint64_t{blocks}, elements, std::min<std::uint64_t>(elements, 1), elements}) {
-    out_.put(count);
+    out.put(count);
   }
-  out_.end_row();
+  out.end_row();
   for (std::size_t e = 0; e < behind_tets; ++e) {
     const auto [dimension, tag] = tag_of(contents, e);
     const bool is_surface = e < groups;
     const RowRange range =
         is_surface ? mesh.facet_groups()[e].facets : mesh.label_tets()[e - groups];
-    out_.put(dimension);
-    out_.put(tag);
+    out.put(dimension);
+    out.put(tag);
     if (is_surface) {
-      out_.put(quadratic ? kMshTriangle6 : kMshTriangle3);
+      out.put(quadratic ? kMshTriangle6 : kMshTriangle3);
     } else {
-      out_.put(quadratic ? kMshTet10 : kMshTet4);
+      out.put(quadratic ? kMshTet10 : kMshTet4);
     }
-    out_.put(range.size());
-    out_.end_row();
-    is_surface ? put_facets(mesh, range) : put_tets(mesh, range);
+    out.put(range.size());
+    out.end_row();
+    is_surface ? put_facets(out, mesh, range) : put_tets(out, mesh, range);
   }
-  for (std::size_t e = behind_tets; e < blocks; ++e) put_wedges(contents, e);
-  out_.end_section("Elements");
+  for (std::size_t e = behind_tets; e < blocks; ++e) put_wedges(out, contents, e);
+  out.end_section("Elements");
 }
 
-void MshWriter::put_facets(GroupedMesh& mesh, RowRange facets) {
-  for (std::uint64_t f = facets.begin; f < facets.end; ++f) {
-    out_.put(f + 1);
-    for (const std::uint64_t row : mesh.facet_nodes(mesh.facet(f))) out_.put(row + 1);
-    out_.end_row();
-  }
-}
+}  // namespace
 
-void MshWriter::put_wedges(const Contents& contents, std::size_t entity) {
-  GroupedMesh& mesh = contents.mesh;
-  const std::size_t behind_tets = mesh.facet_groups().size() + mesh.table().size();
-  const RowRange wedges = mesh.wedge_groups()[entity - behind_tets].wedges;
-  const auto [dimension, tag] = tag_of(contents, entity);
-  for (const std::int32_t number : {dimension, tag, kMshPrism6}) out_.put(number);
-  out_.put(wedges.size());
-  out_.end_row();
-  for (std::uint64_t w = wedges.begin; w < wedges.end; ++w) {
-    out_.put(mesh.facet_count() + mesh.tet_count() + w + 1);
-    for (const std::uint64_t row : mesh.wedge_nodes(mesh.wedge(w))) out_.put(row + 1);
-    out_.end_row();
+void write_msh(MshFiles& files, GroupedMesh& mesh) {
+  MshEncoder& out = files.out;
+  if (!mesh.header().values.empty()) {
+    check_element_data(out, mesh.facet_count() + mesh.tet_count() + mesh.wedge_count());
   }
-}
-
-void MshWriter::put_tets(GroupedMesh& mesh, RowRange tets) {
-  for (std::uint64_t t = tets.begin; t < tets.end; ++t) {
-    out_.put(mesh.facet_count() + t + 1);
-    const NodeRows nodes = mesh.tet_nodes(t);
-    for (std::size_t i = 0; i < nodes.size(); ++i) {
-      out_.put(nodes.begin()[kMshTetOrder[i]] + 1);
-    }
-    out_.end_row();
-  }
+  Contents contents{mesh, msh_numbers(mesh), NodeClasses(mesh)};
+  write_format(out);
+  write_record(out, mesh);
+  write_physical_names(out, mesh, contents.numbers, true);
+  write_entities(out, contents);
+  write_nodes(out, contents);
+  write_elements(out, contents);
+  write_element_data(out, mesh);
+  files.tables.write_with(out, mesh, contents.numbers);
 }
 
 }  // namespace mw::io

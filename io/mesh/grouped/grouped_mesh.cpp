@@ -57,32 +57,6 @@ namespace {
 /// A point lies on a side of a box when it is within this share of the box's length.
 constexpr double kTolerance = 1e-9;
 
-void write_values_of(GroupedMesh& mesh, std::uint64_t tet, MeshSink& sink) {
-  std::vector<double> row(mesh.header().values.size());
-  for (std::size_t i = 0; i < row.size(); ++i) row[i] = mesh.value(tet, i);
-  sink.write_values(row);
-}
-
-void write_cells(GroupedMesh& mesh, Label rank, CellSink& sink) {
-  const RowRange range = mesh.label_tets()[rank];
-  for (std::uint64_t tet = range.begin; tet < range.end; ++tet) {
-    sink.write_cell(mesh.tet_nodes(tet), mesh.table().raw(rank));
-    write_values_of(mesh, tet, sink);
-  }
-}
-
-void write_wedges(GroupedMesh& mesh, CellSink& sink) {
-  std::uint64_t interface = 0;
-  for (const WedgeGroup& group : mesh.wedge_groups()) {
-    ++interface;
-    for (std::uint64_t w = group.wedges.begin; w < group.wedges.end; ++w) {
-      const Wedge wedge = mesh.wedge(w);
-      sink.write_wedge(mesh.wedge_nodes(wedge), mesh.table().raw(group.bottom), interface);
-      write_values_of(mesh, wedge.bottom_tet, sink);
-    }
-  }
-}
-
 }  // namespace
 
 double share_along(const MeshBox& box, std::size_t axis, const Position& p) {
@@ -148,20 +122,6 @@ void write_nodes(GroupedMesh& mesh, MeshSink& sink) {
     for (std::size_t i = 0; i < batch.size(); ++i) batch[i] = mesh.node(at + i);
     sink.write_vertices(batch);
   }
-}
-
-void CellWriter::write(GroupedMesh& mesh) {
-  MeshHeader header = mesh.header();
-  header.wedges.count = mesh.wedge_count();
-  for (const WedgeGroup& group : mesh.wedge_groups()) {
-    header.wedges.interfaces.push_back(
-        {mesh.table().raw(group.bottom), mesh.table().raw(group.top)});
-  }
-  sink_->begin(header);
-  write_nodes(mesh, *sink_);
-  for (Label rank = 0; rank < mesh.table().size(); ++rank) write_cells(mesh, rank, *sink_);
-  write_wedges(mesh, *sink_);
-  sink_->finish();
 }
 
 }  // namespace mw::io

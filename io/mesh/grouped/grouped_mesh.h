@@ -8,6 +8,7 @@
 #include <cmath>
 #include <cstddef>
 #include <filesystem>
+#include <functional>
 #include <limits>
 #include <memory>
 #include <optional>
@@ -232,37 +233,11 @@ void for_each_facet_run(const GroupedMesh& mesh, Visit visit) {
   if (run) visit(*run);
 }
 
-/// Writes a grouped mesh into the file that its constructor has opened.
-class GroupedWriter {
- public:
-  virtual ~GroupedWriter() = default;
-  /// Writes the mesh and commits the file.  Called once.  ERRORS: see MeshSink.
-  virtual void write(GroupedMesh& mesh) = 0;
-};
+/// Writes a grouped mesh into the file that was opened for it, and commits that.  Called once.
+/// ERRORS: see MeshSink.
+using WriteGrouped = std::function<void(GroupedMesh& mesh)>;
 
 /// Writes all nodes into the sink, in row order.
 void write_nodes(GroupedMesh& mesh, MeshSink& sink);
-
-/// A sink that writes tets of four or ten nodes, and wedges.
-class CellSink : public MeshSink {
- public:
-  /// Takes the nodes of a tet, in the place of write_tets().
-  virtual void write_cell(std::span<const std::uint64_t> rows, RawLabel label) = 0;
-  /// Takes the nodes of a wedge (NodeRows), the label under it, and the number of its interface
-  /// from 1 on.  REQUIRES: all tets were written; header.wedges tells of it.
-  virtual void write_wedge(std::span<const std::uint64_t> rows, RawLabel bottom,
-                           std::uint64_t interface) = 0;
-};
-
-/// Streams a grouped mesh into a CellSink, with wedges behind the tets.  A wedge has the values of
-/// the tet under it.
-class CellWriter : public GroupedWriter {
- public:
-  explicit CellWriter(std::unique_ptr<CellSink> sink) : sink_(std::move(sink)) {}
-  void write(GroupedMesh& mesh) override;
-
- private:
-  std::unique_ptr<CellSink> sink_;
-};
 
 }  // namespace mw::io

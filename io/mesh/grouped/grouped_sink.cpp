@@ -20,9 +20,9 @@ std::array<std::uint64_t, 3> facet_rows(const TetRows& tet, std::uint64_t opposi
 
 }  // namespace
 
-GroupedSink::GroupedSink(const std::filesystem::path& folder, std::unique_ptr<GroupedWriter> writer,
-                         Element element, std::optional<CurveRule> curves)
-    : folder_(folder), mesh_(folder), own_(folder), writer_(std::move(writer)), curves_(curves) {
+GroupedSink::GroupedSink(const std::filesystem::path& folder, WriteGrouped write, Element element,
+                         std::optional<CurveRule> curves)
+    : folder_(folder), mesh_(folder), own_(folder), write_(std::move(write)), curves_(curves) {
   mesh_.element_ = element;
   mesh_.source_ = &own_;
   if (element == Element::kCurvedTet10) curves_.emplace();
@@ -62,12 +62,12 @@ void GroupedSink::write_values(std::span<const double> rows) {
 
 void GroupedSink::finish() {
   group([] {});
-  if (writer_) writer_->write(mesh_);
+  if (write_) write_(mesh_);
 }
 
 void GroupedSink::take(ScratchMesh& mesh, const std::function<void()>& between) {
-  if (!writer_) return MeshSink::take(mesh, between);
-  writer_->write(view(mesh, between));
+  if (!write_) return MeshSink::take(mesh, between);
+  write_(view(mesh, between));
 }
 
 GroupedMesh& GroupedSink::view(ScratchMesh& mesh, const std::function<void()>& between) {

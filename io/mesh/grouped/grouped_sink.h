@@ -12,7 +12,7 @@
 
 namespace mw::io {
 
-/// Collects a mesh; finish() groups it and calls the writer.
+/// Collects a mesh; finish() groups it and calls `write`.
 /// Memory: 64 MiB, 96 with kTet10, 136 with curves, whatever the mesh; the rest waits in
 /// temporary files in `folder`, at most some 400 bytes a tet (1,000 with kTet10, 1,300 with curved
 /// ones).
@@ -22,10 +22,10 @@ namespace mw::io {
 /// has these again, each node where it was.
 class GroupedSink : public MeshSink {
  public:
-  /// writer may be empty where the caller takes the mesh.  With curves, nodes lie where
+  /// write may be empty where the caller takes the mesh.  With curves, nodes lie where
   /// curve_nodes() places them; kCurvedTet10 has curves of its own.
   /// REQUIRES: folder exists; curves: an element with middles.
-  GroupedSink(const std::filesystem::path& folder, std::unique_ptr<GroupedWriter> writer,
+  GroupedSink(const std::filesystem::path& folder, WriteGrouped write,
               Element element = Element::kTet4, std::optional<CurveRule> curves = {});
 
   void begin(const MeshHeader& header) override;
@@ -33,7 +33,7 @@ class GroupedSink : public MeshSink {
   void write_tets(std::span<const TetRows> tets, std::span<const RawLabel> labels) override;
   void write_values(std::span<const double> rows) override;
   void finish() override;
-  /// Copies the mesh only where there is no writer.
+  /// Copies the mesh only where there is none.
   void take(ScratchMesh& mesh, const std::function<void()>& between) override;
   [[nodiscard]] std::uint64_t buffer_bytes() const override;
 
@@ -69,7 +69,7 @@ class GroupedSink : public MeshSink {
   std::filesystem::path folder_;
   GroupedMesh mesh_;
   ScratchMesh own_;  ///< what came from begin() to finish()
-  std::unique_ptr<GroupedWriter> writer_;
+  WriteGrouped write_;
   std::optional<CurveRule> curves_;
   bool is_in_parts_ = false;                            ///< the mesh is curved as it comes
   std::optional<CurvedParts> parts_;                    ///< of such a mesh

@@ -127,9 +127,9 @@ void append_label_table(AtomicFile& file, const LabelTable& table, const MeshHea
   }
 }
 
-void TabledWriter::commit(const GroupedMesh& mesh, const LabelNumbers& numbers) {
+void TabledFile::commit(const GroupedMesh& mesh, const LabelNumbers& numbers) {
   append_label_table(labels_, mesh.table(), mesh.header(), numbers);
-  commit_together({labels_, file_});
+  commit_together({labels_, text_});
 }
 
 std::optional<LabelMap> read_label_table(const std::filesystem::path& mesh) {

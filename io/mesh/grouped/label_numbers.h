@@ -11,6 +11,7 @@
 
 #include "io/file/sink/atomic_file.h"
 #include "io/mesh/grouped/grouped_mesh.h"
+#include "io/mesh/mesh_extras.h"
 
 namespace mw::io {
 
@@ -73,21 +74,22 @@ void check_digits(std::string_view file, const GroupedMesh& mesh, int digits);
 void append_label_table(AtomicFile& file, const LabelTable& table, const MeshHeader& header,
                         const LabelNumbers& numbers);
 
-/// A writer of a text file with that table beside it.
-class TabledWriter : public GroupedWriter {
+/// A text file with that table beside it, for writers of formats.  ERRORS: see AtomicFile.
+class TabledFile {
  public:
-  explicit TabledWriter(const std::filesystem::path& path)
-      : name_(path.string()), file_(path), labels_(label_table_path(path)) {}
+  TabledFile(const std::filesystem::path& path, const MeshExtras& more)
+      : name(path.string()), extras(more), text_(path), labels_(label_table_path(path)) {}
 
- protected:
-  void line(std::string_view line) { file_.append_line(line); }
+  void line(std::string_view line) { text_.append_line(line); }
+  void append(std::string_view text) { text_.append(text); }
   /// Writes the table and commits both files.
   void commit(const GroupedMesh& mesh, const LabelNumbers& numbers);
 
-  std::string name_;
-  AtomicFile file_;
+  const std::string name;
+  const MeshExtras extras;
 
  private:
+  AtomicFile text_;
   AtomicFile labels_;
 };
 

@@ -7,6 +7,7 @@
 #include <array>
 #include <cmath>
 #include <iterator>
+#include <memory>
 #include <optional>
 #include <string>
 #include <utility>
@@ -145,86 +146,78 @@ std::uint64_t count_unlike(GroupedMesh& mesh, const FaceNodes& nodes, unsigned a
 /// The most terms of an equation that stand on a line.
 constexpr std::size_t kTermsOnLine = 4;
 
-class PairsWriter : public GroupedWriter {
- public:
-  explicit PairsWriter(const std::filesystem::path& path)
-      : file_(path), name_(path.string()), is_deck_(path.extension() == ".inp") {}
-
-  void write(GroupedMesh& mesh) override {
-    const MeshRecord& record = mesh.header().record;
-    const unsigned axes = record.promises ? record.promises->periodic : 0;
-    if (axes == 0) {
-      const char* const why = record.promises ? ": the mesh was not made with --periodic"
-                                              : ": the mesh's file does not tell whether it was "
-                                                "made with --periodic; take the run's own file";
-      fail_usage(name_ + why);
-    }
-    if (record.has_doubles) {
-      fail_usage(name_ +
-                 ": vertices of the mesh were doubled (--split, "
-                 "--cohesive, --open-hinges), so pairs are not known");
-    }
-    const PeriodicPairs found = periodic_pairs(mesh, axes);
-    const bool is_whole = record.only_labels.empty() && record.without_labels.empty() &&
-                          record.partial_labels.empty();
-    if (is_whole && found.alone + found.unlike > 0) {
-      throw Error(ErrorKind::kInternal,
-                  text(name_, ": ", found.alone, " nodes on faces have no partner, and ",
-                       found.unlike, " triangles are on one of two faces alone"));
-    }
-    is_deck_ ? write_equations(mesh, found, axes) : write_table(found);
-    file_.commit();
+void write_table(AtomicFile& file, const PeriodicPairs& found) {
+  file.append(std::string_view("node,image_of,x,y,z\n"));
+  for (const PeriodicPair& p : found.pairs) {
+    file.append(text(p.node + 1, ",", p.image_of + 1, ",", p.axes & 1U, ",", p.axes >> 1U & 1U, ",",
+                     p.axes >> 2U & 1U, "\n"));
   }
+}
 
- private:
-  void write_table(const PeriodicPairs& found) {
-    file_.append(std::string_view("node,image_of,x,y,z\n"));
-    for (const PeriodicPair& p : found.pairs) {
-      file_.append(text(p.node + 1, ",", p.image_of + 1, ",", p.axes & 1U, ",", p.axes >> 1U & 1U,
-                        ",", p.axes >> 2U & 1U, "\n"));
-    }
+void write_equation(AtomicFile& file, const PeriodicPair& p,
+                    const std::array<std::uint64_t, 3>& references, int direction) {
+  std::vector<std::string> terms{text(p.node + 1, ",", direction, ",1."),
+                                 text(p.image_of + 1, ",", direction, ",-1.")};
+  for (unsigned k = 0; k < 3; ++k) {
+    if ((p.axes >> k & 1U) != 0) terms.push_back(text(references[k], ",", direction, ",-1."));
   }
+  file.append(text("*EQUATION\n", terms.size(), "\n"));
+  for (std::size_t i = 0; i < terms.size(); ++i) {
+    const bool ends = i + 1 == terms.size() || i % kTermsOnLine == kTermsOnLine - 1;
+    file.append(text(terms[i], ends ? "\n" : ","));
+  }
+}
 
-  void write_equations(GroupedMesh& mesh, const PeriodicPairs& found, unsigned axes) {
-    std::array<std::uint64_t, 3> references{};
-    std::uint64_t next = mesh.node_count();
-    file_.append(text("** a node on a high face moves as its partner on the low face and the ",
-                      "reference nodes\n** of the axes between them; nodes without a partner: ",
-                      found.alone, "\n"));
-    for (unsigned k = 0; k < 3; ++k) {
-      if ((axes >> k & 1U) == 0) continue;
-      references[k] = ++next;
-      const Position& first = mesh.box().origin;
-      const Position& edge = mesh.box().edges[k];
-      file_.append(text("*NODE, NSET=PERIODIC_", std::string_view("XYZ").substr(k, 1), "\n", next,
-                        ", ", inp_real(first[0] + edge[0]), ", ", inp_real(first[1] + edge[1]),
-                        ", ", inp_real(first[2] + edge[2]), "\n"));
-    }
-    for (const PeriodicPair& p : found.pairs) {
-      for (int direction = 1; direction <= 3; ++direction) {
-        write_equation(p, references, direction);
-      }
+void write_equations(AtomicFile& file, GroupedMesh& mesh, const PeriodicPairs& found,
+                     unsigned axes) {
+  std::array<std::uint64_t, 3> references{};
+  std::uint64_t next = mesh.node_count();
+  file.append(text("** a node on a high face moves as its partner on the low face and the ",
+                   "reference nodes\n** of the axes between them; nodes without a partner: ",
+                   found.alone, "\n"));
+  for (unsigned k = 0; k < 3; ++k) {
+    if ((axes >> k & 1U) == 0) continue;
+    references[k] = ++next;
+    const Position& first = mesh.box().origin;
+    const Position& edge = mesh.box().edges[k];
+    file.append(text("*NODE, NSET=PERIODIC_", std::string_view("XYZ").substr(k, 1), "\n", next,
+                     ", ", inp_real(first[0] + edge[0]), ", ", inp_real(first[1] + edge[1]), ", ",
+                     inp_real(first[2] + edge[2]), "\n"));
+  }
+  for (const PeriodicPair& p : found.pairs) {
+    for (int direction = 1; direction <= 3; ++direction) {
+      write_equation(file, p, references, direction);
     }
   }
+}
 
-  void write_equation(const PeriodicPair& p, const std::array<std::uint64_t, 3>& references,
-                      int direction) {
-    std::vector<std::string> terms{text(p.node + 1, ",", direction, ",1."),
-                                   text(p.image_of + 1, ",", direction, ",-1.")};
-    for (unsigned k = 0; k < 3; ++k) {
-      if ((p.axes >> k & 1U) != 0) terms.push_back(text(references[k], ",", direction, ",-1."));
-    }
-    file_.append(text("*EQUATION\n", terms.size(), "\n"));
-    for (std::size_t i = 0; i < terms.size(); ++i) {
-      const bool ends = i + 1 == terms.size() || i % kTermsOnLine == kTermsOnLine - 1;
-      file_.append(text(terms[i], ends ? "\n" : ","));
-    }
+/// Writes the pairs into a file called `path`.
+void write_pairs(AtomicFile& file, GroupedMesh& mesh, const std::filesystem::path& path) {
+  const std::string name = path.string();
+  const MeshRecord& record = mesh.header().record;
+  const unsigned axes = record.promises ? record.promises->periodic : 0;
+  if (axes == 0) {
+    const char* const why = record.promises ? ": the mesh was not made with --periodic"
+                                            : ": the mesh's file does not tell whether it was "
+                                              "made with --periodic; take the run's own file";
+    fail_usage(name + why);
   }
-
-  AtomicFile file_;
-  std::string name_;
-  bool is_deck_;
-};
+  if (record.has_doubles) {
+    fail_usage(name +
+               ": vertices of the mesh were doubled (--split, "
+               "--cohesive, --open-hinges), so pairs are not known");
+  }
+  const PeriodicPairs found = periodic_pairs(mesh, axes);
+  const bool is_whole =
+      record.only_labels.empty() && record.without_labels.empty() && record.partial_labels.empty();
+  if (is_whole && found.alone + found.unlike > 0) {
+    throw Error(ErrorKind::kInternal,
+                text(name, ": ", found.alone, " nodes on faces have no partner, and ", found.unlike,
+                     " triangles are on one of two faces alone"));
+  }
+  path.extension() == ".inp" ? write_equations(file, mesh, found, axes) : write_table(file, found);
+  file.commit();
+}
 
 }  // namespace
 
@@ -258,11 +251,12 @@ PeriodicPairs periodic_pairs(GroupedMesh& mesh, unsigned axes) {
   return out;
 }
 
-std::unique_ptr<GroupedWriter> open_pairs_writer(const std::filesystem::path& path) {
+WriteGrouped open_pairs(const std::filesystem::path& path) {
   if (path.extension() != ".csv" && path.extension() != ".inp") {
     fail_usage(path.string() + ": pairs of nodes are written as .csv, or as equations in .inp");
   }
-  return std::make_unique<PairsWriter>(path);
+  const auto file = std::make_shared<AtomicFile>(path);
+  return [file, path](GroupedMesh& mesh) { write_pairs(*file, mesh, path); };
 }
 
 }  // namespace mw::io

@@ -5,7 +5,6 @@
 
 #include <cstdint>
 #include <filesystem>
-#include <memory>
 #include <vector>
 
 #include "io/mesh/grouped/grouped_mesh.h"
@@ -29,15 +28,14 @@ struct PeriodicPairs {
 /// Memory: some 100 bytes for each of these nodes.
 [[nodiscard]] PeriodicPairs periodic_pairs(GroupedMesh& mesh, unsigned axes);
 
-/// Opens a writer of the pairs of a mesh.  A .csv has the columns node, image_of, x, y, z; the last
-/// three say by how many periods the node is apart.  A .inp has for each axis a reference node in a
-/// set of its own, and equations: the displacement of a node is the sum of those of its partner and
-/// of the reference nodes of the axes along which they are apart.  A node is the first of at most
-/// three equations, which name no other first node.  Nodes have the numbers of files for solvers,
-/// from 1 on.
-/// ERRORS: mw::Error(kUsage) for another ending; write() throws it for a mesh whose record has no
-/// periodic axes or doubled vertices, and kInternal when faces are unlike though no label was left
-/// out.
-[[nodiscard]] std::unique_ptr<GroupedWriter> open_pairs_writer(const std::filesystem::path& path);
+/// Opens a file for the pairs of a mesh, and returns what writes them.  A .csv has the columns
+/// node, image_of, x, y, z; the last three say by how many periods the node is apart.  A .inp has
+/// for each axis a reference node in a set of its own, and equations: the displacement of a node is
+/// the sum of those of its partner and of the reference nodes of the axes along which they are
+/// apart.  A node is the first of at most three equations, which name no other first node.  Nodes
+/// have the numbers of files for solvers, from 1 on. ERRORS: mw::Error(kUsage) for another ending;
+/// what is returned throws it for a mesh whose record has no periodic axes or doubled vertices, and
+/// kInternal when faces are unlike though no label was left out.
+[[nodiscard]] WriteGrouped open_pairs(const std::filesystem::path& path);
 
 }  // namespace mw::io

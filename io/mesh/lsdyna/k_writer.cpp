@@ -24,56 +24,25 @@ std::string card(std::initializer_list<std::uint64_t> numbers, std::size_t colum
   return out;
 }
 
-}  // namespace
-
-void LsdynaWriter::write(GroupedMesh& mesh) {
-  check_number(name_, std::max(mesh.node_count(), mesh.tet_count()),
-               {.max = kMaxFieldNumber, .subject = "LS-DYNA has", .others = ".exo or .vtkhdf"});
-  check_digits(name_, mesh, kDigits + 1);
-  constexpr std::uint64_t kTet4Form = 10, kTet10Form = 16;
-  const bool ten = has_middles(mesh.element());
-  const LabelNumbers numbers(mesh.table(), {.max = kMaxFieldNumber});
-  const PlainNames names(mesh);
-  line("*KEYWORD");
-  line("*TITLE");
-  line(text("mwmesh: tetrahedra of ", mesh.table().size(), " labels"));
-  line("$ Materials are placeholders.  FACE_1_2 is where labels 1 and 2 meet.");
-  write_nodes(mesh);
-  line("*SECTION_SOLID");
-  line(card({1, ten ? kTet10Form : kTet4Form}, kField));
-  for (Label rank = 0; rank < mesh.table().size(); ++rank) {
-    write_part(mesh, mesh.label_tets()[rank], numbers[rank], names.volume(rank));
-  }
-  write_masks(mesh, names, numbers);
-  for_each_named(mesh, names, [&](const NamedFacets& set) {
-    write_node_set(mesh, set, false);
-    if (set.is_split) write_node_set(mesh, set, true);
-    write_segments(mesh, set, false);
-    if (!set.other.empty()) write_segments(mesh, set, true);
-  });
-  line("*END");
-  commit(mesh, numbers);
-}
-
-void LsdynaWriter::write_nodes(GroupedMesh& mesh) {
-  constexpr std::size_t kColumns = 16;
-  line("*NODE");
+void write_k_nodes(TabledFile& file, GroupedMesh& mesh) {
+  constexpr std::size_t kPlace = 16;
+  file.line("*NODE");
   for (std::uint64_t row = 0; row < mesh.node_count(); ++row) {
     std::string out = fixed_integer(row + 1, kShort);
-    for (const double x : mesh.node(row)) out += fixed_coordinate(name_, x, kColumns, kDigits);
-    line(out);
+    for (const double x : mesh.node(row)) out += fixed_coordinate(file.name, x, kPlace, kDigits);
+    file.line(out);
   }
 }
 
-void LsdynaWriter::write_part(GroupedMesh& mesh, RowRange tets, std::int64_t number,
-                              const std::string& name) {
+void write_k_part(TabledFile& file, GroupedMesh& mesh, RowRange tets, std::int64_t number,
+                  const std::string& name) {
   const auto part = static_cast<std::uint64_t>(number);
-  line("*PART");
-  line(name);
-  line(card({part, 1, part}, kField));
-  line("*MAT_ELASTIC");
-  line(fixed_integer(part, kField) + "       1.0       1.0       0.3");
-  line("*ELEMENT_SOLID");
+  file.line("*PART");
+  file.line(name);
+  file.line(card({part, 1, part}, kField));
+  file.line("*MAT_ELASTIC");
+  file.line(fixed_integer(part, kField) + "       1.0       1.0       0.3");
+  file.line("*ELEMENT_SOLID");
   for (std::uint64_t t = tets.begin; t < tets.end; ++t) {
     constexpr std::size_t kBrick = 8;
     const std::string head = card({t + 1, part}, kShort);
@@ -85,61 +54,64 @@ void LsdynaWriter::write_part(GroupedMesh& mesh, RowRange tets, std::int64_t num
       row += fixed_integer(last, kShort);
     }
     if (nodes.size() > kBrick) {
-      line(head);
-      line(row);
+      file.line(head);
+      file.line(row);
       continue;
     }
     for (std::size_t i = nodes.size(); i < kBrick; ++i) row += fixed_integer(last, kShort);
-    line(head + row);
+    file.line(head + row);
   }
 }
 
-void LsdynaWriter::write_masks(const GroupedMesh& mesh, const PlainNames& names,
-                               const LabelNumbers& numbers) {
+void begin_set(TabledFile& file, const char* keyword, const std::string& title,
+               std::uint64_t number) {
+  file.line(keyword);
+  file.line(title);
+  file.line(fixed_integer(number, kField));
+}
+
+void write_part_sets(TabledFile& file, const GroupedMesh& mesh, const PlainNames& names,
+                     const LabelNumbers& numbers) {
   constexpr std::size_t kOnLine = 8;
   const std::vector<MaskGroup> masks = mask_groups(mesh);
   for (std::size_t i = 0; i < masks.size(); ++i) {
-    begin_set("*SET_PART_LIST_TITLE", names.mask(i), i + 1);
+    begin_set(file, "*SET_PART_LIST_TITLE", names.mask(i), i + 1);
     std::string row;
     for (const Label rank : masks[i].ranks) {
       row += fixed_integer(static_cast<std::uint64_t>(numbers[rank]), kField);
       if (row.size() < kOnLine * kField) continue;
-      line(row);
+      file.line(row);
       row.clear();
     }
-    if (!row.empty()) line(row);
+    if (!row.empty()) file.line(row);
   }
 }
 
-void LsdynaWriter::begin_set(const char* keyword, const std::string& title, std::uint64_t number) {
-  line(keyword);
-  line(title);
-  line(fixed_integer(number, kField));
-}
-
-void LsdynaWriter::write_node_set(GroupedMesh& mesh, const NamedFacets& set, bool of_second) {
+void write_k_node_set(TabledFile& file, GroupedMesh& mesh, const NamedFacets& set, bool of_second,
+                      std::uint64_t number) {
   constexpr std::size_t kOnLine = 8;
-  begin_set("*SET_NODE_LIST_TITLE", of_second ? set.other : set.name, ++node_sets_);
+  begin_set(file, "*SET_NODE_LIST_TITLE", of_second ? set.other : set.name, number);
   std::string row;
   const auto add = [&](std::uint64_t node) {
     row += fixed_integer(node + 1, kField);
     if (row.size() < kOnLine * kField) return;
-    line(row);
+    file.line(row);
     row.clear();
   };
   for_each_facet_node(mesh, set.group.facets, add, of_second);
-  if (!row.empty()) line(row);
+  if (!row.empty()) file.line(row);
 }
 
-void LsdynaWriter::write_segments(GroupedMesh& mesh, const NamedFacets& set, bool of_second) {
-  begin_set("*SET_SEGMENT_TITLE", of_second ? set.other : set.name, ++segment_sets_);
+void write_segments(TabledFile& file, GroupedMesh& mesh, const NamedFacets& set, bool of_second,
+                    std::uint64_t number) {
+  begin_set(file, "*SET_SEGMENT_TITLE", of_second ? set.other : set.name, number);
   const RowRange facets = set.group.facets;
   for (std::uint64_t f = facets.begin; f < facets.end; ++f) {
     const Facet facet = of_second ? mesh.of_second(mesh.facet(f)) : mesh.facet(f);
     const NodeRows nodes = mesh.facet_nodes(facet);
     const auto put = [&](const std::array<std::size_t, 3>& corners) {
       const auto node = [&](std::size_t i) { return nodes.begin()[corners[i]] + 1; };
-      line(card({node(0), node(1), node(2), node(2)}, kField));
+      file.line(card({node(0), node(1), node(2), node(2)}, kField));
     };
     if (nodes.size() == 3) {
       put({0, 1, 2});
@@ -147,6 +119,38 @@ void LsdynaWriter::write_segments(GroupedMesh& mesh, const NamedFacets& set, boo
       for (const auto& quarter : kQuarters) put(quarter);
     }
   }
+}
+
+}  // namespace
+
+void write_k(TabledFile& file, GroupedMesh& mesh) {
+  check_number(file.name, std::max(mesh.node_count(), mesh.tet_count()),
+               {.max = kMaxFieldNumber, .subject = "LS-DYNA has", .others = ".exo or .vtkhdf"});
+  check_digits(file.name, mesh, kDigits + 1);
+  constexpr std::uint64_t kTet4Form = 10, kTet10Form = 16;
+  const bool ten = has_middles(mesh.element());
+  const LabelNumbers numbers(mesh.table(), {.max = kMaxFieldNumber});
+  const PlainNames names(mesh);
+  file.line("*KEYWORD");
+  file.line("*TITLE");
+  file.line(text("mwmesh: tetrahedra of ", mesh.table().size(), " labels"));
+  file.line("$ Materials are placeholders.  FACE_1_2 is where labels 1 and 2 meet.");
+  write_k_nodes(file, mesh);
+  file.line("*SECTION_SOLID");
+  file.line(card({1, ten ? kTet10Form : kTet4Form}, kField));
+  for (Label rank = 0; rank < mesh.table().size(); ++rank) {
+    write_k_part(file, mesh, mesh.label_tets()[rank], numbers[rank], names.volume(rank));
+  }
+  write_part_sets(file, mesh, names, numbers);
+  std::uint64_t node_sets = 0, segment_sets = 0;
+  for_each_named(mesh, names, [&](const NamedFacets& set) {
+    write_k_node_set(file, mesh, set, false, ++node_sets);
+    if (set.is_split) write_k_node_set(file, mesh, set, true, ++node_sets);
+    write_segments(file, mesh, set, false, ++segment_sets);
+    if (!set.other.empty()) write_segments(file, mesh, set, true, ++segment_sets);
+  });
+  file.line("*END");
+  file.commit(mesh, numbers);
 }
 
 }  // namespace mw::io

@@ -21,22 +21,6 @@ namespace mw::io {
 /// parts of its labels.  All kinds of sets have numbers from 1 on.  Coordinates have ten digits.
 /// Memory: 9 MiB.  ERRORS: see AtomicFile; mw::Error(kUsage) above 99,999,999 nodes or tets, which
 /// is what eight columns hold, and for a negative coordinate with three digits of exponent.
-class LsdynaWriter : public TabledWriter {
- public:
-  using TabledWriter::TabledWriter;
-
-  void write(GroupedMesh& mesh) override;
-
- private:
-  void write_nodes(GroupedMesh& mesh);
-  void write_part(GroupedMesh& mesh, RowRange tets, std::int64_t number, const std::string& name);
-  void write_masks(const GroupedMesh& mesh, const PlainNames& names, const LabelNumbers& numbers);
-  void write_node_set(GroupedMesh& mesh, const NamedFacets& set, bool of_second);
-  void write_segments(GroupedMesh& mesh, const NamedFacets& set, bool of_second);
-  void begin_set(const char* keyword, const std::string& title, std::uint64_t number);
-
-  std::uint64_t node_sets_ = 0;
-  std::uint64_t segment_sets_ = 0;
-};
+void write_k(TabledFile& file, GroupedMesh& mesh);
 
 }  // namespace mw::io

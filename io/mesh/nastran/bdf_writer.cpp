@@ -24,76 +24,78 @@ std::string number_field(std::uint64_t number, std::size_t columns = kFieldColum
   return field(std::to_string(number), columns);
 }
 
-}  // namespace
-
-void BdfWriter::write(GroupedMesh& mesh) {
-  check_number(name_, std::max(mesh.node_count(), mesh.tet_count()),
-               {.max = kMaxFieldNumber, .subject = "Nastran has", .others = ".exo or .vtkhdf"});
-  check_digits(name_, mesh, kDigits + 1);
-  const LabelNumbers numbers(mesh.table(), {.max = kMaxFieldNumber});
-  const PlainNames names(mesh);
-  line(text("$ mwmesh: tetrahedra of ", mesh.table().size(),
-            " labels; materials are placeholders."));
-  line("CEND");
-  std::size_t number = 0;
-  for_each_named(mesh, names, [&](const NamedFacets& set) { write_set(mesh, ++number, set); });
-  line("BEGIN BULK");
-  write_nodes(mesh);
-  for (Label rank = 0; rank < mesh.table().size(); ++rank) {
-    write_part(mesh, mesh.label_tets()[rank], numbers[rank], names.volume(rank));
-  }
-  line("ENDDATA");
-  commit(mesh, numbers);
-}
-
-void BdfWriter::write_set(GroupedMesh& mesh, std::size_t number, const NamedFacets& set) {
-  line(text("$ SET ", number, ": nodes of ", set.name));
+void write_bdf_set(TabledFile& file, GroupedMesh& mesh, std::size_t number,
+                   const NamedFacets& set) {
+  file.line(text("$ SET ", number, ": nodes of ", set.name));
   std::string row = text("SET ", number, " = ");
   bool is_first = true;
   for_each_facet_node(mesh, set.group.facets, [&](std::uint64_t node) {
     const std::string item = std::to_string(node + 1);
     if (!is_first) row += ',';
     if (row.size() + item.size() + 1 > kColumns) {
-      line(row);
+      file.line(row);
       row = "  ";
     }
     row += item;
     is_first = false;
   });
-  line(row);
+  file.line(row);
 }
 
-void BdfWriter::write_nodes(GroupedMesh& mesh) {
+void write_bdf_nodes(TabledFile& file, GroupedMesh& mesh) {
   for (std::uint64_t row = 0; row < mesh.node_count(); ++row) {
     const Position p = mesh.node(row);
     const auto coordinate = [&](std::size_t axis) {
-      return fixed_coordinate(name_, p[axis], 2 * kFieldColumns, kDigits);
+      return fixed_coordinate(file.name, p[axis], 2 * kFieldColumns, kDigits);
     };
-    line(field("GRID*") + number_field(row + 1, 2 * kFieldColumns) + field("", 2 * kFieldColumns) +
-         coordinate(0) + coordinate(1) + "*");
-    line(field("*") + coordinate(2));
+    file.line(field("GRID*") + number_field(row + 1, 2 * kFieldColumns) +
+              field("", 2 * kFieldColumns) + coordinate(0) + coordinate(1) + "*");
+    file.line(field("*") + coordinate(2));
   }
 }
 
-void BdfWriter::write_part(GroupedMesh& mesh, RowRange tets, std::int64_t number,
-                           const std::string& name) {
+void write_bdf_part(TabledFile& file, GroupedMesh& mesh, RowRange tets, std::int64_t number,
+                    const std::string& name) {
   constexpr std::size_t kNodesOfFirstLine = 6;
   const std::string part = number_field(static_cast<std::uint64_t>(number));
-  line(text("$ PSOLID ", number, ": ", name));
-  line(field("PSOLID") + part + part);
-  line(field("MAT1") + part + field("1.0") + field("") + field("0.3"));
+  file.line(text("$ PSOLID ", number, ": ", name));
+  file.line(field("PSOLID") + part + part);
+  file.line(field("MAT1") + part + field("1.0") + field("") + field("0.3"));
   for (std::uint64_t t = tets.begin; t < tets.end; ++t) {
     std::string row = field("CTETRA") + number_field(t + 1) + part;
     std::size_t nodes = 0;
     for (const std::uint64_t node : mesh.tet_nodes(t)) {
       if (nodes++ == kNodesOfFirstLine) {
-        line(row + "+");  // the tenth field, which begins at column 73
+        file.line(row + "+");  // the tenth field, which begins at column 73
         row = field("+");
       }
       row += number_field(node + 1);
     }
-    line(row);
+    file.line(row);
   }
+}
+
+}  // namespace
+
+void write_bdf(TabledFile& file, GroupedMesh& mesh) {
+  check_number(file.name, std::max(mesh.node_count(), mesh.tet_count()),
+               {.max = kMaxFieldNumber, .subject = "Nastran has", .others = ".exo or .vtkhdf"});
+  check_digits(file.name, mesh, kDigits + 1);
+  const LabelNumbers numbers(mesh.table(), {.max = kMaxFieldNumber});
+  const PlainNames names(mesh);
+  file.line(text("$ mwmesh: tetrahedra of ", mesh.table().size(),
+                 " labels; materials are placeholders."));
+  file.line("CEND");
+  std::size_t number = 0;
+  for_each_named(mesh, names,
+                 [&](const NamedFacets& set) { write_bdf_set(file, mesh, ++number, set); });
+  file.line("BEGIN BULK");
+  write_bdf_nodes(file, mesh);
+  for (Label rank = 0; rank < mesh.table().size(); ++rank) {
+    write_bdf_part(file, mesh, mesh.label_tets()[rank], numbers[rank], names.volume(rank));
+  }
+  file.line("ENDDATA");
+  file.commit(mesh, numbers);
 }
 
 }  // namespace mw::io

@@ -16,16 +16,6 @@ namespace mw::io {
 /// Comments tell the names (PlainNames) of parts and sets: FACE_1_2 is where labels 1 and 2 meet.
 /// Memory: 9 MiB.  ERRORS: see AtomicFile; mw::Error(kUsage) above 99,999,999 nodes, tets or
 /// labels, which is what eight columns hold.
-class BdfWriter : public TabledWriter {
- public:
-  using TabledWriter::TabledWriter;
-
-  void write(GroupedMesh& mesh) override;
-
- private:
-  void write_set(GroupedMesh& mesh, std::size_t number, const NamedFacets& set);
-  void write_nodes(GroupedMesh& mesh);
-  void write_part(GroupedMesh& mesh, RowRange tets, std::int64_t number, const std::string& name);
-};
+void write_bdf(TabledFile& file, GroupedMesh& mesh);
 
 }  // namespace mw::io

@@ -181,7 +181,7 @@ std::filesystem::path xdmf_cells_path(const std::filesystem::path& xdmf) {
   return std::filesystem::path(xdmf).replace_extension(".cells.xdmf");
 }
 
-XdmfWriter::XdmfWriter(const std::filesystem::path& path)
+XdmfWriter::XdmfWriter(const std::filesystem::path& path, const MeshExtras& /*extras*/)
     : path_(checked_name(path)),
       file_(path),
       cells_(xdmf_cells_path(path)),

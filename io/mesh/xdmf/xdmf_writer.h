@@ -36,10 +36,11 @@ namespace mw::io {
 /// tables are M.xdmf.labels.csv and M.facets.csv.
 /// ERRORS: see AtomicFile; mw::Error(kUsage) for a name with ':', at which readers would end that
 /// of M.h5.
-class XdmfWriter : public GroupedWriter {
+class XdmfWriter {
  public:
-  explicit XdmfWriter(const std::filesystem::path& path);
-  void write(GroupedMesh& mesh) override;
+  XdmfWriter(const std::filesystem::path& path, const MeshExtras& extras);
+  /// Writes the mesh and commits the files.  Called once.
+  void write(GroupedMesh& mesh);
 
  private:
   // Each of these writes a data set and returns it.

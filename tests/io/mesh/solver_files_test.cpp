@@ -255,7 +255,7 @@ TEST(InpWriter, DecksOfTetsTooSmallForCalculixAreRefused) {
 }
 
 /// APDL takes ALL, STAT and DEFA, in letters of any size, for something else than a component.
-TEST(CdbWriter, ComponentsHaveNoReservedNames) {
+TEST(CdbFiles, ComponentsHaveNoReservedNames) {
   const TempDir dir;
   MeshData mesh = grid_mesh({2, 2, 2}, 1);
   for (std::size_t t = 0; t < mesh.tets.size(); ++t) mesh.labels[t] = t % 4;
