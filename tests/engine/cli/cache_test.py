@@ -15,7 +15,7 @@ try:
     import remote_stores
 except ImportError:
     raise SystemExit(77)
-from program import PROGRAM, enter_folder, run, start
+from program import PROGRAM, enter_folder, refused, run
 from remote_server import Server
 
 SECRET = "Bearer 5ecret-0f-the-test"
@@ -165,9 +165,7 @@ class Cache(unittest.TestCase):
         with open("file", "w", encoding="utf-8"), Server("stores") as server:
             for cache, words in (("file", "cannot make the folder"), ("file/below", "cannot make the folder"),
                                  (",1G", "expected a folder"), ("kept,1X", "a size such as")):
-                done = start("info", f"{server.address}/precomputed", "--cache", cache)
-                self.assertEqual(done.returncode, 2, done.stderr)
-                self.assertIn(words, done.stderr)
+                refused([words], "info", f"{server.address}/precomputed", "--cache", cache, code=2)
 
 
 if __name__ == "__main__":

@@ -12,7 +12,7 @@ try:
     import numpy as np
 except ImportError:
     raise SystemExit(77)
-from program import enter_folder, run, start
+from program import enter_folder, refused, run, start
 
 UNITS = 1024  # of the lattice, a voxel
 
@@ -141,9 +141,7 @@ class Periodic(unittest.TestCase):
         run("convert", "k.vtu", "k.msh")
         for names, words in ((("k.msh", "l.vtu"), "does not tell"), (("k.vtu", "l.pvtu", "--pieces", "2"),
                                                                       "--pairs")):
-            done = start("convert", *names, "--pairs", "k.csv")
-            self.assertEqual(done.returncode, 2, done.stderr)
-            self.assertIn(words, done.stderr)
+            refused([words], "convert", *names, "--pairs", "k.csv", code=2)
 
     def test_faces_that_do_not_match(self):
         """A vertex on a face is moved by one unit of the lattice."""
@@ -176,13 +174,10 @@ class Periodic(unittest.TestCase):
                                 "vertices are doubled"),
                                (("grains.npy", "--periodic", "x", "--pairs", "p.txt"), "written as .csv")):
             with self.subTest(options):
-                done = start("mesh", *options, "-o", "refused.vtu")
-                self.assertEqual(done.returncode, 2, done.stderr)
-                self.assertIn(words, done.stderr)
+                refused([words], "mesh", *options, "-o", "refused.vtu", code=2)
         run("mesh", "grains.npy", "-o", "plain.vtu", "--force")
-        done = start("convert", "plain.vtu", "plain.inp", "--pairs", "p.csv")
-        self.assertEqual(done.returncode, 2, done.stderr)
-        self.assertIn("not made with --periodic", done.stderr)
+        refused(["not made with --periodic"], "convert", "plain.vtu", "plain.inp", "--pairs", "p.csv",
+                code=2)
 
     @unittest.skipUnless(shutil.which("ccx"), "CalculiX is missing")
     def test_stiffness_of_a_cell_and_of_the_same_cell_moved(self):

@@ -8,7 +8,7 @@ import sys
 import unittest
 import zlib
 
-from program import enter_folder, run, start
+from program import enter_folder, refused, run
 
 try:
     import numpy
@@ -185,9 +185,7 @@ class Picture(unittest.TestCase):
             (3, "nan.mesh", "nan.mesh", "-o", "p.png"),
             (3, "far.mesh: vertices lie", "far.mesh", "-o", "p.png"),
         ):
-            done = start("picture", *arguments)
-            self.assertEqual(done.returncode, code, (arguments, done.stderr))
-            self.assertIn(piece, done.stderr)
+            refused([piece], "picture", *arguments, code=code)
         self.assertEqual(set(os.listdir(".")), before)
 
 

@@ -16,7 +16,7 @@ try:
     import remote_stores
 except ImportError:
     raise SystemExit(77)
-from program import PROGRAM, enter_folder, run, start
+from program import PROGRAM, enter_folder, refused, run, start
 from remote_server import Server
 
 SECRET = "Bearer 5ecret-0f-the-test"
@@ -295,9 +295,7 @@ class Remote(unittest.TestCase):
     def test_no_server(self):
         with Server("stores") as server:
             address = server.address
-        done = start("info", f"{address}/zarr2", "--scale", "0")
-        self.assertEqual(done.returncode, 4, done.stderr)
-        self.assertIn("attempts", done.stderr)
+        refused(["attempts"], "info", f"{address}/zarr2", "--scale", "0", code=4)
 
     def test_addresses_that_are_none(self):
         for address, piece in (("https://user:pass@h/v", ".netrc"), ("https://h/v?key=1", "query"),

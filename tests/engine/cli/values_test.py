@@ -7,7 +7,7 @@ import json
 import sys
 import unittest
 
-from program import enter_folder, run, start
+from program import enter_folder, refused, run
 
 try:
     import meshio
@@ -177,19 +177,14 @@ class Values(unittest.TestCase):
         np.save("f.npy", ball())
         for options in (("--merge", "1=5"), ("--keep", "kept", "--order", "colour"),
                         ("--overlap", "first")):
-            done = start("mesh", "f.npy", "-o", "m.vtu", "--values", "distances", *options)
-            self.assertEqual(done.returncode, 2, done.stderr)
-            self.assertIn(options[0], done.stderr)
+            refused([options[0]], "mesh", "f.npy", "-o", "m.vtu", "--values", "distances", *options, code=2)
         bad = ball()
         bad[3, 4, 5] = np.nan
         np.save("bad.npy", bad)
-        done = start("mesh", "bad.npy", "-o", "m.vtu", "--values", "distances")
-        self.assertEqual(done.returncode, 3)
-        self.assertIn("bad.npy: voxel (5, 4, 3)", done.stderr)
+        refused(["bad.npy: voxel (5, 4, 3)"], "mesh", "bad.npy", "-o", "m.vtu", "--values", "distances")
         np.save("bytes.npy", np.full((3, 4, 5), 255, np.uint8))
-        done = start("mesh", "bytes.npy", "-o", "m.vtu", "--values", "probabilities")
-        self.assertEqual(done.returncode, 3)
-        self.assertIn("bytes.npy: voxel (0, 0, 0): the value 255 is no probability", done.stderr)
+        refused(["bytes.npy: voxel (0, 0, 0): the value 255 is no probability"], "mesh", "bytes.npy", "-o",
+                "m.vtu", "--values", "probabilities")
 
 
 # What was found, rounded up: options, relative error of the volume, mean distance in voxels.  The
