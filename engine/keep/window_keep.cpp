@@ -41,6 +41,7 @@ std::shared_ptr<KeepFolder> opened(const KeepOptions& options, const std::string
 
 }  // namespace
 
+// More than five parameters: each is an object of another room, which the keep refers to.
 WindowKeep::WindowKeep(const KeepOptions& options, const std::string& settings,
                        const RunLayout& layout, MemoryBudget& budget, const io::LabelTable& table,
                        const GroupCommit& limits)

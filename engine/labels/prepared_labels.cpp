@@ -125,12 +125,14 @@ PreparedLabels::PreparedLabels(const io::DenseVolume& volume, const MeshSettings
                      LabelCounts(volume.info().shape, volume.table().size()), threads, folder,
                      image) {}
 
+// More than five parameters: each is an object of another room, and no other function takes them.
 PreparedLabels::PreparedLabels(const io::DenseVolume& volume, const MeshSettings& settings,
                                const LabelNeed& need, int threads,
                                const std::filesystem::path& folder, const SizeImage* image)
     : PreparedLabels(volume, settings, bricks_of(need, volume.info().shape, settings), std::nullopt,
                      threads, folder, image) {}
 
+// More than five parameters: see above, and what the two constructors have found out.
 PreparedLabels::PreparedLabels(const io::DenseVolume& volume, const MeshSettings& settings,
                                const NeededBricks& bricks, std::optional<LabelCounts> counts,
                                int threads, const std::filesystem::path& folder,

@@ -92,6 +92,7 @@ class RunStore::March : public BlockStore {
   std::uint32_t march_;
 };
 
+// More than five parameters: each is an object of another room, and three may be missing.
 RunStore::RunStore(const RunLayout& layout, MemoryBudget& budget, WorkFiles* files,
                    const GroupCommit& group, BlockRouter* router, BlockKeeper* keeper)
     : layout_(layout),

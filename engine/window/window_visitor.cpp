@@ -54,6 +54,7 @@ Box3 moved(const Box3& box, Index3 by) {
 
 }  // namespace
 
+// More than five parameters: each is an object of another room, which the visitor refers to.
 WindowVisitor::WindowVisitor(const PreparedLabels& labels, const Metric& metric,
                              const MeshSettings& settings, const WindowGrid& grid,
                              BlockStore& store, VisitPlan plan)

@@ -98,6 +98,7 @@ void decode_integers(const std::byte* bytes, std::size_t count, std::size_t step
   }
 }
 
+// More than five parameters: innermost loops from one stride to another (also below).
 template <class T>
 std::size_t decode_checked(const std::byte* bytes, std::size_t count, std::size_t step,
                            const VoxelCoding& coding, RawLabel* out, std::size_t stride) {

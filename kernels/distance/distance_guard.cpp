@@ -72,6 +72,7 @@ PieceGroup DistanceGuard::group_of(const FaceGroup& faces, Label low) const {
   return out;
 }
 
+// More than five parameters: one end of an edge as its contraction changes it.
 void DistanceGuard::add_changed(const TetMesh& mesh, LocalVertex v, LocalVertex other,
                                 LocalVertex survivor, Point target,
                                 std::span<const FanTriangle> fan) {
@@ -102,6 +103,7 @@ bool DistanceGuard::allows_contraction(const TetMesh& mesh, LocalVertex keep, Lo
   return allows_contraction(mesh, keep, drop, target, triangles_, other_triangles_);
 }
 
+// More than five parameters: an edge, where it goes, and what callers know of both ends.
 bool DistanceGuard::allows_contraction(const TetMesh& mesh, LocalVertex keep, LocalVertex drop,
                                        Point target, std::span<const FanTriangle> fan_of_keep,
                                        std::span<const FanTriangle> fan_of_drop) {

@@ -95,6 +95,7 @@ MW_WIDE void find_pieces(const FaceGroup& faces, const LabelBox& labels, Label l
   std::memcpy(out.axes.data(), &f.axis, sizeof f.axis);
 }
 
+// More than five parameters: an innermost loop, which is compiled for several processors.
 MW_WIDE unsigned find_centres(const FaceGroup& faces, const LabelBox& labels, Label low,
                               const Vec3& normal, double min_cosine, PointLanes& points) {
   const Unpacked f = unpack(faces);

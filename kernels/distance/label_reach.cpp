@@ -36,6 +36,7 @@ MW_LANES Lanes squared_gap(const Lanes& x, std::int64_t lo) {
 
 /// Sets bit i where a voxel of `near` that is near all corners has label wanted[i].  Stops when all
 /// bits of `missing` are found.
+// More than five parameters: an innermost loop, which is compiled for several processors.
 MW_WIDE unsigned find_labels(const LabelReach::Triangle& t, const LabelBox& labels,
                              const Box3& near, double squared_distance,
                              const std::array<Label, 2>& wanted, unsigned missing) {

@@ -190,6 +190,7 @@ class Pass {
 
 }  // namespace
 
+// More than five parameters: those of codt(), with a demand for its triangulation.
 std::uint64_t add_inner_vertices(TetMesh& mesh, CarriedSamples& samples, Point box,
                                  const Metric& metric, const InnerDemand& demand,
                                  const InnerOptions& options) {

@@ -100,6 +100,7 @@ double odt_energy(const TetMesh& mesh, const Metric& metric) {
   return sum;
 }
 
+// More than five parameters: a window as optimise() has it, and what is new to it.
 CodtStats codt(TetMesh& mesh, CarriedSamples& samples, Point box, const Metric& metric,
                const CodtOptions& options, const Triangulate& triangulate) {
   if (mesh.tets().empty()) return {};

@@ -202,6 +202,7 @@ ReplacementStats& ReplacementStats::operator+=(const ReplacementStats& other) {
   return *this;
 }
 
+// More than five parameters: old and new tets, and what both are measured by.
 Replacement replace_proved(const TetMesh& mesh, const Metric& metric, const RegionTets& content,
                            std::span<const std::optional<Point>> added, const Triangulation& made,
                            double quality_floor) {

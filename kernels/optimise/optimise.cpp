@@ -162,6 +162,7 @@ std::uint64_t unfold_sweep(TetMesh& mesh, const Metric& metric, const OptimiseOp
   return flips;
 }
 
+// More than five parameters: the state of a round, which each sweep uses in its own way.
 std::uint64_t smooth_sweep(TetMesh& mesh, const Metric& metric, const OptimiseOptions& options,
                            DistanceGuard* guard, VolumeDebts& debts, const Turns& turns,
                            int newton_steps) {

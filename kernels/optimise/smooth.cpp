@@ -43,6 +43,7 @@ class Mover {
     SurfaceEnergy* surface;
   };
 
+  // More than five parameters: a vertex with its star, and what moves are measured by.
   Mover(const TetMesh& mesh, const Metric& metric, const Costs& costs, LocalVertex v,
         const StarShape& present, double min)
       : mesh_(mesh),
@@ -229,6 +230,7 @@ void search_around(const Mover& mover, const SurfaceStar& star, Best& best) {
 }
 
 /// Moves to the best place by move(place), or where that is refused to places half as far.
+// More than five parameters: a search by bisection, and what it is to stop at.
 template <typename Move>
 bool take(const Mover& mover, Point start, Best best, double enough, int halvings, Move move) {
   for (; best.energy <= enough; --halvings) {

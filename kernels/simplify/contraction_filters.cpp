@@ -30,6 +30,7 @@ StarVerdict sign_at(const TetMesh& mesh, LocalVertex v, LocalVertex other, Point
 }
 
 /// Tests Eq (3), the paper's filter.
+// More than five parameters: a place tried for one end of an edge, and its limit.
 StarVerdict variance_at(const TetMesh& mesh, const Metric& metric, LocalVertex v, LocalVertex other,
                         Point x, double max) {
   for (const LinkTriangle& t : mesh.star(v)) {

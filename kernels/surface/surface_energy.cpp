@@ -191,6 +191,7 @@ MW_WIDE void find_normals(const std::array<StoredLanes, 6>& places, const Vec3& 
 
 }  // namespace
 
+// More than five parameters: what a vertex is judged by, each kept by another class.
 void SurfaceEnergy::collect(const TetMesh& mesh, const Metric& metric, const SurfaceStar& star,
                             const DistanceGuard& guard, const CurvatureField* curvature,
                             const VolumeDebts* debts) {

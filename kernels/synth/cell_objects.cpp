@@ -66,6 +66,7 @@ void fill_row(const Seeds& seeds, Index3 first, std::int64_t count, RawLabel* ou
 
 /// Labels the voxels of one row whose squared distance to centre_x along x is at most squared_left,
 /// which is what the other directions leave of the squared radius.
+// More than five parameters: an innermost loop, which has its numbers in registers.
 void mark_row(const Box3& box, Index3 first, std::int64_t centre_x, std::int64_t squared_left,
               RawLabel label, RawLabel* out) {
   if (squared_left < 0) return;

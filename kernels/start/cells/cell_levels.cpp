@@ -36,6 +36,7 @@ CellLevels::CellLevels(const LabelBox& labels, Index3 volume, const Box3& asked,
   find_leaves(asked);
 }
 
+// More than five parameters: those of the other constructor, and the levels known before.
 CellLevels::CellLevels(const LabelBox& labels, Index3 volume, const Box3& asked, int max_level,
                        const LevelMap& large, const SizeField* sizes)
     : labels_(labels), volume_(volume), sizes_(sizes) {

@@ -288,6 +288,7 @@ std::array<std::vector<Index3>, kColours> mixed_cubes(const LabelBox& labels, co
 
 }  // namespace
 
+// More than five parameters: two views of labels, two boxes and two limits have no common owner.
 CoarsenStats coarsen(const LabelBox& original, LabelBox& labels, const Box3& tile, Index3 volume,
                      double max_distance, const SizeField* sizes) {
   MW_ASSERT(((tile.lo.x | tile.lo.y | tile.lo.z) & 1) == 0);
