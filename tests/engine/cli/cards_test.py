@@ -10,7 +10,7 @@ import unittest
 from program import enter_folder, refused, run
 
 try:
-    import meshio
+    from reading_meshio import meshio
     import numpy as np
 except ImportError as missing:
     print(f"skipped: {missing}")

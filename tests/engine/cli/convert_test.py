@@ -8,7 +8,7 @@ import unittest
 from program import enter_folder, refused, run
 
 try:
-    import meshio
+    from reading_meshio import meshio
     import nibabel
     import numpy as np
 except ImportError as missing:

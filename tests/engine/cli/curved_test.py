@@ -9,7 +9,7 @@ import unittest
 from program import enter_folder, refused, run, start
 
 try:
-    import meshio
+    from reading_meshio import meshio
     import numpy as np
 except ImportError as missing:
     print(f"skipped: {missing}")

@@ -13,7 +13,7 @@ from xml.etree import ElementTree
 from program import enter_folder, refused, run
 
 try:
-    import meshio
+    from reading_meshio import meshio
     import numpy as np
 except ImportError as missing:
     print(f"skipped: {missing}")

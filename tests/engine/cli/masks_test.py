@@ -15,7 +15,7 @@ from program import enter_folder, run, start
 try:
     import gmsh
     import h5py
-    import meshio
+    from reading_meshio import meshio
     import numpy as np
     import vtk
     from netCDF4 import Dataset

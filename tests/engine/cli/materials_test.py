@@ -11,7 +11,7 @@ import unittest
 from program import enter_folder, refused, run
 
 try:
-    import meshio
+    from reading_meshio import meshio
     import numpy as np
     from netCDF4 import Dataset
 except ImportError as missing:

@@ -12,7 +12,7 @@ import unittest
 from program import PROGRAM, enter_folder, pull, run
 
 try:
-    import meshio
+    from reading_meshio import meshio
     import numpy as np
 except ImportError as missing:
     print(f"skipped: {missing}")

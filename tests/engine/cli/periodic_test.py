@@ -8,7 +8,7 @@ import subprocess
 import unittest
 
 try:
-    import meshio
+    from reading_meshio import meshio
     import numpy as np
 except ImportError:
     raise SystemExit(77)

@@ -11,7 +11,7 @@ from program import enter_folder, refused, run
 
 try:
     import h5py
-    import meshio
+    from reading_meshio import meshio
     import nibabel
     import numpy as np
     from netCDF4 import Dataset

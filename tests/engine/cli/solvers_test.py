@@ -14,7 +14,7 @@ from xml.etree import ElementTree
 from program import PROGRAM, enter_folder, run
 
 try:
-    import meshio
+    from reading_meshio import meshio
     import numpy
     from netCDF4 import Dataset
     from vtkmodules.util.numpy_support import vtk_to_numpy

@@ -11,7 +11,7 @@ import unittest
 from program import enter_folder, run
 
 try:
-    import meshio
+    from reading_meshio import meshio
     import numpy as np
     from vtkmodules.util.numpy_support import vtk_to_numpy
     from vtkmodules.vtkFiltersCore import vtkFeatureEdges

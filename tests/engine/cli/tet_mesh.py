@@ -1,7 +1,7 @@
 # SPDX-FileCopyrightText: The mwmesh authors
 # SPDX-License-Identifier: Apache-2.0
 """The mesh in a file, as meshio reads it, and what scripts of this folder measure of it."""
-import meshio
+from reading_meshio import meshio
 import numpy as np
 
 PAIRS = [(0, 1), (0, 2), (0, 3), (1, 2), (1, 3), (2, 3)]

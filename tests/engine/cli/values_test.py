@@ -10,7 +10,7 @@ import unittest
 from program import enter_folder, refused, run
 
 try:
-    import meshio
+    from reading_meshio import meshio
     import nibabel
     import numpy as np
     from tet_mesh import Mesh

@@ -9,9 +9,10 @@ import sys
 import tempfile
 import unittest
 
+sys.path.append(f"{os.path.dirname(__file__)}/../../../engine/cli")
 try:
     import gmsh
-    import meshio
+    from reading_meshio import meshio
     import numpy as np
 except ImportError as missing:
     print(f"skipped: {missing}")
