@@ -66,12 +66,22 @@ void register_packings() {
   DJDecoderRegistration::registerCodecs(EDC_never);  // labels are no colours
 }
 
+/// DCMTK 3.6.9 has another name for it than 3.6.7.
+template <class Packing>
+bool loses_something(const Packing& packing) {
+  if constexpr (requires { packing.isPixelDataLossyCompressed(); }) {
+    return packing.isPixelDataLossyCompressed();
+  } else {
+    return packing.isLossy();
+  }
+}
+
 void check_packing(const DcmXfer& packing, const DicomGrid& grid, const std::string& file) {
   constexpr const char* kField = "Transfer Syntax UID";
   constexpr const char* kUnpack =
       "export it uncompressed, or in RLE or JPEG-LS Lossless, or unpack it, for instance with "
       "gdcmconv --raw";
-  if (packing.isLossy()) {
+  if (loses_something(packing)) {
     fail_input(file, kField,
                text("pixels in ", packing.getXferName(), " do not keep the numbers of voxels"),
                "export it again, uncompressed, or in RLE or JPEG-LS Lossless");

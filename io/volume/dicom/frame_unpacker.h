@@ -18,6 +18,16 @@ class DcmPixelSequence;
 
 namespace mw::io {
 
+/// True if a DcmXfer has pixels in fragments; DCMTK 3.6.9 has another name for it than 3.6.7.
+template <class Packing>
+[[nodiscard]] bool is_packed(const Packing& packing) {
+  if constexpr (requires { packing.usesEncapsulatedFormat(); }) {
+    return packing.usesEncapsulatedFormat();
+  } else {
+    return packing.isEncapsulated();
+  }
+}
+
 /// Returns what is wrong with a frame in RLE (PS3.5, annex G); empty: nothing.  DCMTK itself
 /// follows the header out of the frame, fills up what is missing and leaves out what is too much.
 [[nodiscard]] std::string fault_of_rle(std::span<const std::byte> frame, const DicomGrid& grid);

@@ -80,7 +80,7 @@ class DicomReader {
                           .frames = frames_.size(),
                           .pixel_bytes = pixel_bytes_of(grid_, frames_.size())};
     std::optional<FrameUnpacker> unpacker;
-    if (DcmXfer(data_->getOriginalXfer()).isEncapsulated()) {
+    if (is_packed(DcmXfer(data_->getOriginalXfer()))) {
       unpacker.emplace(*data_, pixels, grid_, name_);
     } else {
       check_length(pixels, sizes.pixel_bytes);
