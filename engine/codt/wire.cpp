@@ -7,6 +7,7 @@
 #include <unistd.h>
 #include <boost/interprocess/shared_memory_object.hpp>
 
+#include <algorithm>
 #include <cstring>
 
 namespace mw::engine::codt {
@@ -20,24 +21,13 @@ std::size_t array_bytes(const std::vector<Item>& items) {
   return items.size() * sizeof(Item);
 }
 
-class Writer {
- public:
-  explicit Writer(std::span<std::byte> to) : to_(to) {}
-
-  template <typename Item>
-  void items(const Item* first, std::size_t count) {
-    if (count == 0) return;
-    std::memcpy(to_.data(), first, count * sizeof(Item));
-    to_ = to_.subspan(count * sizeof(Item));
-  }
-  template <typename Item>
-  void array(const std::vector<Item>& items_of) {
-    items(items_of.data(), items_of.size());
-  }
-
- private:
-  std::span<std::byte> to_;
-};
+/// Puts items at the beginning of `to`, which then is what is left behind them.
+template <typename Items>
+void put_items(const Items& items, std::span<std::byte>& to) {
+  const auto bytes = std::as_bytes(std::span(items));
+  std::copy(bytes.begin(), bytes.end(), to.begin());
+  to = to.subspan(bytes.size());
+}
 
 class Reader {
  public:
@@ -75,21 +65,19 @@ std::size_t bytes_of(const Triangulation& made) {
 }
 
 void put(const Plc& plc, std::span<std::byte> to) {
-  Writer writer(to);
   const Counts counts{plc.points.size(), plc.facets.size(), plc.seeds.size()};
-  writer.items(counts.data(), counts.size());
-  writer.array(plc.points);
-  writer.array(plc.facets);
-  writer.array(plc.seeds);
+  put_items(counts, to);
+  put_items(plc.points, to);
+  put_items(plc.facets, to);
+  put_items(plc.seeds, to);
 }
 
 void put(const Triangulation& made, std::span<std::byte> to) {
-  Writer writer(to);
   const Counts counts{made.added.size(), made.tets.size(), made.regions.size()};
-  writer.items(counts.data(), counts.size());
-  writer.array(made.added);
-  writer.array(made.tets);
-  writer.array(made.regions);
+  put_items(counts, to);
+  put_items(made.added, to);
+  put_items(made.tets, to);
+  put_items(made.regions, to);
 }
 
 std::optional<Plc> get_plc(std::span<const std::byte> from) {

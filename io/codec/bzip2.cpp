@@ -50,13 +50,6 @@ class Bunzipper : public StreamDecoder {
 
 }  // namespace
 
-std::vector<std::byte> unpack_bzip2(std::span<const std::byte> packed, std::size_t max,
-                                    std::string_view name) {
-  const PackedName named{"bzip2", name};
-  Bunzipper bunzipper(named);
-  return unpack_streams(bunzipper, packed, max, named);
-}
-
 std::unique_ptr<StreamDecoder> bzip2_decoder(const PackedName& name) {
   return std::make_unique<Bunzipper>(name);
 }

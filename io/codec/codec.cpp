@@ -42,10 +42,6 @@ std::vector<std::byte> unpack(Codec codec, std::span<const std::byte> packed, st
     case Codec::kNone:
       if (packed.size() > max) fail_too_much({"raw", name}, max);
       return {packed.begin(), packed.end()};
-    case Codec::kGzip:
-      return unpack_gzip(packed, max, name);
-    case Codec::kZlib:
-      return unpack_zlib(packed, max, name);
     case Codec::kZstd:
       return unpack_zstd(packed, max, name);
     case Codec::kBlosc:
@@ -58,12 +54,11 @@ std::vector<std::byte> unpack(Codec codec, std::span<const std::byte> packed, st
       return unpack_lz4_hdf5(packed, max, name);
     case Codec::kLzf:
       return unpack_lzf(packed, max, name);
-    case Codec::kBzip2:
-      return unpack_bzip2(packed, max, name);
-    case Codec::kXz:
+    default:
       break;
   }
-  return unpack_xz(packed, max, name);
+  const PackedName named{io::name(codec), name};
+  return unpack_streams(*stream_decoder(codec, named), packed, max, named);
 }
 
 namespace {

@@ -68,15 +68,6 @@ inline constexpr std::uint64_t kMaxZstdWindow = std::uint64_t{32} << 20U;
 // at most `max` bytes, and what each says.  Thread safety: any; no state of a library is shared.
 // ERRORS: mw::Error(kInput) for damage, truncation and more than `max` bytes.
 
-/// Unpacks gzip (RFC 1952) by zlib: one or several members, which zeros may follow.
-/// Memory: 64 KiB.
-[[nodiscard]] std::vector<std::byte> unpack_gzip(std::span<const std::byte> packed, std::size_t max,
-                                                 std::string_view name);
-
-/// Unpacks zlib's framing (RFC 1950).
-[[nodiscard]] std::vector<std::byte> unpack_zlib(std::span<const std::byte> packed, std::size_t max,
-                                                 std::string_view name);
-
 /// Unpacks Zstandard (RFC 8878) by libzstd: one or more frames, with or without their content size.
 /// Memory: 200 KiB.
 [[nodiscard]] std::vector<std::byte> unpack_zstd(std::span<const std::byte> packed, std::size_t max,
@@ -106,20 +97,13 @@ inline constexpr std::uint64_t kMaxZstdWindow = std::uint64_t{32} << 20U;
 [[nodiscard]] std::vector<std::byte> unpack_lz4_hdf5(std::span<const std::byte> packed,
                                                      std::size_t max, std::string_view name);
 
-/// Unpacks bzip2 by libbz2: one or several streams.  Memory: 4 MiB.
-[[nodiscard]] std::vector<std::byte> unpack_bzip2(std::span<const std::byte> packed,
-                                                  std::size_t max, std::string_view name);
-
 /// The memory that the decoder of xz may take; preset 9, the largest, has a dictionary of 64 MiB.
 /// The decoder touches only as much of a dictionary as comes out.
 inline constexpr std::uint64_t kMaxXzBytes = std::uint64_t{80} << 20U;
 
-/// Unpacks .xz (LZMA2 in its container) by liblzma: one or more streams.  Memory: kMaxXzBytes.
-[[nodiscard]] std::vector<std::byte> unpack_xz(std::span<const std::byte> packed, std::size_t max,
-                                               std::string_view name);
-
-/// Returns a decoder of the streams of gzip, zlib, zstd, bzip2 or xz, or null for another codec.
-/// The name must outlive it.
+/// Returns a decoder of the streams of gzip (RFC 1952), zlib (RFC 1950), zstd, bzip2 or xz (LZMA2
+/// in its container), or null for another codec.  The name must outlive it. Memory: 64 KiB; 4 MiB
+/// for bzip2, kMaxXzBytes for xz.
 [[nodiscard]] std::unique_ptr<StreamDecoder> stream_decoder(Codec codec, const PackedName& name);
 
 /// Unpacks LZF, h5py's filter: a stream of LibLZF without a header.

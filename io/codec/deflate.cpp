@@ -44,23 +44,7 @@ class DeflateDecoder : public StreamDecoder {
   z_stream stream_{};
 };
 
-std::vector<std::byte> inflate_all(int window_bits, std::span<const std::byte> packed,
-                                   std::size_t max, const PackedName& name) {
-  DeflateDecoder inflater(window_bits, name);
-  return unpack_streams(inflater, packed, max, name);
-}
-
 }  // namespace
-
-std::vector<std::byte> unpack_gzip(std::span<const std::byte> packed, std::size_t max,
-                                   std::string_view name) {
-  return inflate_all(kGzip, packed, max, {"gzip", name});
-}
-
-std::vector<std::byte> unpack_zlib(std::span<const std::byte> packed, std::size_t max,
-                                   std::string_view name) {
-  return inflate_all(kZlib, packed, max, {"zlib", name});
-}
 
 std::unique_ptr<StreamDecoder> gzip_decoder(const PackedName& name) {
   return std::make_unique<DeflateDecoder>(kGzip, name);

@@ -59,13 +59,6 @@ class XzDecoder : public StreamDecoder {
 
 }  // namespace
 
-std::vector<std::byte> unpack_xz(std::span<const std::byte> packed, std::size_t max,
-                                 std::string_view name) {
-  const PackedName named{"xz", name};
-  XzDecoder decoder(named);
-  return unpack_streams(decoder, packed, max, named);
-}
-
 std::unique_ptr<StreamDecoder> xz_decoder(const PackedName& name) {
   return std::make_unique<XzDecoder>(name);
 }

@@ -23,15 +23,12 @@ constexpr std::uint64_t kMaxRows = std::uint64_t{1} << 56;
 /// How many bytes of a file a slow processor unpacks and checks in a second.
 constexpr std::uint64_t kBytesPerSecond = 1 << 20;
 
-/// The most bytes of a chunk.
-constexpr std::uint64_t kMaxChunk = UINT32_MAX;
-
 /// Returns a chunk as the file has it, and which filters it lacks; nothing where there is none.
 std::optional<std::vector<std::byte>> packed_chunk(hid_t set, std::span<const hsize_t, 2> at,
                                                    std::uint32_t& skipped) {
   hsize_t bytes = 0;
   const herr_t found = H5Dget_chunk_storage_size(set, at.data(), &bytes);
-  if (found < 0 || bytes == 0 || bytes > kMaxChunk) return std::nullopt;
+  if (found < 0 || bytes == 0 || bytes > kMaxHdf5ChunkBytes) return std::nullopt;
   std::vector<std::byte> out(bytes);
   if (H5Dread_chunk(set, H5P_DEFAULT, at.data(), &skipped, out.data()) < 0) return std::nullopt;
   return out;
@@ -112,7 +109,7 @@ void Hdf5Array::check_packed_chunks(std::size_t number_bytes) const {
   check_filters(packed, file_);
   std::array<hsize_t, 2> shape{1, 1}, at{0, 0};
   if (H5Pget_chunk(list.get(), 2, shape.data()) < 1 || shape[0] == 0 || shape[1] == 0 ||
-      shape[0] > kMaxChunk || shape[1] > kMaxChunk) {
+      shape[0] > kMaxHdf5ChunkBytes || shape[1] > kMaxHdf5ChunkBytes) {
     fail("its chunks are not credible");
   }
   unsigned options = 0;

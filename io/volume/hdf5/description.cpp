@@ -24,35 +24,28 @@ auto members_of(Description& d) {
 template <class T>
 constexpr bool kIsNumber = std::is_arithmetic_v<T> || std::is_enum_v<T>;
 
-/// Writes numbers in 64 bits, and runs of them, of structs or of characters behind their length.
-class DescriptionWriter {
- public:
-  template <class T>
-  void write(const T& value) {
-    if constexpr (kIsNumber<T>) {
-      append(std::array{static_cast<std::uint64_t>(value)});
-    } else {
-      write(value.size());
-      append(value);
-    }
-  }
-  void write(const Numbers& numbers) {
-    write(numbers.size());
-    for (const auto& [name, values] : numbers) write(name), write(values);
-  }
-  [[nodiscard]] std::string take() { return std::move(out_); }
+template <class Run>
+void append_run(const Run& run, std::string& out) {
+  const auto bytes = std::as_bytes(std::span(run));
+  out.append(reinterpret_cast<const char*>(bytes.data()), bytes.size());
+}
 
- private:
-  template <class Run>
-  void append(const Run& run) {
-    const auto bytes = std::as_bytes(std::span(run));
-    out_.append(reinterpret_cast<const char*>(bytes.data()), bytes.size());
+/// Packs numbers in 64 bits, and runs of them, of structs or of characters behind their length.
+template <class T>
+void pack_value(const T& value, std::string& out) {
+  if constexpr (kIsNumber<T>) {
+    append_run(std::array{static_cast<std::uint64_t>(value)}, out);
+  } else {
+    pack_value(value.size(), out);
+    append_run(value, out);
   }
+}
+void pack_value(const Numbers& numbers, std::string& out) {
+  pack_value(numbers.size(), out);
+  for (const auto& [name, values] : numbers) pack_value(name, out), pack_value(values, out);
+}
 
-  std::string out_;
-};
-
-/// Reads what DescriptionWriter wrote.  What is not there reads as 0 or empty, and sound() says so.
+/// Reads what pack_value() packed.  What is not there reads as 0 or empty, and sound() says so.
 class DescriptionReader {
  public:
   explicit DescriptionReader(const std::string& bytes) : left_(std::as_bytes(std::span(bytes))) {}
@@ -96,9 +89,10 @@ class DescriptionReader {
 }  // namespace
 
 std::string pack(const Hdf5Description& description) {
-  DescriptionWriter out;
-  std::apply([&](const auto&... members) { (out.write(members), ...); }, members_of(description));
-  return out.take();
+  std::string out;
+  std::apply([&](const auto&... members) { (pack_value(members, out), ...); },
+             members_of(description));
+  return out;
 }
 
 std::optional<Hdf5Description> unpack_description(const std::string& bytes) {

@@ -183,8 +183,6 @@ std::uint64_t max_unfilter_scratch(const std::vector<Hdf5Filter>& filters, std::
 
 namespace {
 
-constexpr std::uint64_t kMaxHdf5ChunkBytes = UINT32_MAX;
-
 /// Returns how many elements apart neighbours along an axis of the array are in a chunk.
 std::int64_t stride_of(const Hdf5Description& description, std::optional<std::size_t> axis) {
   if (!axis) return 0;

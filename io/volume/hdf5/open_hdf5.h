@@ -20,6 +20,9 @@
 
 namespace mw::io {
 
+/// The most bytes of a chunk.
+inline constexpr std::uint64_t kMaxHdf5ChunkBytes = UINT32_MAX;
+
 /// ERRORS: mw::Error(kInput) naming file, data set and filter unless all are ones that unfilter()
 /// knows: deflate, shuffle, Fletcher-32, bzip2, LZF, Blosc, LZ4 and Zstandard.
 void check_filters(const Hdf5Description& description, std::string_view file);
