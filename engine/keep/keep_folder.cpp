@@ -78,8 +78,8 @@ const fs::path& found(const fs::path& path, KeepUse use) {
 }  // namespace
 
 KeepFolder::KeepFolder(const fs::path& path, KeepUse use)
-    : RunFolder(found(path, use), kKeepFolder, use != KeepUse::kBegin) {
-  std::istringstream(text(kNumberFile)) >> number_;
+    : RunFolder(found(path, use), kKeepFolder, use != KeepUse::kBegin),
+      number_(number_of(this->path())) {
   if (resumes()) return;
   if (use == KeepUse::kUpdate) refuse("holds nothing that a run has kept; begin it by --keep");
   std::random_device system;
@@ -107,6 +107,12 @@ std::vector<fs::path> KeepFolder::parts() const {
 
 fs::path kept_part(const fs::path& folder, int rank) {
   return rank == 0 ? folder : folder / io::text(kPartPrefix, rank);
+}
+
+std::uint64_t KeepFolder::number_of(const fs::path& folder) {
+  std::uint64_t out = 0;
+  std::istringstream(settings_in(folder / kNumberFile)) >> out;
+  return out;
 }
 
 std::vector<Box3> KeepFolder::with_incomplete(const std::vector<Box3>& boxes) const {

@@ -39,6 +39,8 @@ class KeepFolder : public RunFolder {
   /// Returns what tells this folder from others: the system drew it when a run first began here. It
   /// decides on no result.
   [[nodiscard]] std::uint64_t number() const { return number_; }
+  /// Returns that of a folder; 0 where there is none.
+  [[nodiscard]] static std::uint64_t number_of(const std::filesystem::path& folder);
 
   /// Opens a file without a name.
   [[nodiscard]] std::unique_ptr<WorkFile> open_scratch() const;

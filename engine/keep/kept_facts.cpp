@@ -8,6 +8,8 @@
 #include <utility>
 
 #include "engine/keep/window_records.h"
+#include "engine/store/journal/folder_lock.h"
+#include "engine/store/journal/mapped_file.h"
 #include "io/file/sink/partial_file.h"
 
 namespace mw::engine {
@@ -32,6 +34,18 @@ constexpr const char* kCompactedFile = ".windows.partial-compacted";
 std::uint64_t sectors_of(const Extent& extent) {
   constexpr std::uint64_t kSector = ExtentAllocator::kSectorBytes;
   return (extent.size + kSector - 1) / kSector * kSector;
+}
+
+/// Removes the folder of another process.  Its lock goes last, since without it the other files
+/// would count as somebody else's after a kill or a power cut.
+void remove_part(const std::filesystem::path& part) {
+  std::error_code ignored;  // what stays holds no records, and the next run removes it
+  for (const auto& entry : std::filesystem::directory_iterator(part, ignored)) {
+    if (entry.path().filename() != kLockFile) std::filesystem::remove(entry.path(), ignored);
+  }
+  io::sync_folder(part);
+  std::filesystem::remove(part / kLockFile, ignored);
+  std::filesystem::remove(part, ignored);
 }
 
 }  // namespace
@@ -161,11 +175,12 @@ std::vector<std::uint64_t> KeptFacts::take_over_parts() {
   return by_march;
 }
 
-void KeptFacts::take_over(const std::filesystem::path& path, std::vector<std::uint64_t>& by_march) {
-  {
-    KeepFolder part(path, KeepUse::kGoOn);
-    RecordLog log(part.open(kWindowsFile), window_log(part.number()));
-    SegmentFile from(part.open(kVersionsFile));
+/// The records of the part are removed first, so that a folder half removed by a kill holds none.
+void KeptFacts::take_over(const std::filesystem::path& part, std::vector<std::uint64_t>& by_march) {
+  const std::filesystem::path records = part / kWindowsFile;
+  if (std::filesystem::exists(records)) {
+    RecordLog log(std::make_unique<MappedFile>(records), window_log(KeepFolder::number_of(part)));
+    SegmentFile from(std::make_unique<MappedFile>(part / kVersionsFile));
     log.replay([&](std::uint64_t /*at*/, std::span<const std::byte> bytes) {
       WindowRecord record = checked(bytes);
       ++by_march[layout_.window_key(record.window).march];
@@ -178,10 +193,9 @@ void KeptFacts::take_over(const std::filesystem::path& path, std::vector<std::ui
       from.read(place, [&](std::span<const std::byte> packed) { add(record, packed); });
     });
     save();
-    part.discard();
+    std::filesystem::remove(records);
   }
-  std::error_code ignored;  // what stays holds no records, and the next run removes it
-  std::filesystem::remove(path, ignored);
+  remove_part(part);
 }
 
 /// Bytes that are given up leave gaps, not all of which can be filled, so it may take some rounds.

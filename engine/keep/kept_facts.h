@@ -66,7 +66,7 @@ class KeptFacts {
   /// ERRORS: DamagedWork.
   [[nodiscard]] WindowRecord checked(std::span<const std::byte> bytes) const;
   void put(const WindowRecord& record, const std::optional<WindowRecord>& old);
-  void take_over(const std::filesystem::path& path, std::vector<std::uint64_t>& by_march);
+  void take_over(const std::filesystem::path& part, std::vector<std::uint64_t>& by_march);
   void replace(const WindowRecord& record, const WindowRecord& old);
   [[nodiscard]] std::optional<Extent> copy_down(const Extent& extent);
   void write_group();

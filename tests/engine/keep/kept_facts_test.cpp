@@ -142,7 +142,6 @@ TEST_F(KeptFactsTest, AreTakenOverFromOtherProcessesOnce) {
   add(facts, layout, shares[0], 1);
   for (int rank = 1; rank < 3; ++rank) {
     KeepFolder part(kept_part(folder.path(), rank), KeepUse::kGoOn);
-    part.settle("window = 8\n");
     KeptFacts of_part(part, layout, {});
     add(of_part, layout, shares[static_cast<std::size_t>(rank)], 1);
     of_part.finish();
