@@ -86,9 +86,10 @@ def bundle(tree, folder):
     names = {name: bundled_name(path.resolve()) for name, path in places.items()}
     for name, path in sorted(places.items()):
         shutil.copyfile(path, folder / names[name])
+    libraries = sorted(folder.iterdir())
     for module in modules:
         module.chmod(0o755)
-    files = modules + sorted(folder.iterdir())
+    files = modules + libraries
     for file in files:
         missing = [name for name in needed_by(file)
                    if name not in names and name not in ours and not OF_THE_SYSTEM.match(name)]
@@ -100,6 +101,10 @@ def bundle(tree, folder):
         if file.parent == folder:
             patch(file, "--set-soname", file.name)
         patch(file, "--set-rpath", f"$ORIGIN/{os.path.relpath(folder, file.parent)}")
+    # The library of DICOM looks for its dictionary beside it (io/volume/dicom/read_dicom.cpp).
+    if any(name.startswith("libdcmdata.") for name in places):
+        dictionary, = pathlib.Path("/usr/share").glob("libdcmtk*/dicom.dic")
+        shutil.copyfile(dictionary, folder / dictionary.name)
     return files
 
 

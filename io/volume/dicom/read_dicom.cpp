@@ -2,13 +2,16 @@
 // SPDX-License-Identifier: Apache-2.0
 // Reads a DICOM segmentation by DCMTK, which sees the file in a child process only.
 #include <dcmtk/config/osconfig.h>
+#include <dcmtk/dcmdata/dcdict.h>
 #include <dcmtk/dcmdata/dcfcache.h>
 #include <dcmtk/dcmdata/dcfilefo.h>
 #include <dcmtk/dcmdata/dcpixel.h>
 #include <dcmtk/dcmdata/dctk.h>
+#include <dlfcn.h>
 
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
 #include <optional>
 #include <span>
 
@@ -49,10 +52,23 @@ std::uint64_t pixel_bytes_of(const DicomGrid& grid, std::uint64_t frames) {
   return (saturating_product(voxels * static_cast<std::uint64_t>(grid.bits), frames) + 7) / 8;
 }
 
+/// Loads the dictionary of DICOM that lies beside DCMTK's library, as in a wheel, unless DCMTK has
+/// found the system's.  Files that do not tell the types of their values cannot be read without.
+void load_dictionary() {
+  Dl_info place{};
+  const bool is_loaded = dcmDataDict.isDictionaryLoaded();
+  if (is_loaded || ::dladdr(&dcmDataDict, &place) == 0 || place.dli_fname == nullptr) return;
+  const std::filesystem::path file =
+      std::filesystem::path(place.dli_fname).parent_path() / "dicom.dic";
+  dcmDataDict.wrlock().loadDictionary(file.c_str());
+  dcmDataDict.wrunlock();
+}
+
 /// One file in the child.
 class DicomReader {
  public:
   DicomReader(const std::string& path, const std::string& name) : name_(name) {
+    load_dictionary();
     constexpr Uint32 kMostInMemory = 4096;  // pixels stay on the disk
     check(file_.loadFile(path.c_str(), EXS_Unknown, EGL_noChange, kMostInMemory), "structure");
     data_ = file_.getDataset();
