@@ -160,6 +160,41 @@ void add_run_options(OptionSet& options, MeshRequest& request) {
                .only_flag = true});
 }
 
+/// Adds options that only some formats have room for.
+void add_format_options(OptionSet& options, MeshRequest& request) {
+  options.add({.name = "ascii",
+               .help = "a .msh as text instead of binary",
+               .group = kOutputGroup,
+               .kind = ValueKind::kSwitch,
+               .fallback = "false",
+               .calls = kWriting,
+               .listed = Listed::kInHelpAll,
+               .assign = into(request.extras.encoding, parse_ascii)});
+  add_sample_option(options, request.job.samples);
+  options.add({.name = "materials",
+               .value = "NAME=N[:LO:HI]",
+               .help = "N sets of elements by equal ranges of a --sample, with a table",
+               .group = kOutputGroup,
+               .calls = kWriting,
+               .listed = Listed::kInHelpAll,
+               .assign = into(request.extras.materials, engine::parse_materials)});
+  options.add({.name = "deck",
+               .help = "static: a job for CalculiX or FEBio that pulls the mesh",
+               .group = kOutputGroup,
+               .fallback = "none",
+               .choices = {"none", "static"},
+               .calls = kWriting,
+               .listed = Listed::kInHelpAll,
+               .assign = into(request.extras.deck, parse_deck)});
+  options.add({.name = "pairs",
+               .value = "FILE",
+               .help = "nodes of --periodic faces: .csv, or equations in .inp",
+               .group = kOutputGroup,
+               .calls = kWriting,
+               .listed = Listed::kInHelpAll,
+               .assign = into(request.extras.pairs)});
+}
+
 void add_output_options(OptionSet& options, MeshRequest& request) {
   options.add({.name = "output",
                .value = "OUTPUT",
@@ -212,37 +247,7 @@ void add_output_options(OptionSet& options, MeshRequest& request) {
                .choices = {"auto", "on", "off"},
                .listed = Listed::kInHelpAll,
                .assign = into(request.job.certify, parse_certify)});
-  options.add({.name = "ascii",
-               .help = "a .msh as text instead of binary",
-               .group = kOutputGroup,
-               .kind = ValueKind::kSwitch,
-               .fallback = "false",
-               .calls = kWriting,
-               .listed = Listed::kInHelpAll,
-               .assign = into(request.extras.encoding, parse_ascii)});
-  add_sample_option(options, request.job.samples);
-  options.add({.name = "materials",
-               .value = "NAME=N[:LO:HI]",
-               .help = "N sets of elements by equal ranges of a --sample, with a table",
-               .group = kOutputGroup,
-               .calls = kWriting,
-               .listed = Listed::kInHelpAll,
-               .assign = into(request.extras.materials, engine::parse_materials)});
-  options.add({.name = "deck",
-               .help = "static: a job for CalculiX or FEBio that pulls the mesh",
-               .group = kOutputGroup,
-               .fallback = "none",
-               .choices = {"none", "static"},
-               .calls = kWriting,
-               .listed = Listed::kInHelpAll,
-               .assign = into(request.extras.deck, parse_deck)});
-  options.add({.name = "pairs",
-               .value = "FILE",
-               .help = "nodes of --periodic faces: .csv, or equations in .inp",
-               .group = kOutputGroup,
-               .calls = kWriting,
-               .listed = Listed::kInHelpAll,
-               .assign = into(request.extras.pairs)});
+  add_format_options(options, request);
   options.add({.name = "force",
                .help = "replaces files that are not of this program; meshes images",
                .group = kOutputGroup,
