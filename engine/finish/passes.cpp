@@ -75,28 +75,25 @@ constexpr std::array kPasses{
 
 }  // namespace
 
-FinishFacts apply_passes(io::ScratchMesh& mesh, const FinishTask& task) {
+FinishFacts apply_passes(io::ScratchMesh& mesh, const FinishTask& task,
+                         std::span<io::MeshSink* const> sinks) {
   FinishFacts out;
   for (const Pass& pass : kPasses) {
     if (pass.is_asked(task)) pass.apply(mesh, task, out);
   }
   out.vertices = mesh.vertex_count();
   out.tets = mesh.tet_count();
+  for (io::MeshSink* sink : sinks) mesh.copy_to(*sink, task.between);
   return out;
 }
 
-std::uint64_t FinishSink::buffer_bytes() const {
-  std::uint64_t passes = 0, sinks = 0;
+std::uint64_t bytes_to_finish(const FinishTask& task, std::span<io::MeshSink* const> sinks) {
+  std::uint64_t of_passes = 0, of_sinks = 0;
   for (const Pass& pass : kPasses) {
-    if (pass.is_asked(task_)) passes = std::max(passes, pass.bytes(task_));
+    if (pass.is_asked(task)) of_passes = std::max(of_passes, pass.bytes(task));
   }
-  for (const io::MeshSink* sink : sinks_) sinks += sink->buffer_bytes();
-  return io::ScratchMesh::kBufferBytes + std::max(passes, sinks);
-}
-
-void FinishSink::complete() {
-  facts_ = apply_passes(mesh_, task_);
-  for (io::MeshSink* sink : sinks_) mesh_.copy_to(*sink, task_.between);
+  for (const io::MeshSink* sink : sinks) of_sinks += sink->buffer_bytes();
+  return io::ScratchMesh::kBufferBytes + std::max(of_passes, of_sinks);
 }
 
 }  // namespace mw::engine

@@ -3,9 +3,8 @@
 // All passes over a finished mesh, in the order in which they work.
 #pragma once
 
-#include <optional>
-#include <utility>
-#include <vector>
+#include <cstdint>
+#include <span>
 
 #include "engine/finish/finish_task.h"
 #include "io/mesh/scratch_mesh.h"
@@ -22,31 +21,13 @@ struct Pass {
   void (*apply)(io::ScratchMesh& mesh, const FinishTask& task, FinishFacts& facts);
 };
 
-/// Applies the passes that are asked, in their order.
-[[nodiscard]] FinishFacts apply_passes(io::ScratchMesh& mesh, const FinishTask& task);
+/// Applies the passes that are asked, in their order, and gives the mesh to the sinks, one after
+/// the other.
+[[nodiscard]] FinishFacts apply_passes(io::ScratchMesh& mesh, const FinishTask& task,
+                                       std::span<io::MeshSink* const> sinks = {});
 
-/// Takes a mesh in; once it is whole, applies the passes and gives it to the sinks, one after the
-/// other.  REQUIRES: mesh, task and sinks outlive it.
-class FinishSink : public io::ScratchMeshSink {
- public:
-  FinishSink(io::ScratchMesh& mesh, const FinishTask& task, std::vector<io::MeshSink*> sinks)
-      : ScratchMeshSink(mesh, [this] { complete(); }),
-        mesh_(mesh),
-        task_(task),
-        sinks_(std::move(sinks)) {}
-
-  /// Returns nothing before finish().
-  [[nodiscard]] const std::optional<FinishFacts>& facts() const { return facts_; }
-  /// Returns the most that mesh and passes hold, or mesh and sinks.
-  [[nodiscard]] std::uint64_t buffer_bytes() const override;
-
- private:
-  void complete();
-
-  io::ScratchMesh& mesh_;
-  const FinishTask& task_;
-  std::vector<io::MeshSink*> sinks_;
-  std::optional<FinishFacts> facts_;
-};
+/// Returns the most that mesh and passes hold, or mesh and sinks.
+[[nodiscard]] std::uint64_t bytes_to_finish(const FinishTask& task,
+                                            std::span<io::MeshSink* const> sinks);
 
 }  // namespace mw::engine

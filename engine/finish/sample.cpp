@@ -71,22 +71,6 @@ class Batch {
   std::vector<io::TetRows> tets_;
 };
 
-/// Adds columns to those that the mesh has.
-void add_columns(io::ScratchMesh& mesh, const std::vector<std::string>& names, Values& values) {
-  const std::size_t added = names.size(), before = mesh.header().values.size();
-  std::vector<std::string> all = mesh.header().values;
-  all.insert(all.end(), names.begin(), names.end());
-  mesh.replace_values(std::move(all), [&](const io::TetBatch& batch, std::vector<double>& rows) {
-    for (std::size_t t = 0; t < batch.tets.size(); ++t) {
-      const auto old = batch.values.subspan(t * before, before);
-      rows.insert(rows.end(), old.begin(), old.end());
-      for (std::size_t k = 0; k < added; ++k) {
-        rows.push_back(values.get((batch.first + t) * added + k));
-      }
-    }
-  });
-}
-
 }  // namespace
 
 void sample(io::ScratchMesh& mesh, ImageSampler& sampler, std::size_t sort_bytes,
@@ -109,7 +93,12 @@ void sample(io::ScratchMesh& mesh, ImageSampler& sampler, std::size_t sort_bytes
     batch.add(tet);
   });
   batch.flush();
-  add_columns(mesh, sampler.names(), values);
+  const std::size_t width = sampler.names().size();
+  mesh.add_columns(sampler.names(), [&](const io::TetBatch& some, std::size_t t, auto& rows) {
+    for (std::size_t k = 0; k < width; ++k) {
+      rows.push_back(values.get((some.first + t) * width + k));
+    }
+  });
 }
 
 std::uint64_t bytes_to_sample(const ImageSampler& sampler, std::size_t sort_bytes) {

@@ -316,9 +316,11 @@ class MeshRun {
     plan_check(labels);
     const FinishTask task = finish_task(labels);
     io::ScratchMesh mesh(job_.folder.empty() ? "." : job_.folder);
-    FinishSink sink(mesh, task, {sinks.begin(), sinks.end()});
+    std::optional<FinishFacts> facts;
+    const auto finish = [&] { facts = apply_passes(mesh, task, sinks); };
+    io::ScratchMeshSink sink(mesh, finish, bytes_to_finish(task, sinks));
     march_into(sink, labels);
-    if (sink.facts()) run_.take(*sink.facts());
+    if (facts) run_.take(*facts);
     leave_for_later();
     tell();
     return std::move(run_);

@@ -24,29 +24,6 @@
 namespace mw::engine {
 namespace {
 
-/// Passes a mesh on, and asks before each piece of it whether to go on.
-class StoppableSink : public io::MeshSink {
- public:
-  StoppableSink(io::MeshSink& below, const std::function<void()>& between)
-      : below_(below), between_(between) {}
-
-  void begin(const io::MeshHeader& header) override { below_.begin(header); }
-  void write_vertices(std::span<const io::Position> positions) override {
-    between_();
-    below_.write_vertices(positions);
-  }
-  void write_tets(std::span<const io::TetRows> tets, std::span<const RawLabel> labels) override {
-    between_();
-    below_.write_tets(tets, labels);
-  }
-  void finish() override { below_.finish(); }
-  [[nodiscard]] std::uint64_t buffer_bytes() const override { return below_.buffer_bytes(); }
-
- private:
-  io::MeshSink& below_;
-  const std::function<void()>& between_;
-};
-
 /// The labels that a mesh is to hold and, in words, what is left out by what its file says.
 struct ChosenLabels {
   audit::KeptLabels labels;
@@ -215,8 +192,7 @@ report::Verdict verify(const VerifyJob& job, const std::function<void(io::MeshSi
       .table = collect_labels(volume, scanner_count(volume, job.threads, job.memory)),
       .names = info.names};
   MeshTiles mesh(info, verdict.table, {job.folder, job.memory / 8});
-  StoppableSink stoppable(mesh, job.between);
-  io::MergedVertices merged(stoppable, job.folder);
+  io::MergedVertices merged(mesh, job.folder, job.between);
   deliver(merged);
   const io::MeshRecord& record = mesh.header().record;
   ChosenLabels kept = kept_labels(job.choice, record, mesh, verdict.table);

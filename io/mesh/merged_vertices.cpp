@@ -51,12 +51,14 @@ void MergedVertices::begin(const MeshHeader& header) {
 }
 
 void MergedVertices::write_vertices(std::span<const Position> positions) {
+  between_();
   if (!waiting_) return below_.write_vertices(positions);
   waiting_->doubles.add(positions);
   waiting_->positions.append(std::as_bytes(positions));
 }
 
 void MergedVertices::write_tets(std::span<const TetRows> tets, std::span<const RawLabel> labels) {
+  between_();
   if (!waiting_) return below_.write_tets(tets, labels);
   append_tets(waiting_->tets, tets, labels);
 }
@@ -73,6 +75,7 @@ void MergedVertices::finish() {
 void MergedVertices::pass_vertices() {
   std::uint64_t row = 0;
   waiting_->positions.each_batch<Position>([&](std::span<const Position> batch) {
+    between_();
     std::vector<Position> firsts;
     for (const Position& p : batch) {
       if (waiting_->doubles.first(row) == row) firsts.push_back(p);
@@ -85,6 +88,7 @@ void MergedVertices::pass_vertices() {
 void MergedVertices::pass_tets() {
   const DoubledVertices& doubles = waiting_->doubles;
   waiting_->tets.each_batch<TetRecord>([&](std::span<const TetRecord> batch) {
+    between_();
     std::vector<TetRows> tets;
     std::vector<RawLabel> labels;
     for (const TetRecord& record : batch) {

@@ -3,6 +3,7 @@
 // Vertices that were doubled, found again by their positions.
 #pragma once
 
+#include <functional>
 #include <optional>
 #include <utility>
 #include <vector>
@@ -39,13 +40,15 @@ class DoubledVertices {
 };
 
 /// Passes a mesh on without its values of tets.  Where its record tells of doubled vertices, all
-/// vertices at one position become one.  REQUIRES: the sink outlives it.
-/// Memory: that of DoubledVertices and 1 MiB.  Disk: where vertices were doubled, that of
-/// DoubledVertices, and 24 bytes a vertex and 40 a tet.
+/// vertices at one position become one.  Calls between(), which may throw, before each piece that
+/// it takes or passes on.  REQUIRES: the sink outlives it. Memory: that of DoubledVertices and 1
+/// MiB.  Disk: where vertices were doubled, that of DoubledVertices, and 24 bytes a vertex and 40 a
+/// tet.
 class MergedVertices : public MeshSink {
  public:
-  MergedVertices(MeshSink& below, std::filesystem::path folder)
-      : below_(below), folder_(std::move(folder)) {}
+  MergedVertices(
+      MeshSink& below, std::filesystem::path folder, std::function<void()> between = [] {})
+      : below_(below), folder_(std::move(folder)), between_(std::move(between)) {}
 
   void begin(const MeshHeader& header) override;
   void write_vertices(std::span<const Position> positions) override;
@@ -72,6 +75,7 @@ class MergedVertices : public MeshSink {
 
   MeshSink& below_;
   std::filesystem::path folder_;
+  std::function<void()> between_;
   std::optional<Waiting> waiting_;
 };
 

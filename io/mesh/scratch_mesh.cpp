@@ -98,17 +98,22 @@ void ScratchMesh::add_values(std::span<const double> rows) {
   values_.append(std::as_bytes(rows));
 }
 
-void ScratchMesh::replace_values(
-    std::vector<std::string> names,
-    const std::function<void(const TetBatch&, std::vector<double>& rows)>& add_rows) {
+void ScratchMesh::add_columns(
+    const std::vector<std::string>& names,
+    const std::function<void(const TetBatch&, std::size_t, std::vector<double>&)>& add_row) {
   ScratchFile values(folder_);
   std::vector<double> rows;
+  const std::size_t width = header_.values.size();
   each_tet_batch([&](const TetBatch& batch) {
     rows.clear();
-    add_rows(batch, rows);
+    for (std::size_t t = 0; t < batch.tets.size(); ++t) {
+      const auto before = batch.values.subspan(t * width, width);
+      rows.insert(rows.end(), before.begin(), before.end());
+      add_row(batch, t, rows);
+    }
     values.append(std::as_bytes(std::span(rows)));
   });
-  header_.values = std::move(names);
+  header_.values.insert(header_.values.end(), names.begin(), names.end());
   values_ = std::move(values);
 }
 

@@ -78,10 +78,11 @@ class ScratchMesh {
   void add_tets(std::span<const TetRows> tets, std::span<const RawLabel> labels);
   /// Adds rows of values, as MeshSink::write_values() takes them.
   void add_values(std::span<const double> rows);
-  /// Replaces the values of all tets by those that add_rows() appends for each batch.
-  void replace_values(
-      std::vector<std::string> names,
-      const std::function<void(const TetBatch&, std::vector<double>& rows)>& add_rows);
+  /// Adds columns of values behind those that the mesh has; add_row() appends the numbers of one
+  /// tet of the batch, one for each name.
+  void add_columns(const std::vector<std::string>& names,
+                   const std::function<void(const TetBatch& batch, std::size_t tet,
+                                            std::vector<double>& rows)>& add_row);
   /// Takes the values of all tets away.
   void drop_values();
 
@@ -112,10 +113,12 @@ class ScratchMesh {
 /// Fills a mesh.  REQUIRES: the mesh is empty, and outlives it.
 class ScratchMeshSink : public MeshSink {
  public:
-  /// complete is called by finish(), and its errors are those of finish().
+  /// complete is called by finish(), and its errors are those of finish(); bytes is the most that
+  /// it and the mesh hold.
   explicit ScratchMeshSink(
-      ScratchMesh& mesh, std::function<void()> complete = [] {})
-      : mesh_(mesh), complete_(std::move(complete)) {}
+      ScratchMesh& mesh, std::function<void()> complete = [] {},
+      std::uint64_t bytes = ScratchMesh::kBufferBytes)
+      : mesh_(mesh), complete_(std::move(complete)), bytes_(bytes) {}
 
   void begin(const MeshHeader& header) override { mesh_.header() = header; }
   void write_vertices(std::span<const Position> positions) override {
@@ -126,11 +129,12 @@ class ScratchMeshSink : public MeshSink {
   }
   void write_values(std::span<const double> rows) override { mesh_.add_values(rows); }
   void finish() override;
-  [[nodiscard]] std::uint64_t buffer_bytes() const override { return ScratchMesh::kBufferBytes; }
+  [[nodiscard]] std::uint64_t buffer_bytes() const override { return bytes_; }
 
  private:
   ScratchMesh& mesh_;
   std::function<void()> complete_;
+  std::uint64_t bytes_;
 };
 
 }  // namespace mw::io
