@@ -39,11 +39,12 @@ def check_names(arguments, known, others=()):
 
 @contextlib.contextmanager
 def naming(name):
-    """Puts the name of the argument in front of the library's errors."""
+    """Puts the name of the argument in front of the library's errors that do not begin with it."""
     try:
         yield
     except Error as error:
-        raise about(name, type(error)(f"{name}: {error}")) from None
+        told = str(error) if str(error).startswith(f"{name}: ") else f"{name}: {error}"
+        raise about(name, type(error)(told)) from None
 
 
 def whole(value, name, bits=64):
