@@ -25,7 +25,7 @@
  *
  * Units: places are in the unit of the volume, boxes and shapes in voxels, memory in bytes.  Arrays
  * of three are (x, y, z).  Labels are 64-bit numbers; those of signed volumes are in two's
- * complement.  Texts end with a zero byte and are UTF-8, but for paths, which are the system's. */
+ * complement.  Texts end with a zero byte and are UTF-8; paths are as the system has them. */
 #ifndef MWMESH_C_H_
 #define MWMESH_C_H_
 

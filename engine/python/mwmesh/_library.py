@@ -209,7 +209,7 @@ def call(name, *arguments):
 
 
 def _warn(lines):
-    """Warns whoever called the package."""
+    """Warns the caller of the package."""
     frame, level = sys._getframe(1), 2
     while frame.f_back and frame.f_code.co_filename.startswith(_FOLDER + os.sep):
         frame, level = frame.f_back, level + 1
