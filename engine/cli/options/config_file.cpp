@@ -139,7 +139,7 @@ std::string checked_text(ValueKind kind, const toml::node& node, const std::stri
   }
   // The system would end the name of a file there.
   if (text->find('\0') != text->npos) {
-    io::fail_usage(where, " = ", *text, ": has a zero byte in it");
+    io::fail_usage(where, ": has a zero byte in it");
   }
   return *text;
 }
