@@ -109,7 +109,8 @@ def _load():
     places = os.path.join(_FOLDER, "libmwmesh.so"), os.path.normpath(os.path.join(_FOLDER, LIBRARY))
     file = next(filter(os.path.exists, places), os.path.basename(LIBRARY))
     try:
-        library = ctypes.CDLL(file)
+        # What the library needs is found from where it lies, not from a link to it.
+        library = ctypes.CDLL(os.path.realpath(file) if os.path.exists(file) else file)
         for name, (result, *arguments) in _CERTAIN.items():
             function = getattr(library, f"mw_{name}")
             function.restype, function.argtypes = result, arguments
