@@ -33,11 +33,6 @@ bool is_option(const std::string& flag) {
   return std::ranges::find(all_flags(), flag) != all_flags().end();
 }
 
-std::string name_of(std::string flag) {
-  std::replace(flag.begin(), flag.end(), '-', '_');
-  return flag;
-}
-
 /// ERRORS: mw::Error(kUsage) for a name that no option has.
 std::string known_flag(const char* name) {
   require(name, "name");
@@ -46,7 +41,7 @@ std::string known_flag(const char* name) {
   std::vector<std::string> names;
   std::string listed = "; there are ";
   for (const std::string& one : all_flags()) {
-    names.push_back(name_of(one));
+    names.push_back(request::key_of(one));
     listed += (names.size() == 1 ? "" : ", ") + names.back();
   }
   const std::string near = engine::did_you_mean(name, names);
@@ -62,7 +57,7 @@ constexpr std::pair<request::Calls, const char*> kCalls[] = {{request::kOpening,
 io::Json row_of(const OptionSet::Entry& entry) {
   const request::Option& option = entry.option;
   const auto& settings = engine::setting_table();
-  io::Json out{{"name", name_of(option.name)},
+  io::Json out{{"name", request::key_of(option.name)},
                {"kind", request::name(option.kind)},
                {"value", option.value},
                {"help", in_words(option.help)},
@@ -109,7 +104,7 @@ std::string in_words(const std::string& message) {
     const std::string flag = message.substr(at + 2, end - at - 2);
     const bool starts_word = at == 0 || message[at - 1] == ' ' || message[at - 1] == '(';
     if (starts_word && is_option(flag)) {
-      out += message.substr(done, at - done) + name_of(flag);
+      out += message.substr(done, at - done) + request::key_of(flag);
       done = end;
     }
     at = std::max(end, at + 2);

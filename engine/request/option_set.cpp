@@ -40,10 +40,9 @@ std::set<std::string> set_variables() {
 
 }  // namespace
 
-std::string key_of(const Option& option) {
-  std::string key = option.name;
-  std::replace(key.begin(), key.end(), '-', '_');
-  return key;
+std::string key_of(std::string name) {
+  std::replace(name.begin(), name.end(), '-', '_');
+  return name;
 }
 
 std::string joined(const std::vector<std::string>& words, const std::string& between) {
@@ -194,7 +193,7 @@ std::string OptionSet::toml() const {
   std::string out;
   for (const Entry& entry : entries_) {
     if (entry.option.only_flag) continue;
-    const std::string key = key_of(entry.option);
+    const std::string key = key_of(entry.option.name);
     if (!entry.text.empty()) {
       if (!fits_in_toml(entry.text)) {
         refuse(entry.where,
@@ -214,7 +213,7 @@ io::Json OptionSet::json() const {
   for (const Entry& entry : entries_) {
     if (entry.option.only_flag) continue;
     if (entry.text.empty() && entry.option.listed == Listed::kNowhere) continue;
-    out[key_of(entry.option)] = json_of_text(entry.option.kind, entry.text);
+    out[key_of(entry.option.name)] = json_of_text(entry.option.kind, entry.text);
   }
   return out;
 }

@@ -72,7 +72,7 @@ struct Option {
 };
 
 /// The name of an option as keys of config files and the library have it: "max_distance".
-[[nodiscard]] std::string key_of(const Option& option);
+[[nodiscard]] std::string key_of(std::string name);
 
 /// A value of a config file, and where it stands: "run.toml:3: window = 41".
 struct ConfigText {

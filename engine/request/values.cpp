@@ -40,11 +40,6 @@ void add_labels(std::string_view part, std::vector<RawLabel>& labels) {
 
 constexpr const char* kNone = "none";
 
-/// Returns the word that an option takes beside numbers.
-const char* word_of(ValueKind kind) {
-  return kind == ValueKind::kNumberOrAuto ? "auto" : kNone;
-}
-
 std::string joined(const std::array<std::string, 3>& parts) {
   return parts[0] + "," + parts[1] + "," + parts[2];
 }
@@ -99,6 +94,10 @@ std::vector<RawLabel> parse_labels(std::string_view text) {
   std::vector<RawLabel> labels;
   for (const std::string_view part : split(text)) add_labels(part, labels);
   return labels;
+}
+
+const char* word_of(ValueKind kind) {
+  return kind == ValueKind::kNumberOrAuto ? "auto" : kNone;
 }
 
 const char* name(ValueKind kind) {

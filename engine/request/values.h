@@ -60,6 +60,9 @@ template <class T, class Parse>
   return into(target, parse_switch);
 }
 
+/// Returns the word that an option of the kind takes beside numbers: "auto" or "none".
+[[nodiscard]] const char* word_of(ValueKind kind);
+
 /// Returns what a kind is called in lists of options: "number_or_none".
 [[nodiscard]] const char* name(ValueKind kind);
 

@@ -63,11 +63,6 @@ std::optional<std::string> string_of_toml(const toml::node& node) {
   return text == nullptr ? std::nullopt : std::optional(text->get());
 }
 
-/// Returns the word that an option takes beside numbers.
-const char* word_of(ValueKind kind) {
-  return kind == ValueKind::kNumberOrAuto ? "auto" : "none";
-}
-
 /// Returns the value as text, or nothing when its type is not that of the kind.
 std::optional<std::string> text_of_toml(ValueKind kind, const toml::node& node) {
   switch (kind) {
@@ -154,7 +149,7 @@ ConfigTexts read_config(const std::filesystem::path& path, const OptionSet& opti
     const std::string where = line_of(path.string(), node.source()) + name;
     const auto& entries = options.entries();
     const auto found = std::find_if(entries.begin(), entries.end(), [&](const auto& entry) {
-      return !entry.option.only_flag && key_of(entry.option) == name;
+      return !entry.option.only_flag && key_of(entry.option.name) == name;
     });
     if (found == entries.end()) {
       io::fail_usage(where, ": unknown key; see mwmesh mesh --print-config");
