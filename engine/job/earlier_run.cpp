@@ -37,6 +37,8 @@ bool read_step(std::istream& line, io::InputSteps& steps) {
   } else if (kind == "specks") {
     io::SpeckRule& rule = steps.specks.emplace();
     return !(line >> rule.min >> rule.diagonal).fail();
+  } else if (kind == "interpolate") {
+    steps.interpolate = true;
   } else if (kind == "weld") {
     steps.weld = labels_of(line);
   } else {
@@ -53,6 +55,7 @@ std::string text_of(const io::InputSteps& steps) {
     out << "merge " << rule.to_is_negative << " " << rule.to << numbers(rule.from) << "\n";
   }
   if (steps.specks) out << "specks " << steps.specks->min << " " << steps.specks->diagonal << "\n";
+  if (steps.interpolate) out << "interpolate\n";
   if (!steps.weld.empty()) out << "weld" << numbers(steps.weld) << "\n";
   return out.str();
 }

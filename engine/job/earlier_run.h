@@ -11,7 +11,8 @@
 
 namespace mw::engine {
 
-/// Returns a line for each rule of a merge, for specks and for what is welded.
+/// Returns a line for each rule of a merge, for specks, for labels between slices and for what is
+/// welded.
 [[nodiscard]] std::string text_of(const io::InputSteps& steps);
 /// Returns the steps that text_of() made these lines of.  ERRORS: DamagedWork.
 [[nodiscard]] io::InputSteps steps_of(const std::string& text);

@@ -249,8 +249,10 @@ struct JobSizes {
 };
 
 /// Settles sizes, and gives the job the settings of the marches.
-JobSizes settle_sizes(const io::VolumeInfo& volume, const MeshJob& asked, MeshJob& job) {
-  JobSizes out{.image = size_image(volume, asked)};
+JobSizes settle_sizes(const io::VolumeInfo& opened, const MeshJob& asked, MeshJob& job) {
+  // An image has the slices of the file, and the lattice those between them, too.
+  JobSizes out{.image = size_image(opened, asked)};
+  const io::VolumeInfo volume = io::info_after(asked.steps, opened);
   const double smallest =
       out.image ? least_size_of(*out.image, asked) : std::numeric_limits<double>::infinity();
   out.halvings = halvings_of(volume, asked, smallest);
@@ -265,19 +267,26 @@ JobSizes settle_sizes(const io::VolumeInfo& volume, const MeshJob& asked, MeshJo
 
 /// Checks before any label is read that the job can be done.
 void check_job(const io::LabelVolume& opened, const MeshJob& job) {
-  check(opened.info(), job.settings);
+  const io::VolumeInfo volume = io::info_after(job.steps, opened.info());
+  check(volume, job.settings);
   const bool has_scores = opened.scores() != nullptr;
   Asked asked = asked_of(job.run, job.settings);
   asked.scores = has_scores;
   asked.merge = !job.steps.merge.empty();
+  asked.interpolate = job.steps.interpolate;
   asked.weld = !job.steps.weld.empty();
   check_together(asked);
-  check_object_box(opened.info(), job);
+  check_object_box(volume, job);
   warn(job, many_layers_text(opened.info()));
   io::check_unpacking(opened, reading_room(job, has_scores));
   for (const SampleImage& sample : job.samples) {
     io::check_unpacking(*sample.image, reading_room(job));
   }
+}
+
+/// Returns what a thread takes that reads the volume after the steps.
+std::uint64_t bytes_to_read(const io::LabelVolume& opened, const io::InputSteps& steps) {
+  return reader_bytes(opened) + (steps.interpolate ? io::InterpolatedVolume::kReadBytes : 0);
 }
 
 /// Settles sizes and settings, and checks that the job can be done.
@@ -295,7 +304,7 @@ class MeshRun {
       : opened_(opened),
         asked_(asked),
         job_(asked),
-        plan_(plan_certificate(job_, reader_bytes(opened))),
+        plan_(plan_certificate(job_, bytes_to_read(opened, asked.steps))),
         sizes_(settle(opened, asked, job_)),
         from_file_(opened, job_.stop),
         kept_(from_file_, job_),
@@ -356,7 +365,7 @@ class MeshRun {
     job_.settings = with_scale(asked_.settings, run_.count->scale);
     run_.sizes = job_.settings.sizes;
     if (sizes_.image) sizes_.image.emplace(sizes_.image->scaled(run_.count->scale));
-    check(opened_.info(), job_.settings);
+    check(input_.volume().info(), job_.settings);
   }
 
   void plan_check(const io::DenseVolume& labels) {
@@ -419,6 +428,7 @@ class MeshRun {
   void tell() {
     run_.raised = sizes_.raised;
     run_.specks = input_.specks();
+    run_.slices = input_.slices();
     run_.welds = input_.welds();
     if (sampler_) run_.samples = sampler_->facts();
     run_.radius_ratio_floor = floor_of(promises());

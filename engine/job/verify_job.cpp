@@ -188,6 +188,7 @@ report::Verdict verify(const VerifyJob& job, const std::function<void(io::MeshSi
   const io::VolumeInfo& info = volume.info();
   report::Verdict verdict{
       .specks = input.specks(),
+      .slices = input.slices(),
       .welds = input.welds(),
       .table = collect_labels(volume, scanner_count(volume, job.threads, job.memory)),
       .names = info.names};

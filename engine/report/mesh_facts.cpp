@@ -157,17 +157,29 @@ io::Json specks_json(const std::optional<io::SpeckFacts>& specks) {
       {"components", specks->components}, {"voxels", specks->voxels}, {"rounds", specks->rounds}};
 }
 
+io::Json slices_json(const std::optional<io::SliceFacts>& slices) {
+  if (!slices) return nullptr;
+  return {{"axis", std::string(1, "xyz"[slices->axis])},
+          {"slices", slices->slices},
+          {"layers", slices->layers}};
+}
+
 io::Json welds_json(const std::optional<io::WeldFacts>& welds) {
   if (!welds) return nullptr;
   return {{"voxels", welds->voxels}, {"rounds", welds->rounds}};
 }
 
 void print_steps(const std::optional<io::SpeckFacts>& specks,
+                 const std::optional<io::SliceFacts>& slices,
                  const std::optional<io::WeldFacts>& welds) {
   std::cout << told(
       "specks      {components} components of {voxels} voxels took the labels around them, in "
       "{rounds} rounds\n",
       specks_json(specks));
+  std::cout << told(
+      "interpolated {slices} slices along {axis}, {layers} thin ones for each; all below is about "
+      "these\n",
+      slices_json(slices));
   if (welds && !welds->has_solid) {
     std::cout
         << "welded      nothing: --weld names all labels of the volume, and joins the others\n";

@@ -12,6 +12,7 @@
 
 #include "io/file/sink/atomic_file.h"
 #include "io/json/json.h"
+#include "io/labels/interpolated_volume.h"
 #include "io/labels/label_table.h"
 #include "io/labels/specks.h"
 #include "io/labels/welded_volume.h"
@@ -85,11 +86,16 @@ void add_colour(io::Json& row, RawLabel label, const io::LabelNames& names);
 /// Returns "specks" of a report; null when none were to be dropped.
 [[nodiscard]] io::Json specks_json(const std::optional<io::SpeckFacts>& specks);
 
+/// Returns "interpolated" of a report; null when no labels were made between slices.
+[[nodiscard]] io::Json slices_json(const std::optional<io::SliceFacts>& slices);
+
 /// Returns "welds" of a report; null when nothing was to be welded.
 [[nodiscard]] io::Json welds_json(const std::optional<io::WeldFacts>& welds);
 
-/// Prints a line each about specks that were to be dropped, and about what was to be welded.
+/// Prints a line each about specks that were to be dropped, about labels between slices, and about
+/// what was to be welded.
 void print_steps(const std::optional<io::SpeckFacts>& specks,
+                 const std::optional<io::SliceFacts>& slices,
                  const std::optional<io::WeldFacts>& welds);
 
 }  // namespace mw::report

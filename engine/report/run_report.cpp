@@ -276,6 +276,7 @@ Json run_report(const FinishedRun& run, const std::filesystem::path& mesh, Json 
            {"settings", std::move(settings)},
            {"input", input_json(run)},
            {"specks", specks_json(run.specks)},
+           {"interpolated", slices_json(run.slices)},
            {"welds", welds_json(run.welds)},
            {"samples", samples_json(run.samples)},
            {"lattice", lattice_json(run.engine.lattice)},

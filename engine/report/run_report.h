@@ -50,6 +50,7 @@ struct FinishedRun {
   std::optional<CountFacts> count;
   RaisedSizes raised;
   std::optional<io::SpeckFacts> specks;
+  std::optional<io::SliceFacts> slices;
   std::optional<io::WeldFacts> welds;
   std::vector<engine::SampleFacts> samples;
   engine::RunReport engine;

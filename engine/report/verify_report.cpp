@@ -183,7 +183,7 @@ Json asked_json(const Bounds& bounds) {
 void print_verdict(const Verdict& verdict) {
   const auto& checks = verdict.audit.checks;
   if (!verdict.bounds.told.empty()) std::cout << told_text(verdict.bounds) << "\n";
-  print_steps(verdict.specks, verdict.welds);
+  print_steps(verdict.specks, verdict.slices, verdict.welds);
   print_bounds(verdict.bounds);
   for (const audit::Check& check : checks) {
     std::string name = check.name;
@@ -228,6 +228,7 @@ Json verdict_json(const Verdict& verdict) {
   return {{"asked", asked_json(verdict.bounds)},
           {"labels", verdict.table.size()},
           {"specks", specks_json(verdict.specks)},
+          {"interpolated", slices_json(verdict.slices)},
           {"welds", welds_json(verdict.welds)},
           {"lattice", {{"layers_xyz", {verdict.layers.x, verdict.layers.y, verdict.layers.z}}}},
           {"passed", verdict.audit.passed()},

@@ -26,6 +26,7 @@ inline constexpr io::MeshPromises kOtherPromises{.max_distance = 1.5,
 
 struct Verdict {
   std::optional<io::SpeckFacts> specks;
+  std::optional<io::SliceFacts> slices;
   std::optional<io::WeldFacts> welds;
   Bounds bounds;
   audit::AuditReport audit;

@@ -166,6 +166,13 @@ void add_step_options(OptionSet& options, VolumeRequest& request) {
                .kind = ValueKind::kNumberOrText,
                .calls = kMeshing | kVerifying,
                .assign = into(request.steps.specks, parse_specks)});
+  options.add({.name = "interpolate-slices",
+               .help = "labels between thick slices, for smooth surfaces instead of steps",
+               .group = kLabelGroup,
+               .kind = ValueKind::kSwitch,
+               .fallback = "false",
+               .calls = kMeshing | kVerifying,
+               .assign = into(request.steps.interpolate)});
   options.add({.name = "weld",
                .value = "A,B",
                .help = "fill voxels of A and B where others meet by an edge or corner alone",

@@ -43,6 +43,13 @@ constexpr std::array kRules{
     Rule{&Asked::merge, kNotWith, &Asked::scores,
          "--merge: merged labels have no probabilities or distances; merge these (the sum of "
          "probabilities, the least distance) before they are meshed"},
+    Rule{&Asked::interpolate, kNotWith, &Asked::scores,
+         "--interpolate-slices: thin slices have no probabilities or distances; interpolate these "
+         "between slices before they are meshed, or mesh a volume of labels"},
+    Rule{
+        &Asked::interpolate, kNotWith, &Asked::periodic,
+        "--interpolate-slices: nothing is interpolated from the last slice to the first, so a cell "
+        "would not repeat itself; leave out periodic, or this"},
     Rule{&Asked::weld, kNotWith, &Asked::scores,
          "--weld: voxels that it fills have no probabilities or distances; mesh a volume of "
          "labels, or without it"},

@@ -19,6 +19,7 @@ struct Asked {
   bool object = false;  ///< a box that is found around an object
   bool scores = false;  ///< labels that come from probabilities or distances
   bool merge = false;
+  bool interpolate = false;  ///< labels between thick slices
   bool weld = false;
   bool curves = false;   ///< curved tets
   bool doubles = false;  ///< doubled vertices

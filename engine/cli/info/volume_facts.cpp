@@ -116,6 +116,7 @@ VolumeFacts::VolumeFacts(const VolumeRequest& request) {
   if (info_.offset != Index3{}) facts_["boxes"] = boxes_json(info_);
   if (!info_.masks.empty()) facts_["masks"] = masks_json(info_, regions_);
   if (input.specks()) facts_["specks"] = report::specks_json(input.specks());
+  if (input.slices()) facts_["interpolated"] = report::slices_json(input.slices());
   if (input.welds()) facts_["welds"] = report::welds_json(input.welds());
   if (request.open.scale) return;
   const auto scales = io::scales_of(request.path, open_options(request));

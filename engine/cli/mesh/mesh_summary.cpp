@@ -279,7 +279,7 @@ void print_summary(const report::FinishedRun& run, const MeshRequest& request,
   print_labels(run, tets);
   print_background(run, request, tets);
   print_parts(run);
-  report::print_steps(run.specks, run.welds);
+  report::print_steps(run.specks, run.slices, run.welds);
   if (run.engine.lattice.layers != Index3{1, 1, 1}) {
     print("lattice     {lattice.shape_xyz}, voxels cut into {lattice.layers_xyz} layers\n");
   }

@@ -207,10 +207,11 @@ std::string facts_table(const std::vector<std::array<std::string, 2>>& rows) {
 
 /// What the run promised is in the mesh, so verify need only be told which voxels were meshed.
 std::string verify_command(const Json& report) {
-  constexpr std::array kNeeded{"spacing", "origin",  "frame",       "use_form", "shape",
-                               "dtype",   "dataset", "scale",       "overlap",  "values",
-                               "crop",    "object",  "trust_paths", "merge",    "drop_specks",
-                               "weld",    "names"};
+  constexpr std::array kNeeded{"spacing",     "origin", "frame",       "use_form",
+                               "shape",       "dtype",  "dataset",     "scale",
+                               "overlap",     "values", "crop",        "object",
+                               "trust_paths", "merge",  "drop_specks", "interpolate_slices",
+                               "weld",        "names"};
   const Json& settings = report["settings"];
   std::string out = "mwmesh verify " + quoted(flag_text(settings["input"])) + " " +
                     quoted(flag_text(settings["output"]));

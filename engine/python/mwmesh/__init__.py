@@ -131,9 +131,10 @@ def mesh(volume, *, progress=None, **arguments):
         that keeps what servers send for later runs ("DIR", or "DIR,SIZE" with the most bytes);
         without it chunks are fetched two or three times, once in each pass over the volume; and the
         place of a NIfTI file that counts, "sform" or "qform".
-    merge, drop_specks, weld
+    merge, drop_specks, interpolate_slices, weld
         {label: label that it becomes}; then components of fewer voxels than drop_specks take the
         label around them.  Voxels are joined by faces, with (voxels, 26) by corners too.  Then
+        interpolate_slices makes labels between thick slices, so that surfaces have no steps.  Then
         voxels of the label (or list of labels) weld are filled where others hang together by an
         edge or a corner alone.
     labels, background

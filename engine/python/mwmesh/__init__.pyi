@@ -148,6 +148,7 @@ class Mesh:
         background: _Label | None = None,
         merge: Mapping[_Label, _Label] | None = None,
         drop_specks: _Specks | None = None,
+        interpolate_slices: bool = False,
         weld: _Label | Iterable[_Label] | None = None,
         **place: Any,
     ) -> Verdict: ...
@@ -207,6 +208,7 @@ def mesh(
     background: _Label | None = ...,
     merge: Mapping[_Label, _Label] | None = ...,
     drop_specks: _Specks | None = ...,
+    interpolate_slices: bool = ...,
     weld: _Label | Iterable[_Label] | None = ...,
     workdir: _Path | None = ...,
     save_every: float = ...,
