@@ -176,10 +176,8 @@ void print_steps(const std::optional<io::SpeckFacts>& specks,
       "specks      {components} components of {voxels} voxels took the labels around them, in "
       "{rounds} rounds\n",
       specks_json(specks));
-  std::cout << told(
-      "interpolated {slices} slices along {axis}, {layers} thin ones for each; all below is about "
-      "these\n",
-      slices_json(slices));
+  std::cout << told("interpolated {slices} slices along {axis} became {layers} thin ones each\n",
+                    slices_json(slices));
   if (welds && !welds->has_solid) {
     std::cout
         << "welded      nothing: --weld names all labels of the volume, and joins the others\n";

@@ -51,11 +51,6 @@ std::int64_t begin_of(std::int64_t gap, std::int64_t layers) {
   return std::max<std::int64_t>(gap * layers + layers / 2, 0);
 }
 
-/// Returns whether the first label goes before the second one where nothing else decides.
-bool is_before(RawLabel a, RawLabel b, bool is_signed) {
-  return is_signed ? static_cast<std::int64_t>(a) < static_cast<std::int64_t>(b) : a < b;
-}
-
 }  // namespace
 
 /// Some gaps of a box, and the slices around them.
@@ -144,7 +139,6 @@ class InterpolatedVolume::Part {
       seen.lower[i] = at.depth_of(p, lower);
       seen.upper[i] = at.depth_of(p, upper);
     }
-    const bool comes_first = is_before(lower, upper, has_signed_labels(volume_.info_));
     // Thin slices are at odd parts of the gap if layers are even.  The first is then free, and the
     // last one is that of the next slice; else the first one is that of the slice.
     const std::int64_t odd = 1 - layers_ % 2;
@@ -152,8 +146,7 @@ class InterpolatedVolume::Part {
     for (std::int64_t i = 1 - odd; i < layers_ - odd; ++i) {
       const std::int64_t part = 2 * i + odd;
       const double margin = lower_margin(seen, part, 2 * layers_);
-      const bool wins_tie = part < layers_ || (part == layers_ && comes_first);
-      if (margin > 0 || (margin == 0 && wins_tie)) ++count;
+      if (margin > 0 || (margin == 0 && part < layers_)) ++count;
     }
     return count;
   }
@@ -182,7 +175,8 @@ VolumeInfo interpolated_info(const VolumeInfo& volume) {
                "--spacing if this one is wrong");
   }
   if (facts.slices < 2) {
-    fail_usage("--interpolate-slices: there is one slice only along ", "xyz"[facts.axis],
+    fail_usage("--interpolate-slices: there is one slice only along ",
+               std::string(1, "xyz"[facts.axis]),
                ", and nothing between slices; leave it out, or take more slices");
   }
   VolumeInfo out = volume;

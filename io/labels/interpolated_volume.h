@@ -30,8 +30,8 @@ struct SliceFacts {
 /// Cuts each slice along the axis of the thickest edge into `layers` thin ones.  A slice is taken
 /// as a sample of its middle.  A pixel with one label in two slices that follow each other has it
 /// between them, too; with two labels it has the first up to some place, where lower_margin()
-/// (io/labels/slice_gap.h) is 0, and from there on the second.  Beyond the middles of the first and
-/// the last slice their labels go on.
+/// (io/labels/slice_gap.h) is 0, and from there on the second; a tie goes to the nearer slice.
+/// Beyond the middles of the first and the last slice their labels go on.
 ///
 /// ENSURES: the thin slice in the middle of each slice, of two the first, has that slice's labels.
 /// So a label keeps all its parts, none falls apart into several, and no label is where none of

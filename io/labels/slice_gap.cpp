@@ -12,6 +12,10 @@ namespace {
 constexpr double kHighestCap = 7.0 / 8;
 /// Least curvature of caps, in that of balls.  Less than 1, as many are longer than they are wide.
 constexpr double kLeastCap = 7.0 / 8;
+/// How much of the way the cap of a thin label is high, so that it has the volume of half a slice:
+/// 3/4 where it is round, 1/2 where it is one pixel wide, with the radius 1/2.
+constexpr double kThinCap = 3.0 / 4;
+constexpr double kOnePixelCap = 1.0 / 8;
 /// Most curvature of contours that move.
 constexpr double kMostBend = 1.5;
 /// A label with this many times less radius than the other is the one that ends.
@@ -45,7 +49,9 @@ double cap_depth(const Way& way, double thickness, double t) {
   const double flat = radius2 / (top * top);
   const double closed =
       slope + flat * thickness > 0 ? (radius2 - top * slope) / (top * thickness + top * top) : flat;
-  const double bend = std::max(kLeastCap, closed);
+  // Where a label is thin a round cap would be flat: it keeps half the slice, too.
+  const double half = (kThinCap - kOnePixelCap / way.here.radius) * thickness;
+  const double bend = std::max(std::min(kLeastCap, radius2 / (half * half)), closed);
   const double fall = std::max(0.0, slope + bend * thickness);
   const double up = t * thickness;
   return (way.here.height - fall * up - bend * up * up) / (2 * way.here.radius);

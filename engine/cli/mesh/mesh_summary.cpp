@@ -28,6 +28,18 @@ void print_space(const io::VolumeSpace& space) {
   if (!what.empty()) std::cout << "coordinates " << what << "\n";
 }
 
+/// Points to --interpolate-slices where it would take steps away.
+void print_thick_slices(const report::FinishedRun& run, const MeshRequest& request) {
+  const io::SliceFacts slices = io::slices_of(run.volume);
+  const bool is_refused =
+      request.volume.open.values != io::VoxelValues::kLabels || request.job.settings.periodic != 0;
+  if (run.slices || slices.layers < 2 || slices.slices < 2 || is_refused) return;
+  std::cout << "thick       slices along "
+            << "xyz"[slices.axis] << " are " << slices.layers
+            << " times as thick as voxels are wide, so surfaces have steps; --interpolate-slices "
+               "makes labels between them\n";
+}
+
 /// Prints how near edges are to the sizes asked of their labels, where that was measured.
 void print_sizes(const report::FinishedRun& run) {
   if (!run.edges) return;
@@ -283,6 +295,7 @@ void print_summary(const report::FinishedRun& run, const MeshRequest& request,
   if (run.engine.lattice.layers != Index3{1, 1, 1}) {
     print("lattice     {lattice.shape_xyz}, voxels cut into {lattice.layers_xyz} layers\n");
   }
+  print_thick_slices(run, request);
   print_space(run.volume.space);
   print_count(run, facts["size"]["count"]);
   print_halvings(run);

@@ -39,6 +39,8 @@ TEST(Together, IsRefusedWhereItContradictsItself) {
       {{.delta = true}, "--delta:"},
       {{.update = true, .changed = true, .object = true}, "--changed: says nothing"},
       {{.scores = true, .merge = true}, "--merge:"},
+      {{.scores = true, .interpolate = true}, "--interpolate-slices: thin"},
+      {{.periodic = true, .interpolate = true}, "--interpolate-slices: nothing"},
       {{.scores = true, .weld = true}, "--weld:"},
       {{.keep = true, .colour = true, .scores = true}, "--keep:"},
       {{.many = true, .scores = true}, "--values:"},
@@ -53,7 +55,12 @@ TEST(Together, IsAllowedWhereNothingIsInTheWay) {
   for (const Asked& asked :
        {Asked{}, Asked{.keep = true, .keep_bytes = true, .colour = true, .many = true},
         Asked{.keep = true, .update = true, .changed = true, .delta = true, .colour = true},
-        Asked{.colour = true, .count = true, .many = true, .merge = true, .weld = true},
+        Asked{.colour = true,
+        .count = true,
+        .many = true,
+        .merge = true,
+        .interpolate = true,
+        .weld = true},
         Asked{.periodic = true, .count = true, .scores = true, .curves = true, .pairs = true},
         Asked{.merge = true, .weld = true, .doubles = true}}) {
     EXPECT_EQ(refusal(asked), "");

@@ -21,6 +21,9 @@ class MemoryVolume : public LabelVolume {
   [[nodiscard]] VolumeInfo& info() { return info_; }
   [[nodiscard]] const VolumeInfo& info() const override { return info_; }
   [[nodiscard]] const std::vector<RawLabel>& labels() const { return labels_; }
+  void set(Index3 v, RawLabel label) {
+    labels_[static_cast<std::size_t>(Box3{{0, 0, 0}, info_.shape}.offset(v))] = label;
+  }
   [[nodiscard]] RawLabel at(Index3 v) const {
     const Box3 all{{0, 0, 0}, info_.shape};
     EXPECT_TRUE(all.contains(v)) << "read outside the volume";
