@@ -257,6 +257,7 @@ Smoother::Smoother(TetMesh& mesh, const Metric& metric, const SmoothOptions& opt
   if (fits_interfaces() && options_.surface->with_pressure) {
     curvature_.measure(mesh, metric);
   }
+  if (fits_interfaces() && options_.surface->line > 0.0) lines_.find(mesh);
 }
 
 void Smoother::collect_surface(LocalVertex v) {
@@ -269,6 +270,8 @@ void Smoother::collect_surface(LocalVertex v) {
   }
   surface_energy_.collect(mesh_, metric_, surface_, *guard_,
                           weights.with_pressure ? &curvature_ : nullptr, debts_);
+  if (!(weights.line > 0.0)) return;
+  if (const auto place = lines_.place(mesh_, metric_, v)) surface_energy_.add_line(*place);
 }
 
 /// Returns the plane that v belongs to: it has the faces that v carries, and the vertices of the

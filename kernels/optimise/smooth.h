@@ -11,6 +11,7 @@
 #include "kernels/quality/star_batch.h"
 #include "kernels/size/edge_limits.h"
 #include "kernels/surface/flat_plane.h"
+#include "kernels/surface/line_field.h"
 #include "kernels/surface/surface_energy.h"
 #include "kernels/surface/surface_star.h"
 
@@ -67,6 +68,7 @@ class Smoother {
   SurfaceStar surface_;                 ///< star of an interface vertex that is fitted
   SurfaceEnergy surface_energy_;
   WideFlatPlane wide_plane_;
+  LineField lines_;
   CurvatureField curvature_;  ///< as it was before the first move
 };
 

@@ -199,6 +199,8 @@ void SurfaceEnergy::collect(const TetMesh& mesh, const Metric& metric, const Sur
   square_.setZero();
   linear_.setZero();
   pressure_.setZero();
+  line_square_.setZero();
+  line_linear_.setZero();
   mass_ = 0.0;
   unit_normals_.clear();
   balances_.clear();
@@ -222,6 +224,14 @@ void SurfaceEnergy::collect(const TetMesh& mesh, const Metric& metric, const Sur
     if (two_labels) yield_to(*debts);
   }
   gather_corners();
+  present_ = raw_value_at(Vec3::Zero());
+}
+
+void SurfaceEnergy::add_line(const LinePlace& place) {
+  const Eigen::Matrix3d across =
+      Eigen::Matrix3d::Identity() - place.direction * place.direction.transpose();
+  line_square_ = weights_.line / (place.edge * place.edge) * across;
+  line_linear_ = line_square_ * place.place;
   present_ = raw_value_at(Vec3::Zero());
 }
 
@@ -383,7 +393,7 @@ double SurfaceEnergy::min_cosine() const {
 }
 
 double SurfaceEnergy::raw_value_at(const Vec3& x) const {
-  double value = 0.0;
+  double value = x.dot(line_square_ * x) - 2.0 * line_linear_.dot(x);
   const bool has_area = mass_ > 0.0 && area_weight_ > 0.0, has_bends = weights_.bend > 0.0;
   if (has_area || has_bends) {
     for (std::size_t i = 0; i < corners_.size(); ++i) {
@@ -391,13 +401,13 @@ double SurfaceEnergy::raw_value_at(const Vec3& x) const {
     }
   }
   if (mass_ > 0.0) {
-    value = x.dot(square_ * x) - 2.0 * linear_.dot(x);
+    double fit = x.dot(square_ * x) - 2.0 * linear_.dot(x);
     if (has_area) {
       double area = 0.0;
       for (std::size_t i = 0; i < star_->triangles().size(); ++i) area += areas_[i];
-      value += area_weight_ * (area - pressure_.dot(x));
+      fit += area_weight_ * (area - pressure_.dot(x));
     }
-    value *= fit_weight_ / mass_;
+    value += fit_weight_ / mass_ * fit;
   }
   if (has_bends) value += bend_weight_ * star_->bends(normals_);
   return value;
@@ -410,6 +420,8 @@ void SurfaceEnergy::add_derivatives(const Vec3& x, double scale, StarTerms& term
     terms.hessian += factor * 2.0 * square_;
     if (area_weight_ > 0.0) add_area(x, factor * area_weight_, terms);
   }
+  terms.gradient += scale * 2.0 * (line_square_ * x - line_linear_);
+  terms.hessian += scale * 2.0 * line_square_;
   if (weights_.bend > 0.0) add_bends(x, scale * bend_weight_, terms);
 }
 

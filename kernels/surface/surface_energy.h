@@ -12,6 +12,7 @@
 #include "kernels/distance/point_triangle.h"
 #include "kernels/mesh/tet_mesh.h"
 #include "kernels/quality/star_batch.h"
+#include "kernels/surface/line_field.h"
 #include "kernels/surface/surface_star.h"
 
 namespace mw {
@@ -58,6 +59,7 @@ struct SurfaceWeights {
   double area = 1.0;            ///< beside the fit, voxels squared, between two labels
   double junction_area = 0.01;  ///< beside the fit where more labels meet
   double bend = 4.7;
+  double line = 0.0;  ///< of the distance from a smooth line, in edges of the line
   /// The curvature of a vertex makes pressure up to this, 1 / voxel, and beyond it only where the
   /// whole ring bends as much in the same direction, as on a thread.  Where edges are several
   /// voxels long, what is sharper than a ball of a few voxels is otherwise a step and not a shape.
@@ -87,9 +89,15 @@ struct SurfaceWeights {
 ///
 /// Bends.  The sum of the bend energies (surface_star.h) of spokes and rims.
 ///
+/// Lines.  Where three labels meet, faces say little of the line's place, which is where three
+/// interfaces cut each other, and voxels make it a zigzag.  So a vertex on a line is drawn to where
+/// its neighbours on the line would have it (LineField), across the line: L is the squared distance
+/// in units of the squared mean edge of the line there.
+///
 /// The whole energy, with E the present shape energy of v's tets and M the sum of w f^2 (or, where
 /// few faces are carried, a sixth of the triangles' area), is
-///   E (fit/M (Q + area (Area - P.x)) + bend/6 (sum of bend energies)), less its value at 0.
+///   E (fit/M (Q + area (Area - P.x)) + bend/6 (sum of bend energies) + line L), less its value at
+///   0.
 class SurfaceEnergy {
  public:
   explicit SurfaceEnergy(const SurfaceWeights& weights) : weights_(weights) {}
@@ -100,6 +108,9 @@ class SurfaceEnergy {
   void collect(const TetMesh& mesh, const Metric& metric, const SurfaceStar& star,
                const DistanceGuard& guard, const CurvatureField* curvature,
                const VolumeDebts* debts);
+
+  /// Adds the term of lines to what was collected.
+  void add_line(const LinePlace& place);
 
   /// The energy without the factor E; 0 for x = 0.
   [[nodiscard]] double value_at(const Vec3& x) const { return raw_value_at(x) - present_; }
@@ -158,6 +169,9 @@ class SurfaceEnergy {
   Eigen::Matrix3d square_ = Eigen::Matrix3d::Zero();  ///< Q is x.square x - 2 linear.x
   Vec3 linear_ = Vec3::Zero();
   Vec3 pressure_ = Vec3::Zero();
+  /// The term of lines is x.line_square x - 2 line_linear.x.
+  Eigen::Matrix3d line_square_ = Eigen::Matrix3d::Zero();
+  Vec3 line_linear_ = Vec3::Zero();
   double present_ = 0.0;
   std::vector<TriangleFit> fits_;  ///< one for each of the star's triangles
   std::vector<CornerProducts> products_;

@@ -2,7 +2,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // Smooth surfaces end to end: bodies whose shape is known.
 #include <Eigen/Geometry>
+#include <map>
 #include <numbers>
+#include <set>
 
 #include "kernels/audit/shape/shape.h"
 #include "kernels/audit/shape/volumes.h"
@@ -391,6 +393,63 @@ TEST(SmoothSurface, Promise8HoldsOfSheetsThatTouchAlongEdges) {
 }
 
 /// Half balls of two labels: a junction line where three labels meet.
+/// The turns of the line in which three labels meet, and how much a circle would turn there, summed
+/// over the nodes that have two neighbours on it.
+struct LineTurns {
+  double turn = 0.0;   ///< radians
+  double ideal = 0.0;  ///< radians
+  double nodes = 0.0;
+};
+
+LineTurns line_turns(const SmallMesh& mesh, double radius) {
+  std::map<std::array<std::uint64_t, 2>, std::set<Label>> around;
+  for (std::size_t t = 0; t < mesh.tets.size(); ++t) {
+    for (std::size_t i = 0; i < 4; ++i) {
+      for (std::size_t j = 0; j < 4; ++j) {
+        if (mesh.tets[t][i] < mesh.tets[t][j]) {
+          around[{mesh.tets[t][i], mesh.tets[t][j]}].insert(mesh.labels[t]);
+        }
+      }
+    }
+  }
+  std::map<std::uint64_t, std::vector<std::uint64_t>> neighbours;
+  for (const auto& [edge, labels] : around) {
+    if (labels.size() < 3) continue;
+    neighbours[edge[0]].push_back(edge[1]);
+    neighbours[edge[1]].push_back(edge[0]);
+  }
+  const auto at = [&](std::uint64_t v) -> Vec3 {
+    const Position& p = mesh.vertices[v];
+    return {p[0], p[1], p[2]};
+  };
+  LineTurns out;
+  for (const auto& [v, ends] : neighbours) {
+    if (ends.size() != 2) continue;
+    const Vec3 before = at(v) - at(ends[0]), after = at(ends[1]) - at(v);
+    out.turn += std::acos(std::clamp(before.dot(after) / before.norm() / after.norm(), -1.0, 1.0));
+    out.ideal += 0.5 * (before.norm() + after.norm()) / radius;
+    out.nodes += 1.0;
+  }
+  return out;
+}
+
+/// A ball that a plane cuts in two: its labels meet those outside in a circle.
+TEST(SmoothSurface, LinesOfThreeLabelsAreSmoothWhereEdgesHaveSizes) {
+  const Vec3 centre(21.7, 22.3, 21.9);
+  for (const Vec3& way : {Vec3(0.3, 0.5, 0.81), Vec3(0.67, -0.59, 0.44), Vec3(0.91, 0.35, 0.2)}) {
+    const Vec3 normal = way.normalized();
+    const SmallVolume halves = body(44, 3, [&](const Vec3& p) {
+      if ((p - centre).norm() > 16) return 0U;
+      return (p - centre).dot(normal) > 3 ? 2U : 1U;
+    });
+    MeshSettings settings;
+    settings.sizes.rules.others = 4.0;
+    const LineTurns found = line_turns(run(halves, settings).mesh, std::sqrt(16.0 * 16 - 3.0 * 3));
+    EXPECT_GT(found.nodes, 20.0);
+    EXPECT_LT(found.turn, 1.3 * found.ideal);
+  }
+}
+
 TEST(SmoothSurface, TwoLabelsShareABall) {
   const Vec3 normal = Vec3(0.2, 0.4, 0.9).normalized(), centre(24, 24, 24);
   const Result r = run(body(48, 3, [&](const Vec3& p) {

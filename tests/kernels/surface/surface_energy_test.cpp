@@ -110,12 +110,16 @@ TEST(SurfaceEnergy, HasItsDerivatives) {
     curvature.measure(mesh, metric);
     const VolumeDebts debts = random_debts(mesh, random);
     const SurfaceWeights no_bends{.bend = 0.0};
-    for (const SurfaceWeights& weights : {no_bends, kFitAlone, kBendsAlone, SurfaceWeights{}}) {
+    const SurfaceWeights with_lines{.line = 3.0};
+    for (const SurfaceWeights& weights : {no_bends, kFitAlone, kBendsAlone, with_lines}) {
       SurfaceEnergy energy(weights);
       energy.collect(mesh, metric, star, guard, &curvature, &debts);
       EXPECT_EQ(energy.value_at(Vec3::Zero()), 0.0);
       expect_derivatives(energy, x);
       energy.collect(mesh, metric, star, guard, nullptr, nullptr);
+      EXPECT_EQ(energy.value_at(Vec3::Zero()), 0.0);
+      expect_derivatives(energy, x);
+      energy.add_line({random_offset(random), random_offset(random).normalized(), 0.7});
       EXPECT_EQ(energy.value_at(Vec3::Zero()), 0.0);
       expect_derivatives(energy, x);
     }
