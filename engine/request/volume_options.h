@@ -29,8 +29,8 @@ void add_input_option(OptionSet& options, std::filesystem::path& path);
 /// several arrays; --overlap; --values; --crop; --object; --cache.
 void add_volume_options(OptionSet& options, VolumeRequest& request);
 
-/// Adds --merge --drop-specks --interpolate-slices --weld, which are done with the labels before all else
-/// (io::PreparedInput), and --names, which tells what they are called.
+/// Adds --merge --drop-specks --interpolate-slices --weld, which are done with the labels before
+/// all else (io::PreparedInput), and --names, which tells what they are called.
 void add_step_options(OptionSet& options, VolumeRequest& request);
 
 /// Returns the formats of volumes, for the end of the help.

@@ -35,7 +35,7 @@ class SliceSteps {
     Pixel by;
   };
 
-  /// edges are those of a pixel.  REQUIRES: neither is below 1, but for rounding.
+  /// edges are those of a pixel.  REQUIRES: neither is below 1, except for rounding.
   explicit SliceSteps(const std::array<double, 2>& edges);
 
   [[nodiscard]] std::span<const Step> steps() const { return steps_; }
