@@ -89,8 +89,9 @@ TEST(LineField, KeepsLinesOfEvenCurvature) {
   }
   LineField lines;
   lines.find(mesh);
-  for (const auto& [x, v] : line) {
-    const auto found = lines.place(mesh, metric, v);
+  // The ends of the line, on the box, stay where they are.
+  for (std::int64_t x = 3; x <= 11; ++x) {
+    const auto found = lines.place(mesh, metric, line.at(x));
     ASSERT_TRUE(found) << x;
     EXPECT_LT(across(*found).norm(), 0.01) << x;
     EXPECT_NEAR(found->edge, 1.0, 0.05);
