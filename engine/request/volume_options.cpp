@@ -169,10 +169,10 @@ void add_step_options(OptionSet& options, VolumeRequest& request) {
   options.add({.name = "interpolate-slices",
                .help = "labels between thick slices, for smooth surfaces instead of steps",
                .group = kLabelGroup,
-               .listed = Listed::kInHelpAll,
                .kind = ValueKind::kSwitch,
                .fallback = "false",
                .calls = kMeshing | kVerifying,
+               .listed = Listed::kInHelpAll,
                .assign = into(request.steps.interpolate)});
   options.add({.name = "weld",
                .value = "A,B",
