@@ -188,6 +188,28 @@ TEST_F(ThickSlicesTest, ReportTellsTheLatticeAndTheInput) {
   expect_done("verify s.npy s.vtu --spacing 4,4,40");
 }
 
+/// Promises are about the thin slices, which verify and info make, too.
+TEST_F(ThickSlicesTest, ArePointedToAndInterpolated) {
+  make_slices();
+  const std::string spacing = " --spacing 4,4,40";
+  EXPECT_NE(run("mesh s.npy -o s.vtu" + spacing).out.find("--interpolate-slices"),
+            std::string::npos);
+  const std::string smooth = spacing + " --interpolate-slices";
+  const ProgramRun done = run("mesh s.npy -o i.vtu --report r.json" + smooth);
+  EXPECT_EQ(done.code, 0) << done.err;
+  EXPECT_NE(done.out.find("8 slices along z became 10 thin ones each"), std::string::npos);
+  EXPECT_EQ(done.out.find("--interpolate-slices"), std::string::npos);
+  EXPECT_EQ(report("r.json")["interpolated"],
+            json::parse(R"({"axis": "z", "slices": 8, "layers": 10})"));
+  expect_done("verify s.npy i.vtu" + smooth);
+  EXPECT_EQ(json::parse(run("info s.npy --json" + smooth).out)["shape_xyz"],
+            json::parse("[24, 24, 80]"));
+  EXPECT_EQ(run("digest s.vtu").out == run("digest i.vtu").out, false);
+  expect_done("mesh s.npy -o j.vtu --threads 2" + smooth);
+  EXPECT_EQ(run("digest i.vtu").out, run("digest j.vtu").out);
+  expect_failure(2, "mesh s.npy -o k.vtu --interpolate-slices", "no thick slices");
+}
+
 TEST_F(ThickSlicesTest, BoxIsThatOfTheInput) {
   make_slices();
   for (const std::string frame :

@@ -533,6 +533,18 @@ class Figures(unittest.TestCase):
                   for verdict in (welded, plain)]
         self.assertNotEqual(*places)
 
+    def test_thick_slices_are_interpolated(self):
+        z, y, x = np.meshgrid(5 * np.arange(8) + 2.5, np.arange(40) + 0.5, np.arange(40) + 0.5,
+                              indexing="ij")
+        ball = ((x - 20)**2 + (y - 20)**2 + (z - 20)**2 < 14**2).astype(np.uint8)
+        mesh = mwmesh.mesh(ball, spacing=(1, 1, 5), interpolate_slices=True)
+        self.assertEqual(mesh.report["interpolated"], {"axis": "z", "slices": 8, "layers": 5})
+        self.assertTrue(mesh.verify(ball, spacing=(1, 1, 5), interpolate_slices=True))
+        exact = 4 / 3 * np.pi * 14**3
+        self.assertLess(abs(mesh.volumes()[1] / exact - 1), 0.03)
+        with self.assertRaisesRegex(mwmesh.UsageError, "no thick slices"):
+            mwmesh.mesh(ball, interpolate_slices=True)
+
     def test_parts_and_splits(self):
         labels = np.zeros((12, 12, 20), np.uint8)
         labels[2:10, 2:10, 2:6] = 1
