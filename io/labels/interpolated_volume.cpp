@@ -31,13 +31,10 @@ std::array<int, 2> pixel_axes(int axis) {
   return {axis == 0 ? 1 : 0, axis == 2 ? 1 : 2};
 }
 
-/// Returns edges of pixels, and at last the thickness of slices, in widths of the finest voxel.
-std::array<double, 3> relative_edges(const VolumeInfo& volume, int axis) {
+/// Returns the edge of voxels along an axis, in widths of the finest voxel.
+double relative_edge(const VolumeInfo& volume, int axis) {
   const Vector3& s = volume.space.spacing;
-  const double finest = std::min({s[0], s[1], s[2]});
-  const auto edge = [&](int a) { return s[static_cast<std::size_t>(a)] / finest; };
-  const auto [u, v] = pixel_axes(axis);
-  return {edge(u), edge(v), edge(axis)};
+  return s[static_cast<std::size_t>(axis)] / std::min({s[0], s[1], s[2]});
 }
 
 /// Returns the gap of a thin slice: gap g is from the middle of slice g to that of the next.
@@ -195,11 +192,9 @@ InterpolatedVolume::InterpolatedVolume(const LabelVolume& volume)
     : VolumeView(volume),
       facts_(slices_of(volume.info())),
       info_(interpolated_info(volume.info())),
-      steps_([&] {
-        const auto [u, v, thickness] = relative_edges(volume.info(), facts_.axis);
-        return SliceSteps({u, v});
-      }()),
-      thickness_(relative_edges(volume.info(), facts_.axis)[2]) {}
+      steps_({relative_edge(volume.info(), pixel_axes(facts_.axis)[0]),
+              relative_edge(volume.info(), pixel_axes(facts_.axis)[1])}),
+      thickness_(relative_edge(volume.info(), facts_.axis)) {}
 
 void InterpolatedVolume::read(const Box3& box, std::span<RawLabel> out) const {
   MW_ASSERT(out.size() == static_cast<std::size_t>(box.voxels()));

@@ -8,6 +8,8 @@
 #include <tuple>
 #include <utility>
 
+#include "kernels/core/sort_distinct.h"
+
 namespace mw::io {
 namespace {
 
@@ -61,8 +63,7 @@ SliceDistances::SliceDistances(const SliceSteps& steps, Pixel shape, std::vector
   for (std::size_t i = 0; i < labels_.size(); ++i) {
     if (i == 0 || labels_[i] != labels_[i - 1]) present_.push_back(labels_[i]);
   }
-  std::sort(present_.begin(), present_.end());
-  present_.erase(std::unique(present_.begin(), present_.end()), present_.end());
+  sort_distinct(present_);
 }
 
 std::vector<std::int64_t> SliceDistances::row_distances() const {
