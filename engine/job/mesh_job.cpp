@@ -296,6 +296,13 @@ JobSizes settle(const io::LabelVolume& opened, const MeshJob& asked, MeshJob& jo
   return out;
 }
 
+/// Returns the job with sizes in physical units.
+MeshJob with_physical_sizes(const io::LabelVolume& opened, MeshJob job) {
+  SizeRules& rules = job.settings.sizes.rules;
+  rules = rules.in_physical_units(voxel_edge(io::info_after(job.steps, opened.info())));
+  return job;
+}
+
 /// One job: labels behind the views that it asks for, marches into a finished mesh, passes over
 /// it, and what is told of all that.
 class MeshRun {
@@ -465,7 +472,8 @@ std::vector<LabelPair> sized_interfaces(const MeshJob& job, const io::LabelTable
     return table.contains(label) && kept.keeps(table.dense(label));
   };
   for (const InterfaceSize& s : job.settings.sizes.rules.interfaces) {
-    if (is_written(s.low) && is_written(s.high)) out.emplace_back(s.low, s.high);
+    const bool is_pair = s.low && s.high;
+    if (is_pair && is_written(*s.low) && is_written(*s.high)) out.emplace_back(*s.low, *s.high);
   }
   return out;
 }
@@ -494,9 +502,11 @@ report::FinishedRun mesh(const io::LabelVolume& opened, const MeshJob& job,
   const io::WaitStop waits(&job.stop);
   const KeepOptions& keep = job.run.keep;
   try {
-    if (keep.use != KeepUse::kUpdate) return MeshRun(opened, job).go(sinks);
+    if (keep.use != KeepUse::kUpdate) {
+      return MeshRun(opened, with_physical_sizes(opened, job)).go(sinks);
+    }
     const PlacedVolume placed(opened, settled_space(keep.folder, opened.info().space));
-    return MeshRun(placed, job).go(sinks);
+    return MeshRun(placed, with_physical_sizes(placed, job)).go(sinks);
   } catch (const DamagedWork& damage) {
     fail_damaged(damage, job.run);
   }

@@ -174,20 +174,18 @@ void PreparedLabels::find_sizes(const SizeSettings& sizes, const SizeImage* imag
 
 /// Limits the voxels on both sides of the interfaces' faces.
 void PreparedLabels::limit_interfaces(const SizeRules& rules, int threads) {
-  std::map<std::pair<Label, Label>, double> limits;
-  for (const InterfaceSize& s : rules.interfaces) {
-    const io::LabelTable& table = volume_.table();
-    limits[std::minmax({table.dense(s.low), table.dense(s.high)})] = limit_of(s.edge, volume_);
-  }
+  const io::LabelTable& table = volume_.table();
   tbb_for_each_index(threads, original_.bricks(), [&](Index3 brick) {
     const Box3 box = original_.box_of(brick);
     const LabelBox labels = read_labels(original_, grown(box, 1));
     for_each_index(box, [&](Index3 v) {
+      const Label label = labels.at(v);
       for (unsigned side = 0; side < 6; ++side) {
         const Index3 step = axis_vector(side / 2);
         const Label beside = labels.at(side % 2 == 0 ? v + step : v - step);
-        const auto limit = limits.find(std::minmax({labels.at(v), beside}));
-        if (limit != limits.end()) sizes_.limit_voxel(v, limit->second);
+        if (beside == label || beside == kExterior) continue;
+        const std::optional<double> size = rules.of_interface(table.raw(label), table.raw(beside));
+        if (size) sizes_.limit_voxel(v, limit_of(*size, volume_));
       }
     });
   });

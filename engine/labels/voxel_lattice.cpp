@@ -9,6 +9,7 @@
 
 #include "engine/labels/periodic_labels.h"
 #include "io/file/errors.h"
+#include "kernels/core/assert.h"
 #include "kernels/core/face_sample.h"
 #include "kernels/core/lattice.h"
 #include "kernels/start/cells/cell_template.h"
@@ -62,6 +63,7 @@ void check_floor(const io::VolumeInfo& volume, const MeshSettings& settings) {
 /// Start meshes have edges as long as the diagonal of a voxel, and no step cuts an edge.  With a
 /// count sizes are weights, and the factor that is found for them keeps to that.
 void check_sizes(const io::VolumeInfo& volume, const MeshSettings& settings) {
+  MW_ASSERT(!settings.sizes.rules.in_voxels);
   if (!settings.sizes.rules.any() || settings.sizes.count > 0) return;
   const double least = settings.sizes.rules.least(), kept = least_size(volume);
   if (least >= kept) return;
@@ -116,6 +118,11 @@ double least_size(const io::VolumeInfo& volume) {
   return std::sqrt(x * x + y * y + z * z) / SizeRules::kContracted;
 }
 
+double voxel_edge(const io::VolumeInfo& volume) {
+  const auto [x, y, z] = layered_spacing(volume.space.spacing, layers_of(volume.space.spacing));
+  return std::cbrt(x * y * z);
+}
+
 double told_size(double size) {
   const double scale = std::pow(10.0, 2.0 - std::floor(std::log10(size)));
   return std::ceil(scale * size) / scale;
@@ -157,8 +164,8 @@ void check(const io::LabelTable& labels, const MeshSettings& settings) {
   const SizeRules& rules = settings.sizes.rules;
   for (const LabelSize& s : rules.labels) require(s.label);
   for (const InterfaceSize& s : rules.interfaces) {
-    require(s.low);
-    require(s.high);
+    if (s.low) require(*s.low);
+    if (s.high) require(*s.high);
   }
 }
 

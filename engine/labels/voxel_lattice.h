@@ -15,6 +15,9 @@ namespace mw::engine {
 /// lattice is SizeRules::kContracted times as long.
 [[nodiscard]] double least_size(const io::VolumeInfo& volume);
 
+/// Returns the edge of a cube that has the volume of a voxel of the lattice.
+[[nodiscard]] double voxel_edge(const io::VolumeInfo& volume);
+
 /// Returns a size rounded up to three digits, so that the size a user is told can be kept.
 [[nodiscard]] double told_size(double size);
 
@@ -47,6 +50,7 @@ class VoxelLattice {
 ///         voxels along an axis or coordinates are too large or too small for it;
 ///         kUsage when the quality floor cannot be kept at this spacing, with the floor that can,
 ///         or when a size is below least_size().
+/// REQUIRES: sizes are in physical units.
 void check(const io::VolumeInfo& volume, const MeshSettings& settings);
 
 /// Checks that a volume's labels fit the settings of a run.

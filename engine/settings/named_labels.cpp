@@ -128,6 +128,7 @@ RawLabel label_called(std::string_view token, const io::LabelNames& names, bool 
 /// Returns text that parse_label() reads, with a sign where the number has one.
 std::string number_of(std::string_view text, const io::LabelNames& names) {
   const std::string_view token = io::trimmed(text);
+  if (token == "*") return "*";  // in "A|*"
   const bool is_known = !labels_called(name_in(token), names).empty();
   const std::size_t bar = bar_of(token);
   if (!is_known && !is_quoted(token) && bar != token.npos) {
@@ -170,11 +171,11 @@ void check_sizes(std::string_view text) {
     const std::string_view token = text.substr(at, end - at);
     const bool ends_with_equals = end < text.size() && text[end] == '=';
     // A file may have "=" in its name.
-    if (follows_equals && !ends_with_equals && !names_image(token)) (void)parse_number(token);
+    if (follows_equals && !ends_with_equals && !names_image(token)) (void)parse_size(token);
     follows_equals = ends_with_equals;
     at = end;
   }
-  if (follows_equals) (void)parse_number("");  // the text ends with "="
+  if (follows_equals) (void)parse_size("");  // the text ends with "="
 }
 
 std::string with_numbers(std::string_view text, const io::LabelNames& names) {

@@ -26,15 +26,15 @@ namespace mw::engine {
 
 /// Checks the text of sizes, such as "Lesion=3,*=5", before labels are looked up, so that a size
 /// which is no number is not taken for a name.  A size is what follows the last "=" of a part.
-/// ERRORS: mw::Error(kUsage) for one that is no finite number.
+/// ERRORS: those of parse_size().
 void check_sizes(std::string_view text);
 
 /// Returns the text of an option with numbers in the place of names.  What is between commas,
 /// semicolons and equals signs is a label, unless it is a number of any kind, "*", or a file:
 /// "@FILE", or an image of sizes by its ending.  A name that has one of these signs in it stands in
-/// double quotes.  In "A|B" both sides are labels, unless one label is called so.  What begins like
-/// a number and is no name stays as it is, for the option to refuse.
-/// ERRORS: those of find_label() for names.
+/// double quotes.  In "A|B" both sides are labels or "*", unless one label is called so.  What
+/// begins like a number and is no name stays as it is, for the option to refuse. ERRORS: those of
+/// find_label() for names.
 [[nodiscard]] std::string with_numbers(std::string_view text, const io::LabelNames& names);
 
 }  // namespace mw::engine

@@ -258,7 +258,7 @@ std::vector<Setting> size_settings() {
   return {
       {.name = "size",
        .value = "H|L=H,..|@FILE",
-       .help = "edges of about H: all, or 2=3, 2|3=1 (faces), *=5; table, image",
+       .help = "edges of about H: all, or 2=3, 2|*=1 (faces), *=5vox; table, image",
        .kind = SettingKind::kSizes,
        .allowed = "positive, given once for a label, and ascending",
        .text = [](const Settings& s) { return format_sizes(s.sizes.rules); },
@@ -307,7 +307,7 @@ const std::vector<Preset>& presets() {
   static const std::vector<Preset> all{
       {.name = "draft", .values = {{"surface", "voxel"}, {"max-distance", kNone}}},
       {.name = kDefaultPreset, .values = {}},
-      {.name = "fine", .values = {{"max-distance", "1"}}}};
+      {.name = "fine", .values = {{"size", "*|*=4.2vox"}, {"gradation", "1"}}}};
   return all;
 }
 
@@ -351,7 +351,8 @@ const std::vector<SettingRule>& setting_rules() {
              const bool is_sized = s.sizes.limits_edges() || s.sizes.count > 0;
              return s.periodic == 0 || (!is_sized && s.optimizer != Optimizer::kTetgen);
            },
-       .told = "--periodic: works without --size, --count, --across and --optimizer tetgen"}};
+       .told = "--periodic: works without --size, --count, --across, --preset fine and --optimizer "
+               "tetgen"}};
   return rules;
 }
 

@@ -36,11 +36,34 @@ std::optional<double> SizeRules::of_label(RawLabel label) const {
   return others;
 }
 
+std::optional<double> SizeRules::of_interface(RawLabel a, RawLabel b) const {
+  using Side = std::optional<RawLabel>;
+  const auto listed = [&](Side low, Side high) {
+    const auto at =
+        std::ranges::lower_bound(interfaces, std::pair(low, high), {},
+                                 [](const InterfaceSize& s) { return std::pair(s.low, s.high); });
+    const bool is_there = at != interfaces.end() && at->low == low && at->high == high;
+    return is_there ? std::optional(at->edge) : std::nullopt;
+  };
+  if (const auto pair = listed(std::min(a, b), std::max(a, b))) return pair;
+  const auto of_a = listed({}, a), of_b = listed({}, b);
+  if (of_a && of_b) return std::min(*of_a, *of_b);
+  if (of_a || of_b) return of_a ? of_a : of_b;
+  return listed({}, {});
+}
+
 SizeRules SizeRules::scaled(double factor) const {
   SizeRules out = *this;
   if (out.others) *out.others *= factor;
   for (LabelSize& s : out.labels) s.edge *= factor;
   for (InterfaceSize& s : out.interfaces) s.edge *= factor;
+  return out;
+}
+
+SizeRules SizeRules::in_physical_units(double voxel) const {
+  if (!in_voxels) return *this;
+  SizeRules out = scaled(voxel);
+  out.in_voxels = false;
   return out;
 }
 

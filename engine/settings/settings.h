@@ -49,16 +49,16 @@ using PeriodicAxes = unsigned;
 /// How long the edges of a label's tets should be.
 struct LabelSize {
   RawLabel label = 0;
-  double edge = 0.0;  ///< physical units
+  double edge = 0.0;  ///< in the unit of SizeRules
 
   friend bool operator==(const LabelSize&, const LabelSize&) = default;
 };
 
-/// The size that is asked for near the faces between two labels.
+/// The size that is asked for near the faces between two labels.  No label stands for any label.
 struct InterfaceSize {
-  RawLabel low = 0;
-  RawLabel high = 0;
-  double edge = 0.0;  ///< physical units
+  std::optional<RawLabel> low;
+  std::optional<RawLabel> high;
+  double edge = 0.0;  ///< in the unit of SizeRules
 
   friend bool operator==(const InterfaceSize&, const InterfaceSize&) = default;
 };
@@ -71,18 +71,26 @@ struct SizeRules {
 
   std::vector<LabelSize> labels;          ///< each label once, ascending
   std::optional<double> others;           ///< for all labels that are not listed
-  std::vector<InterfaceSize> interfaces;  ///< each pair once, ascending; low < high
+  std::vector<InterfaceSize> interfaces;  ///< each pair once, ascending; low < high, or both none
   std::string image;                      ///< file with a size for each voxel, or empty
+  /// Whether the sizes above are in voxels of the lattice, and not in physical units; those of an
+  /// image are always physical.
+  bool in_voxels = false;
 
   [[nodiscard]] bool any() const {
     return !labels.empty() || others.has_value() || !interfaces.empty() || !image.empty();
   }
   /// Returns the smallest of these sizes; infinity when there is only an image.
   [[nodiscard]] double least() const;
+  /// Returns the size near faces between two labels: that of the pair, else the smaller of those of
+  /// each label and any other, else that of all faces; none if no rule is about them.
+  [[nodiscard]] std::optional<double> of_interface(RawLabel a, RawLabel b) const;
   /// Returns the size of a label; none where only what is around it limits its edges.
   [[nodiscard]] std::optional<double> of_label(RawLabel label) const;
   /// Returns the rules with each size that is written here multiplied; an image has its own factor.
   [[nodiscard]] SizeRules scaled(double factor) const;
+  /// Returns the rules in physical units, where the edge of a voxel is so long.
+  [[nodiscard]] SizeRules in_physical_units(double voxel) const;
 
   friend bool operator==(const SizeRules&, const SizeRules&) = default;
 };

@@ -16,6 +16,8 @@ namespace {
 
 /// The largest table, in unpacked bytes.
 constexpr std::uint64_t kMaxTableBytes = 64 << 20;
+/// What follows a size in voxels.
+constexpr std::string_view kVoxels = "vox";
 constexpr const char* kAdvice = "write label,size in each line";
 
 bool has_ending(std::string_view part, std::initializer_list<const char*> endings) {
@@ -23,34 +25,64 @@ bool has_ending(std::string_view part, std::initializer_list<const char*> ending
                      [&](const char* ending) { return part.ends_with(ending); });
 }
 
-bool names_table(std::string_view part) {
-  return part.starts_with('@') && !names_image(part);
+/// Returns whether a part of the text is a size alone.
+bool is_number(std::string_view part) {
+  if (part.ends_with(kVoxels)) part.remove_suffix(kVoxels.size());
+  return part.find_first_not_of("0123456789.eE+-") == part.npos;
 }
 
-double parse_size(std::string_view text) {
-  const double size = parse_number(text);
-  if (size > 0.0) return size;
-  io::fail_usage("a size must be positive, got '", text, "'");
+bool names_table(std::string_view part) {
+  return part.starts_with('@') && !names_image(part);
 }
 
 [[noreturn]] void fail_twice(std::string_view where) {
   io::fail_usage(where, " has two sizes");
 }
 
+/// Returns the label of a side of faces; none for "*", which is any label.
+std::optional<RawLabel> parse_side(std::string_view text) {
+  if (text == "*") return std::nullopt;
+  return parse_label(text);
+}
+
+/// Returns whether some size is listed, beside an image.
+bool lists_sizes(const SizeRules& rules) {
+  return rules.others || !rules.labels.empty() || !rules.interfaces.empty();
+}
+
+/// Sets the unit of sizes that are added.
+void set_unit(SizeRules& rules, bool in_voxels) {
+  if (lists_sizes(rules) && rules.in_voxels != in_voxels) {
+    io::fail_usage(
+        "some sizes are in voxels and others are not; give all of them with vox or none");
+  }
+  rules.in_voxels = in_voxels;
+}
+
 /// Adds the rule of a place, which is "7", "3|5" or "*".
 void add_rule(SizeRules& rules, std::string_view where, std::string_view size_text) {
+  const SizeText size = parse_size(size_text);
+  set_unit(rules, size.in_voxels);
   const std::size_t bar = where.find('|');
   if (where == "*") {
     if (rules.others) fail_twice("*");
-    rules.others = parse_size(size_text);
+    rules.others = size.edge;
   } else if (bar == where.npos) {
-    rules.labels.push_back({parse_label(where), parse_size(size_text)});
+    rules.labels.push_back({parse_label(where), size.edge});
   } else {
     const auto [low, high] =
-        std::minmax({parse_label(where.substr(0, bar)), parse_label(where.substr(bar + 1))});
-    if (low == high) fail_expected("two labels", where);
-    rules.interfaces.push_back({low, high, parse_size(size_text)});
+        std::minmax({parse_side(where.substr(0, bar)), parse_side(where.substr(bar + 1))});
+    if (low && low == high) fail_expected("two labels", where);
+    rules.interfaces.push_back({low, high, size.edge});
   }
+}
+
+std::string side_text(const std::optional<RawLabel>& side) {
+  return side ? std::to_string(*side) : "*";
+}
+
+std::string pair_text(const InterfaceSize& s) {
+  return side_text(s.low) + "|" + side_text(s.high);
 }
 
 SizeRules read_size_table(std::string_view file) {
@@ -72,12 +104,13 @@ void sort_rules(SizeRules& rules) {
   const auto label = std::ranges::adjacent_find(rules.labels, {}, by_label);
   if (label != rules.labels.end()) fail_twice(io::text("label ", label->label));
   const auto pair = std::ranges::adjacent_find(rules.interfaces, {}, by_pair);
-  if (pair != rules.interfaces.end()) fail_twice(io::text(pair->low, "|", pair->high));
+  if (pair != rules.interfaces.end()) fail_twice(pair_text(*pair));
 }
 
 /// Adds the rules of a table to those beside it.
 void join(SizeRules& rules, const SizeRules& more) {
   if (rules.others && more.others) fail_twice("*");
+  if (lists_sizes(more)) set_unit(rules, more.in_voxels);
   if (more.others) rules.others = more.others;
   rules.labels.insert(rules.labels.end(), more.labels.begin(), more.labels.end());
   rules.interfaces.insert(rules.interfaces.end(), more.interfaces.begin(), more.interfaces.end());
@@ -87,6 +120,14 @@ void join(SizeRules& rules, const SizeRules& more) {
 
 bool names_image(std::string_view part) {
   return has_ending(part, {".nii", ".nii.gz", ".nrrd", ".nhdr", ".mha", ".mhd", ".npy"});
+}
+
+SizeText parse_size(std::string_view text) {
+  const bool in_voxels = text.ends_with(kVoxels);
+  if (in_voxels) text.remove_suffix(kVoxels.size());
+  const double edge = parse_number(text);
+  if (edge > 0.0) return {edge, in_voxels};
+  io::fail_usage("a size must be positive, got '", text, "'");
 }
 
 SizeRules parse_sizes(std::string_view text) {
@@ -102,8 +143,7 @@ SizeRules parse_sizes(std::string_view text) {
       if (!out.image.empty()) io::fail_usage("sizes come from two images");
       out.image = part.substr(part.starts_with('@') ? 1 : 0);
     } else {
-      const bool is_number = part.find_first_not_of("0123456789.eE+-") == part.npos;
-      if (!is_number) fail_expected("H, LABEL=H, A|B=H or a file of sizes", part);
+      if (!is_number(part)) fail_expected("H, LABEL=H, A|B=H or a file of sizes", part);
       add_rule(out, "*", part);
     }
   }
@@ -141,13 +181,14 @@ SizeRules parse_size_table(std::string_view text, std::string_view file) {
 }
 
 std::string format_sizes(const SizeRules& rules) {
+  const std::string_view unit = rules.in_voxels ? kVoxels : "";
   std::string out;
   const auto add = [&out](const auto&... parts) {
     out += io::text(out.empty() ? "" : ",", parts...);
   };
-  for (const LabelSize& s : rules.labels) add(s.label, "=", s.edge);
-  for (const InterfaceSize& s : rules.interfaces) add(s.low, "|", s.high, "=", s.edge);
-  if (rules.others) add("*=", *rules.others);
+  for (const LabelSize& s : rules.labels) add(s.label, "=", s.edge, unit);
+  for (const InterfaceSize& s : rules.interfaces) add(pair_text(s), "=", s.edge, unit);
+  if (rules.others) add("*=", *rules.others, unit);
   if (!rules.image.empty()) add("@", rules.image);
   return out;
 }

@@ -15,11 +15,22 @@ namespace mw::engine {
 /// Returns whether a part of such a text names an image of sizes, by its ending.
 [[nodiscard]] bool names_image(std::string_view part);
 
+/// A size and its unit.
+struct SizeText {
+  double edge = 0.0;
+  bool in_voxels = false;
+};
+
+/// Parses "2.5", in physical units, or "2.5vox", in voxels.
+/// ERRORS: mw::Error(kUsage) unless it is positive and finite.
+[[nodiscard]] SizeText parse_size(std::string_view text);
+
 /// Parses "7=4,3|5=1,*=2.5": sizes of a label, of the faces between two, and of all other labels;
-/// "2.5" is "*=2.5".  "@FILE", alone or between those, is a table of such sizes, or an image.  An
-/// empty text gives no sizes.  ENSURES: labels and pairs are ascending.
-/// ERRORS: mw::Error(kUsage) saying what was expected, and for what has two sizes; those of reading
-///         the file, and of parse_size_table().
+/// "2.5" is "*=2.5", "3|*" are the faces between 3 and any label, and "*|*" are all faces. "@FILE",
+/// alone or between those, is a table of such sizes, or an image.  An empty text gives no sizes.
+/// ENSURES: labels and pairs are ascending.
+/// ERRORS: mw::Error(kUsage) saying what was expected, for what has two sizes, and where some sizes
+///         are in voxels and others are not; those of reading the file, and of parse_size_table().
 [[nodiscard]] SizeRules parse_sizes(std::string_view text);
 
 /// Returns the tables that the text names.

@@ -40,15 +40,18 @@ std::pair<Label, Label> some_interface(std::mt19937& random, const SmallVolume& 
 }
 
 /// Sizes from the least that can be kept to six times that: of some labels, of all others at times,
-/// and of an interface.
+/// and of interfaces: of two labels, of a label with any other, and of all.
 void add_sizes(std::mt19937& random, Trial& trial) {
   const double min = diagonal_of(trial) / SizeRules::kContracted;
   SizeRules& rules = trial.settings.sizes.rules;
   const auto size = [&] { return min * (1.0 + 0.05 * below(random, 100)); };
   if (below(random, 4) == 0) rules.others = size();
-  if (below(random, 4) == 0) {
-    const auto [low, high] = some_interface(random, trial.volume);
-    if (low != high) rules.interfaces = {{raw_label(low), raw_label(high), size()}};
+  const auto [low, high] = some_interface(random, trial.volume);
+  if (below(random, 4) == 0) rules.interfaces.push_back({{}, {}, size()});
+  if (low != high && below(random, 4) == 0)
+    rules.interfaces.push_back({{}, raw_label(low), size()});
+  if (low != high && below(random, 4) == 0) {
+    rules.interfaces.push_back({raw_label(low), raw_label(high), size()});
   }
   for (const Label label : labels_of(trial.volume)) {
     if (below(random, 2) == 0) continue;
@@ -77,31 +80,83 @@ Trial random_sized(std::mt19937& random, int i) {
   return trial;
 }
 
+/// How far a place is from a box of voxels, which may be flat.
+double distance_to(const Trial& trial, Index3 low, Index3 high, const audit::Position& p) {
+  const std::array<std::int64_t, 3> lo{low.x, low.y, low.z}, hi{high.x, high.y, high.z};
+  double squared = 0.0;
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    const auto at = [&](std::int64_t corner) {
+      return trial.frame.origin[axis] + trial.frame.spacing[axis] * static_cast<double>(corner);
+    };
+    const double way = std::max({at(lo[axis]) - p[axis], p[axis] - at(hi[axis]), 0.0});
+    squared += way * way;
+  }
+  return std::sqrt(squared);
+}
+
 /// How far a place is from a label's voxels.
 double distance_to(const Trial& trial, Label label, const audit::Position& p) {
   double min = std::numeric_limits<double>::infinity();
   std::size_t i = 0;
   for_each_index(trial.volume.shape, [&](Index3 v) {
     if (trial.volume.labels[i++] != label) return;
-    const std::array<std::int64_t, 3> at{v.x, v.y, v.z};
-    double squared = 0.0;
-    for (std::size_t axis = 0; axis < 3; ++axis) {
-      const double lo =
-          trial.frame.origin[axis] + trial.frame.spacing[axis] * static_cast<double>(at[axis]);
-      const double hi = lo + trial.frame.spacing[axis];
-      const double way = std::max({lo - p[axis], p[axis] - hi, 0.0});
-      squared += way * way;
-    }
-    min = std::min(min, squared);
+    min = std::min(min, distance_to(trial, v, v + Index3{1, 1, 1}, p));
   });
-  return std::sqrt(min);
+  return min;
+}
+
+/// The size of the rule that says most about two labels; infinity if no rule is about them.
+double size_between(const SizeRules& rules, Label a, Label b) {
+  double out = std::numeric_limits<double>::infinity();
+  int most = -1;
+  for (const InterfaceSize& s : rules.interfaces) {
+    const int said = (s.low ? 1 : 0) + (s.high ? 1 : 0);
+    const auto fits = [&](Label x, Label y) {
+      return (!s.low || s.low == raw_label(x)) && (!s.high || s.high == raw_label(y));
+    };
+    if ((!fits(a, b) && !fits(b, a)) || said < most) continue;
+    out = said > most ? s.edge : std::min(out, s.edge);
+    most = said;
+  }
+  return out;
+}
+
+/// A voxel's face that has a size.
+struct SizedFace {
+  Index3 lo;
+  Index3 hi;
+  double size = 0.0;
+};
+
+std::vector<SizedFace> sized_faces(const Trial& trial) {
+  const Index3 shape = trial.volume.shape;
+  const auto label = [&](Index3 v) {
+    return trial.volume.labels[static_cast<std::size_t>((v.z * shape.y + v.y) * shape.x + v.x)];
+  };
+  std::vector<SizedFace> out;
+  if (trial.settings.sizes.rules.interfaces.empty()) return out;
+  for_each_index(shape, [&](Index3 v) {
+    for (const Index3 step : {Index3{1, 0, 0}, Index3{0, 1, 0}, Index3{0, 0, 1}}) {
+      const Index3 next = v + step;
+      if (next.x == shape.x || next.y == shape.y || next.z == shape.z) continue;
+      if (label(v) == label(next)) continue;
+      const double size = size_between(trial.settings.sizes.rules, label(v), label(next));
+      if (!std::isinf(size)) out.push_back({next, v + Index3{1, 1, 1}, size});
+    }
+  });
+  return out;
 }
 
 /// The limit at each vertex: what the gradation allows.
 std::vector<double> limits_at_vertices(const Trial& trial, const SmallMesh& mesh) {
   std::vector<double> out;
+  const std::vector<SizedFace> faces = sized_faces(trial);
   for (const audit::Position& p : mesh.vertices) {
     double min = std::numeric_limits<double>::infinity();
+    for (const SizedFace& face : faces) {
+      const double way = distance_to(trial, face.lo, face.hi, p);
+      min = std::min(min, face.size + trial.settings.sizes.gradation * way);
+    }
     for (const Label label : labels_of(trial.volume)) {
       const auto size = trial.settings.sizes.rules.of_label(raw_label(label));
       if (!size) continue;

@@ -57,12 +57,13 @@ TEST_F(ConfigTest, EverySettingComesFromFlagVariableAndFile) {
 TEST_F(ConfigTest, PresetsAreRowsOfValues) {
   EXPECT_EQ(line("surface", "--preset draft"), "surface = \"voxel\"");
   EXPECT_EQ(line("max_distance", "--preset draft"), "max_distance = \"none\"");
-  EXPECT_EQ(line("max_distance", "--preset fine"), "max_distance = 1");
+  EXPECT_EQ(line("size", "--preset fine"), "size = \"*|*=4.2vox\"");
+  EXPECT_EQ(line("size", "--preset fine --size 2"), "size = \"*=2\"");
   EXPECT_EQ(line("max_distance", "--preset default"), line("max_distance", ""));
   EXPECT_EQ(line("max_distance", "--preset draft --max-distance 2"), "max_distance = 2");
   EXPECT_EQ(line("max_distance", "--preset draft", "MW_MAX_DISTANCE=3"), "max_distance = 3");
   EXPECT_EQ(line("max_distance", "", "MW_PRESET=draft"), "max_distance = \"none\"");
-  EXPECT_EQ(line("max_distance", "--preset fine", "MW_PRESET=draft"), "max_distance = 1");
+  EXPECT_EQ(line("max_distance", "--preset fine", "MW_PRESET=draft"), "max_distance = 1.5");
   write("c.toml", "preset = \"draft\"\nsurface = \"smooth\"\n");
   EXPECT_EQ(line("surface", "--config c.toml"), "surface = \"smooth\"");
   EXPECT_EQ(line("max_distance", "--config c.toml"), "max_distance = \"none\"");

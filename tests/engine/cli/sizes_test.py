@@ -158,6 +158,30 @@ class Sizes(unittest.TestCase):
         middles = mesh.points[mesh.tets].mean(1)[:, 0]
         self.assertGreater((abs(middles - 24) < 4).sum(), 5 * (abs(middles - 8) < 4).sum())
 
+    def test_fine_makes_surfaces_finer_and_smoother(self):
+        """A ball whose voxels are noisy, as those of segmentations are."""
+        z, y, x = np.mgrid[:48, :48, :48] - 23.5
+        noise = np.random.default_rng(6).normal(0, 0.3, x.shape)
+        np.save("b.npy", (np.hypot(np.hypot(x, y), z) + noise < 17).astype(np.uint8))
+        triangles, bends = {}, {}
+        for preset in "default", "fine":
+            run("mesh", "b.npy", "-o", "b.vtu", "--preset", preset)
+            mesh = Mesh("b.vtu")
+            triangles[preset], bends[preset] = len(mesh.surface(1)), mesh.mean_bend(1)
+        self.assertGreater(triangles["fine"], triangles["default"])
+        self.assertLess(bends["fine"], 0.8 * bends["default"])
+
+    def test_voxels_are_a_unit_of_sizes(self):
+        # The edge of a cube of a voxel's volume; thick slices are cut into two layers or more.
+        for spacing, size in ("2,2,2", 7), ("1,1,8", 3.5):
+            digests = set()
+            for text in "3.5vox", str(size):
+                run("mesh", "v.npy", "--spacing", spacing, "-o", "u.vtu", "--size", text)
+                digests.add(run("digest", "u.vtu"))
+            self.assertEqual(len(digests), 1, spacing)
+        refused(["some sizes are in voxels and others are not"], "mesh", "v.npy", "-o", "u.vtu",
+                "--size", f"{self.labels[0]}=2,*=3vox", code=2)
+
     def test_interfaces_that_are_not_there_are_told(self):
         z, y, x = np.mgrid[:16, :16, :24]
         np.save("i.npy", np.where(x < 8, 1, np.where(x < 16, 2, 3)).astype(np.uint8))

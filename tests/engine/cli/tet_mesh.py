@@ -36,6 +36,32 @@ class Mesh:
         """Points at which two labels meet."""
         return self.points[self.on_interface()]
 
+    def surface(self, label):
+        """The triangles around a label that does not touch the box, all seen from its side."""
+        tets = self.tets[self.labels == label]
+        corners = self.points[tets]
+        edges = corners[:, 1:] - corners[:, :1]
+        inverted = np.linalg.det(edges) < 0
+        tets[inverted] = tets[inverted][:, [0, 1, 3, 2]]
+        faces = np.concatenate([tets[:, f] for f in ([1, 2, 3], [0, 3, 2], [0, 1, 3], [0, 2, 1])])
+        _, first, count = np.unique(np.sort(faces), axis=0, return_index=True, return_counts=True)
+        return faces[first[count == 1]]
+
+    def mean_bend(self, label):
+        """The angle between triangles around a label, in degrees, by the length of their edges."""
+        faces = self.surface(label)
+        a, b, c = (self.points[faces[:, i]] for i in range(3))
+        normals = np.cross(b - a, c - a)
+        normals /= np.linalg.norm(normals, axis=1)[:, None]
+        edges = np.sort(np.concatenate([faces[:, [i, (i + 1) % 3]] for i in range(3)]))
+        order = np.lexsort(edges.T)
+        pairs, sides = edges[order].reshape(-1, 2, 2), order.reshape(-1, 2) % len(faces)
+        assert (pairs[:, 0] == pairs[:, 1]).all(), "an edge has not two triangles"
+        cosines = np.einsum("ij,ij->i", normals[sides[:, 0]], normals[sides[:, 1]])
+        ends = self.points[pairs[:, 0]]
+        return np.average(np.degrees(np.arccos(np.clip(cosines, -1, 1))),
+                          weights=np.linalg.norm(ends[:, 1] - ends[:, 0], axis=1))
+
     def lacking(self):
         """Which tets have all corners on interfaces or the box."""
         box = (self.points == self.points.min(0)) | (self.points == self.points.max(0))

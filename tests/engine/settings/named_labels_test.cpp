@@ -66,6 +66,7 @@ TEST(WithNumbers, FollowsTheRuleOfOneLabel) {
     EXPECT_THROW((void)find_label(text, kNames, false), Error) << text;
   }
   EXPECT_EQ(with_numbers("lesion|2=1,*=4", kNames), "1|2=1,*=4");
+  EXPECT_EQ(with_numbers("lesion|*=1vox,*|*=4vox", kNames), "1|*=1vox,*|*=4vox");
   const io::LabelNames odd({{1, "a|b", {}}, {2, "c,d=e", {}}});
   for (const char* const pair : {"\"a|b\"|\"c,d=e\"", "1|\"c,d=e\"", "\"a|b\"|2", "\"a|b\" | 2"}) {
     EXPECT_EQ(with_numbers(pair, odd), "1|2") << pair;
