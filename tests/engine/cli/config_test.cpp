@@ -58,7 +58,7 @@ TEST_F(ConfigTest, PresetsAreRowsOfValues) {
   EXPECT_EQ(line("surface", "--preset draft"), "surface = \"voxel\"");
   EXPECT_EQ(line("max_distance", "--preset draft"), "max_distance = \"none\"");
   EXPECT_EQ(line("size", "--preset fine"), "size = \"*|*=4.2vox\"");
-  EXPECT_EQ(line("size", "--preset fine --size 2"), "size = \"*=2\"");
+  EXPECT_EQ(line("size", "--preset fine --size 2"), "size = \"2\"");
   EXPECT_EQ(line("max_distance", "--preset default"), line("max_distance", ""));
   EXPECT_EQ(line("max_distance", "--preset draft --max-distance 2"), "max_distance = 2");
   EXPECT_EQ(line("max_distance", "--preset draft", "MW_MAX_DISTANCE=3"), "max_distance = 3");
