@@ -55,7 +55,8 @@ class LabelPairs {
 /// REQUIRES: p, q free and joined by an edge; all surviving tets will be strictly positive.  That
 ///           makes Lk(p) n Lk(q) lie in the ring around pq, so that bit masks over it suffice.
 /// ENSURES:  mesh unchanged; same verdict for (p, q) and (q, p); never true for a contraction that
-///           changes a Betti number; may be false for one that does not.
+///           changes a Betti number, or pinches the boundary of a label where it was not; may be
+///           false for one that does neither.
 /// Cost: O(stars + labels * ring); kInterfaces: O(stars + ring), rarely a sort of both stars.
 class LinkCondition {
  public:

@@ -10,6 +10,7 @@
 #include "kernels/core/index.h"
 #include "kernels/start/carrier_faces.h"
 #include "kernels/start/cells/cell.h"
+#include "kernels/start/coarsen/pinches.h"
 #include "kernels/start/coarsen/simple_voxel.h"
 
 namespace mw {
@@ -61,11 +62,13 @@ class Coarsener {
 
   /// Gives a mixed cube one label if it can; returns whether it did.
   bool visit(Index3 cube) {
-    std::array<Label, 8> before;
+    CubeLabels before;
     for (unsigned i = 0; i < 8; ++i) before[i] = labels_.at(cube_voxel(cube, i));
     if (!sizes_allow(cube, before)) return false;
     for (Label to : candidates(before)) {
-      if (flip_all(cube, to) && keeps_carriers(cube, before)) return true;
+      if (flip_all(cube, to) && !adds_pinch(around(cube), before) && keeps_carriers(cube, before)) {
+        return true;
+      }
       for (unsigned i = 0; i < 8; ++i) at(cube_voxel(cube, i)) = before[i];
     }
     return false;
@@ -75,7 +78,7 @@ class Coarsener {
   Label& at(Index3 v) { return labels_.labels[static_cast<std::size_t>(labels_.box.offset(v))]; }
 
   /// Labels that may take the cube, the most frequent first, then by label.
-  static std::vector<Label> candidates(std::array<Label, 8> labels) {
+  static std::vector<Label> candidates(CubeLabels labels) {
     std::sort(labels.begin(), labels.end());
     std::vector<std::pair<std::ptrdiff_t, Label>> counted;
     for (auto i = labels.begin(); i != labels.end();) {
@@ -91,7 +94,7 @@ class Coarsener {
     return out;
   }
 
-  [[nodiscard]] bool sizes_allow(Index3 cube, const std::array<Label, 8>& labels) const {
+  [[nodiscard]] bool sizes_allow(Index3 cube, const CubeLabels& labels) const {
     constexpr int kTwiceTheCube = 2;
     return sizes_ == nullptr || std::all_of(labels.begin(), labels.end(), [&](Label l) {
              return sizes_->allows_cell(cube, kTwiceTheCube, l);
@@ -164,14 +167,23 @@ class Coarsener {
   }
 
   [[nodiscard]] Neighbourhood neighbourhood(Index3 v) const {
-    Neighbourhood out;
+    return cube_from<3>(v - Index3{1, 1, 1});
+  }
+  [[nodiscard]] LabelsAroundCube around(Index3 cube) const {
+    return cube_from<4>(cube - Index3{1, 1, 1});
+  }
+
+  /// The labels of the n^3 voxels from `lo` on, x fastest.
+  template <std::size_t n>
+  [[nodiscard]] std::array<Label, n * n * n> cube_from(Index3 lo) const {
+    std::array<Label, n * n * n> out;
     const Index3 shape = labels_.box.shape();
-    const Label* row = labels_.labels.data() + labels_.box.offset(v - Index3{1, 1, 1});
-    for (std::size_t z = 0; z < 3; ++z) {
-      for (std::size_t y = 0; y < 3; ++y) {
+    const Label* row = labels_.labels.data() + labels_.box.offset(lo);
+    for (std::size_t z = 0; z < n; ++z) {
+      for (std::size_t y = 0; y < n; ++y) {
         const Label* from =
             row + (static_cast<std::int64_t>(z) * shape.y + static_cast<std::int64_t>(y)) * shape.x;
-        for (std::size_t x = 0; x < 3; ++x) out[z * 9 + y * 3 + x] = from[x];
+        for (std::size_t x = 0; x < n; ++x) out[(z * n + y) * n + x] = from[x];
       }
     }
     return out;
@@ -179,7 +191,7 @@ class Coarsener {
 
   /// Input to output: each input face whose carrier may have been a face of the cube's voxels
   /// still has one.
-  bool keeps_carriers(Index3 cube, const std::array<Label, 8>& before) {
+  bool keeps_carriers(Index3 cube, const CubeLabels& before) {
     const Label now = labels_.at(cube);
     const auto label_before = [&](Index3 v) {
       const Index3 i = v - cube;

@@ -27,8 +27,8 @@ struct CoarsenStats {
 /// vertices.  Shape is not lost, because quadrics and samples still come from the input's labels.
 ///
 /// A cube takes the label that most of its voxels have, or the next that three of them have, when
-/// every voxel gets there by changes of label that keep topology (simple_voxel.h), and when
-/// afterwards
+/// every voxel gets there by changes of label that keep topology (simple_voxel.h), when no label is
+/// pinched then where it was not (pinches.h), and when afterwards
 ///  - each of its voxels lies within D of an input voxel of that label (output to input), and
 ///  - each input face between two labels that loses its carrier finds another (input to output,
 ///    carrier_faces.h).
@@ -46,7 +46,7 @@ struct CoarsenStats {
 /// is scratch.  sizes limit edges; null sets no limits.
 /// REQUIRES: original and labels are equal and cover the tile with its halo; tile inside the volume
 ///           with even low corner, and even high corner where that is not the volume's side.
-/// ENSURES: every label keeps its topology; tiles fit together; statistics count cubes in the tile.
+/// ENSURES: every label keeps its topology, and is pinched only where the input is; tiles fit together; statistics count cubes in the tile.
 CoarsenStats coarsen(const LabelBox& original, LabelBox& labels, const Box3& tile, Index3 volume,
                      double max_distance, const SizeField* sizes = nullptr);
 
