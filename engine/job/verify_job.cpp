@@ -216,6 +216,8 @@ report::Verdict verify(const VerifyJob& job, const std::function<void(io::MeshSi
   }
   if (job.asked.max_volume_error) task.options.max_volume_error = *job.asked.max_volume_error;
   verdict.bounds.max_volume_error = task.options.max_volume_error;
+  task.options.halvings.reset();
+  if (record.promises) task.options.halvings = record.promises->halvings;
   task.options.kept = kept.labels;
   task.options.partial = partial;
   task.options.label_text = report::label_texts(verdict.table, verdict.names);
@@ -241,6 +243,7 @@ audit::AuditOptions audit_options(const io::MeshPromises& promises, const io::Vo
   options.count_junctions = promises.interfaces;
   options.max_distance = promises.max_distance;
   options.periodic = promises.periodic;
+  options.halvings = promises.halvings;
   options.layers = layers_of(space.spacing);
   return options;
 }

@@ -55,12 +55,19 @@ void print_bounds(const Bounds& bounds) {
             << (bounds.of_run ? " (what is not given is what the run promised)\n" : "\n");
 }
 
+Json pinches_json(const audit::Pinches& pinches) {
+  return {{"edges", pinches.edges}, {"vertices", pinches.vertices}};
+}
+
 Json topology_json(const Verdict& verdict) {
   if (!verdict.looked_at()) return {{"checked", false}, {"labels_changed", nullptr}};
   Json out{{"checked", true},
            {"labels_changed", verdict.audit.labels_changed.size()},
            {"changed", changed_labels(verdict)},
-           {"indicative_only", verdict.audit.topology_is_indicative}};
+           {"indicative_only", verdict.audit.topology_is_indicative},
+           {"pinches",
+            {{"volume", pinches_json(verdict.audit.pinches.voxels)},
+             {"mesh", pinches_json(verdict.audit.pinches.mesh)}}}};
   if (const auto& junctions = verdict.audit.junctions) {
     out["interfaces"] = junctions->interfaces;
     out["interfaces_changed"] = junctions->interfaces_changed.size();

@@ -30,6 +30,7 @@ struct TileFindings {
   std::vector<SharedTet> shared;
   audit::RegionsPiece regions;  ///< of a mesh with gaps, instead of parts
   audit::JunctionsPiece junctions;
+  std::vector<audit::Pinches> pinches;
   audit::Offenders turned{"tets"};
   audit::QualityMeter quality;
   audit::ShapeMeter shape;
@@ -66,6 +67,7 @@ class MeshStage {
         regions_(label_count, task.folder, task.memory_bytes / 8),
         crossings_(task.folder, task.memory_bytes / 8) {
     found_.validity.in_mesh.resize(label_count + 1);
+    found_.pinches.resize(label_count);
     found_.volumes = {std::vector<Int128>(label_count),
                       std::vector<audit::CompensatedSum>(label_count)};
   }
@@ -107,6 +109,8 @@ class MeshStage {
     } else {
       take_parts(loaded, stars, out);
     }
+    task_.between();
+    out.pinches = audit::mesh_pinches(stars, loaded.names.size());
     task_.between();
     out.quality = audit::tally_quality(view);
     out.shape = audit::measure_shape(stars);
@@ -154,6 +158,9 @@ class MeshStage {
   void merge(std::uint32_t tile, TileFindings&& found) {
     found_.validity.add(found.validity, found.names.whole());
     found_.turned.add(found.turned);
+    for (Label own = 0; own < found.pinches.size(); ++own) {
+      found_.pinches[found.names.of_whole(own)].add(found.pinches[own]);
+    }
     found_.quality.add(found.quality);
     found_.shape.add(found.shape);
     found_.volumes.add(found.volumes, found.names.whole());

@@ -8,6 +8,7 @@
 #include "engine/verify/tile_grid.h"
 #include "engine/verify/verify_mesh.h"
 #include "kernels/audit/partition/periodic_faces.h"
+#include "kernels/audit/topology/pinches.h"
 
 namespace mw::engine {
 
@@ -17,6 +18,7 @@ struct MeshFindings {
   std::optional<audit::Check> overlap;  ///< only where labels were left out
   audit::Offenders turned{"tets"};      ///< see audit::changed_orientations()
   std::vector<audit::RegionBetti> betti;
+  std::vector<audit::Pinches> pinches;  ///< by dense label
   audit::QualityMeter quality;
   audit::ShapeMeter shape;
   audit::VolumeTally volumes;

@@ -21,6 +21,22 @@ audit::ValidityTask validity_task(const io::DenseVolume& volume, const MeshTiles
           .label_text = task.options.label_text};
 }
 
+std::vector<audit::LabelPinches> label_pinches(const MeshFindings& mesh,
+                                               const VolumeFindings& volume, Index3 layers) {
+  std::vector<audit::LabelPinches> out;
+  for (std::size_t label = 0; label < mesh.pinches.size(); ++label) {
+    out.push_back({volume.pinches[label].in_layers(layers), mesh.pinches[label]});
+  }
+  return out;
+}
+
+/// Returns what is asked of a mesh: curved tets are looked at in parts, each edge of which is half
+/// of one of theirs.
+audit::AuditOptions asked_of(const MeshTiles& mesh, audit::AuditOptions options) {
+  if (mesh.curved() && options.halvings) ++*options.halvings;
+  return options;
+}
+
 }  // namespace
 
 audit::AuditReport verify_mesh(const io::DenseVolume& volume, const MeshTiles& mesh,
@@ -53,6 +69,7 @@ audit::AuditReport verify_mesh(const io::DenseVolume& volume, const MeshTiles& m
   }
   findings.voxels = std::move(voxels.betti);
   findings.mesh = std::move(found.betti);
+  findings.pinches = label_pinches(found, voxels, task.options.layers);
   if (junctions) findings.junctions = junctions->compare();
   findings.place = std::move(voxels.place);
   findings.quality = (mesh.curved() ? mesh.curved()->corners() : found.quality).report();
@@ -66,7 +83,7 @@ audit::AuditReport verify_mesh(const io::DenseVolume& volume, const MeshTiles& m
   findings.volumes =
       audit::compare_volumes(voxels.voxels, found.volumes, task.options.layers.product());
   findings.shape = found.shape.report();
-  audit::AuditReport report = audit::judge(std::move(findings), task.options);
+  audit::AuditReport report = audit::judge(std::move(findings), asked_of(mesh, task.options));
   if (mesh.is_turned()) report.checks.push_back(audit::kept_orientation(found.turned));
   return report;
 }

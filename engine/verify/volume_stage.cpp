@@ -34,6 +34,7 @@ struct VoxelFindings {
   audit::JunctionsPiece junctions;
   std::vector<Label> labels;  ///< of the tile; what follows is by their ranks
   std::vector<audit::VoxelCount> voxels;
+  std::vector<audit::VoxelPinches> pinches;
   audit::PlaceTally places;
   TileDistances distances;
 };
@@ -76,6 +77,7 @@ class VolumeStage {
         missed_(task.folder, task.memory_bytes / 16),
         rows_(label_count_ + 2) {
     found_.voxels.resize(label_count_);
+    found_.pinches.resize(label_count_);
     if (centres_ == nullptr) return;
     samples_.emplace(grid.shape());
     wanted_ = audit::wanted_centres(label_count_, task.options.kept, task.options.partial);
@@ -166,6 +168,7 @@ class VolumeStage {
     audit::VoxelParts parts = audit::voxel_parts(tile, names.size());
     out.parts = std::move(parts.piece);
     out.shared = std::move(parts.shared);
+    out.pinches = std::move(parts.pinches);
     names.to_whole(out.parts);
     if (junctions_ == nullptr) return;
     out.junctions = audit::voxel_junctions(tile, names.size());
@@ -265,6 +268,7 @@ class VolumeStage {
       audit::VoxelCount& all = found_.voxels[found.labels[i]];
       all.voxels += found.voxels[i].voxels;
       all.faces += found.voxels[i].faces;
+      found_.pinches[found.labels[i]].add(found.pinches[i]);
     }
     places_.add(found.places);
     for (const auto& [label, in, voxels_missed] : found.places.missed) {

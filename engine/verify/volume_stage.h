@@ -13,7 +13,8 @@ namespace mw::engine {
 /// What the volume's tiles told.
 struct VolumeFindings {
   std::vector<audit::RegionBetti> betti;
-  std::vector<audit::VoxelCount> voxels;  ///< by dense label
+  std::vector<audit::VoxelPinches> pinches;  ///< by dense label
+  std::vector<audit::VoxelCount> voxels;     ///< by dense label
   audit::Check place;  ///< see audit::judge_places(); only with MeshInterface::centres
   std::optional<audit::DistanceReport> distance;
 };

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <span>
 #include <string>
 
 namespace mw::audit {
@@ -63,6 +64,40 @@ Check compare_topology(AuditReport& report, std::size_t looked_at, const AuditOp
   }
   if (report.topology_is_indicative) detail += "; only indicative, as P2 fails";
   return {"P1 topology", changed.count() == 0, detail};
+}
+
+/// Returns whether a label is pinched in the mesh where its voxels do not account for it.
+bool has_new_pinches(const LabelPinches& label, const std::optional<int>& halvings) {
+  if (!halvings) {
+    return (label.mesh.vertices > 0 && label.voxels.vertices == 0) ||
+           (label.mesh.edges > 0 && label.voxels.edges == 0);
+  }
+  const Pinches most = label.voxels.halved(*halvings);
+  return label.mesh.vertices > most.vertices || label.mesh.edges > most.edges;
+}
+
+std::string pinches_text(const Pinches& pinches) {
+  return std::to_string(pinches.edges) + " edges and " + std::to_string(pinches.vertices) +
+         " vertices";
+}
+
+/// Also adds up the pinches of the labels that are kept.
+Check judge_pinches(std::span<const LabelPinches> pinches, const AuditOptions& options,
+                    LabelPinches& sum) {
+  Offenders pinched("labels have pinches that their voxels do not account for");
+  for (Label label = 0; label < pinches.size(); ++label) {
+    if (!keeps(options.kept, label)) continue;
+    const LabelPinches& of_label = pinches[label];
+    sum.voxels.add(of_label.voxels);
+    sum.mesh.add(of_label.mesh);
+    if (!has_new_pinches(of_label, options.halvings)) continue;
+    pinched.add([&] {
+      return label_text(label, options.label_text) + " " + pinches_text(of_label.mesh) + ", from " +
+             pinches_text(of_label.voxels);
+    });
+  }
+  return {"P1 pinches", pinched.count() == 0,
+          pinched.text() + "; " + pinches_text(sum.mesh) + ", from " + pinches_text(sum.voxels)};
 }
 
 /// Returns text such as "3, 5, exterior".
@@ -173,6 +208,7 @@ void refuse_all(const AuditOptions& options, std::vector<Check>& checks) {
   };
   refuse("P4 place");
   refuse("P1 topology");
+  refuse("P1 pinches");
   if (options.count_junctions) {
     refuse("P1 interfaces");
     refuse("P1 meetings");
@@ -211,6 +247,7 @@ AuditReport judge(AuditFindings findings, const AuditOptions& options) {
       options.kept.empty() ? report.voxels.size() : static_cast<std::size_t>(kept);
   report.checks.push_back(std::move(findings.place));
   report.checks.push_back(compare_topology(report, looked_at, options));
+  report.checks.push_back(judge_pinches(findings.pinches, options, report.pinches));
   report.junctions = std::move(findings.junctions);
   judge_junctions(report, options.label_text);
   report.quality = findings.quality;

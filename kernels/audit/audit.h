@@ -17,6 +17,7 @@
 #include "kernels/audit/subject.h"
 #include "kernels/audit/topology/betti.h"
 #include "kernels/audit/topology/junctions.h"
+#include "kernels/audit/topology/pinches.h"
 
 namespace mw::audit {
 
@@ -36,6 +37,9 @@ struct AuditOptions {
   KeptLabels partial = {};
   /// Names labels in the details of checks.
   LabelText label_text = {};
+  /// How often all edges were halved since contraction, where that is known: then no label may have
+  /// more pinches than its voxels.  If empty, one whose voxels have none may have none.
+  std::optional<int> halvings = {};
   /// P8 fails above this share (volume_bound()), for labels of at least kMinJudgedVoxels; if empty,
   /// P8 is not checked.
   std::optional<double> max_volume_error = 0.05;
@@ -43,14 +47,16 @@ struct AuditOptions {
 
 /// Everything an audit found.  Rows of Betti numbers are dense labels, then the exterior.
 struct AuditReport {
-  /// The checks of validity, then "P4 place", "P1 topology", "P1 interfaces" and "P1 meetings" if
-  /// asked for, "P3 radius ratio", "P4 distance", and "P8 volumes" if asked for.  "P4 distance"
-  /// needs a bound, or a label with an interface on one side only, which fails without a bound too.
+  /// The checks of validity, then "P4 place", "P1 topology", "P1 pinches", "P1 interfaces" and "P1
+  /// meetings" if asked for, "P3 radius ratio", "P4 distance", and "P8 volumes" if asked for.  "P4
+  /// distance" needs a bound, or a label with an interface on one side only, which fails without a
+  /// bound too.
   std::vector<Check> checks;
   std::vector<RegionBetti> voxels;
   std::vector<RegionBetti> mesh;  ///< empty when the mesh could not be read as one
   /// Labels whose Betti numbers differ, ascending dense labels; the exterior is kExterior.
   std::vector<Label> labels_changed;
+  LabelPinches pinches;  ///< of all labels that are kept, together
   std::optional<JunctionReport>
       junctions;  ///< as AuditOptions ask, if the mesh could be read as one
   /// The mesh is no partition of the box, so what was counted on it is indicative only.
@@ -69,6 +75,8 @@ struct AuditReport {
 struct AuditFindings {
   std::vector<RegionBetti> voxels;
   std::vector<RegionBetti> mesh;  ///< a mesh with gaps has no row of the exterior
+  /// By dense label; those of the mesh are counted after all halvings.
+  std::vector<LabelPinches> pinches;
   ValidityReport validity;
   std::optional<JunctionReport> junctions;
   Check place;  ///< see judge_places()

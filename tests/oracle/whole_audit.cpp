@@ -171,6 +171,11 @@ AuditReport audit(const VoxelLabels& volume, std::size_t label_count, const Audi
     found.junctions = compare_junctions(junctions_of_volume(volume, label_count),
                                         junctions_of_mesh(mesh, label_count));
   }
+  const auto in_voxels = voxel_parts(whole(volume), label_count).pinches;
+  const auto in_mesh = mesh_pinches(MeshStars(mesh), label_count);
+  for (std::size_t label = 0; label < label_count; ++label) {
+    found.pinches.push_back({in_voxels[label].in_layers(options.layers), in_mesh[label]});
+  }
   found.place = check_places(volume, label_count, mesh, frame, options);
   found.quality = measure_quality(mesh);
   if (options.measure_distance || options.max_distance) {

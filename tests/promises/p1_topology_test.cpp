@@ -75,6 +75,45 @@ TEST(Promise1Topology, KeepsASingleVoxelEverywhere) {
   }
 }
 
+/// Cubes, two that touch by an edge or a corner, and balls, by default; what touches in voxels is
+/// all that may be pinched.
+TEST(Promise1Pinches, AreNotMadeOfSolidShapes) {
+  std::size_t vertices = 0, start = 0;
+  const auto mesh = [&](const SmallVolume& volume) {
+    SCOPED_TRACE(volume.text());
+    const Trial trial{.volume = volume};
+    const SmallMesh out = small_mesh(run_in_memory(trial));
+    expect_no_new_pinches(trial, out);
+    vertices += out.vertices.size();
+    start += static_cast<std::size_t>(corners(volume.shape));
+  };
+  for_each_index(Index3{2, 2, 2}, [&](Index3 at) {
+    for (const std::int64_t edge : {3, 4, 5}) {
+      const Index3 lo = at + Index3{2, 2, 2}, hi = lo + Index3{edge, edge, edge};
+      const Box3 one{lo, hi};
+      for (const Index3 side : {hi, Index3{hi.x, hi.y, lo.z}, Index3{hi.x + 9, hi.y, hi.z}}) {
+        const Box3 other{side, side + Index3{edge, edge, edge}};
+        mesh(volume_from({14, 14, 14}, 2, [&](auto x, auto y, auto z) {
+          const Index3 v{x, y, z};
+          return one.contains(v) || other.contains(v) ? 1 : 0;
+        }));
+      }
+    }
+  });
+  std::mt19937 random(107);
+  for (int i = 0; i < 20; ++i) {
+    const auto place = [&] { return 7.0 + 0.1 * below(random, 10); };
+    const double radius = 2.0 + 0.1 * below(random, 30), cx = place(), cy = place(), cz = place();
+    mesh(volume_from({15, 15, 15}, 2, [&](auto x, auto y, auto z) {
+      const auto square = [](double d) { return d * d; };
+      const double dx = static_cast<double>(x) + 0.5 - cx, dy = static_cast<double>(y) + 0.5 - cy,
+                   dz = static_cast<double>(z) + 0.5 - cz;
+      return square(dx) + square(dy) + square(dz) < square(radius) ? 1 : 0;
+    }));
+  }
+  EXPECT_LT(vertices, start / 4);
+}
+
 // Promise 1 with --topology interfaces, end to end: meetings of labels and pairwise interfaces of
 // whole runs on small volumes, by ranks of boundary matrices.
 

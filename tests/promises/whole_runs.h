@@ -3,8 +3,10 @@
 // Whole runs on small volumes, held against promises 1 to 3.
 #pragma once
 
+#include "kernels/core/lattice.h"
 #include "tests/engine/memory_run.h"
 #include "tests/oracle/cell_complex.h"
+#include "tests/oracle/pinches.h"
 #include "tests/oracle/whole_audit.h"
 
 namespace mw::engine::test {
@@ -37,6 +39,24 @@ inline void expect_same_topology(const SmallVolume& volume, const SmallMesh& mes
   }
 }
 
+/// No label has more pinched edges or vertices than its voxels, cut into the layers that the mesh
+/// is made from.
+inline void expect_no_new_pinches(const Trial& trial, const SmallMesh& mesh) {
+  const SmallVolume& volume = trial.volume;
+  const Index3 layers = layers_of(trial.frame.spacing);
+  const Box3 all{{0, 0, 0}, volume.shape};
+  const SmallVolume lattice = volume_from(
+      layered_shape(volume.shape, layers), volume.label_count, [&](auto x, auto y, auto z) {
+        const Index3 voxel{x / layers.x, y / layers.y, z / layers.z};
+        return volume.labels[static_cast<std::size_t>(all.offset(voxel))];
+      });
+  audit::test::PinchedByLabel voxels = audit::test::pinches_of(lattice.view());
+  for (const auto& [label, pinched] : audit::test::pinches_of(mesh.view())) {
+    EXPECT_LE(pinched.vertices.size(), voxels[label].vertices.size()) << "label " << label;
+    EXPECT_LE(pinched.edges.size(), voxels[label].edges.size()) << "label " << label;
+  }
+}
+
 inline void expect_valid(const Trial& trial, const SmallMesh& mesh) {
   const auto report = audit::test::check_validity(mesh.view(), trial.volume.view(), trial.frame,
                                                   trial.volume.label_count);
@@ -51,6 +71,7 @@ inline void expect_floor(const Trial& trial, const SmallMesh& mesh) {
 /// Checks P1 to P3.
 inline void expect_promises(const Trial& trial, const SmallMesh& mesh, Counter counter) {
   expect_same_topology(trial.volume, mesh, counter);
+  expect_no_new_pinches(trial, mesh);
   expect_valid(trial, mesh);
   expect_floor(trial, mesh);
 }

@@ -11,6 +11,7 @@
 #include "kernels/audit/mesh_stars.h"
 #include "kernels/audit/topology/betti.h"
 #include "kernels/audit/topology/part_graph.h"
+#include "kernels/audit/topology/pinches.h"
 #include "kernels/core/disjoint_sets.h"
 
 namespace mw::audit {
@@ -37,9 +38,10 @@ struct SharedRun {
 struct VoxelParts {
   PartsPiece piece;
   std::vector<SharedRun> shared;
+  std::vector<VoxelPinches> pinches;  ///< by label, of corners and edges that the tile owns
 };
 
-/// Finds the parts of a tile, their pairs, and its cells.
+/// Finds the parts of a tile, their pairs, its cells, and where labels are pinched.
 /// REQUIRES: a shape of at least 1 x 1 x 1, as many labels as voxels, labels < label_count.
 /// Errors: kInput when these fail, kResource from 2^32 - 1 runs of equal labels on.
 /// Cost: one pass over the voxels; 8 bytes a run along x, and some 16 a pair.  Deterministic.

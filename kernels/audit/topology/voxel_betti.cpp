@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: The mwmesh authors
 // SPDX-License-Identifier: Apache-2.0
-// Parts and cells of a volume: one sweep over the places where a run of voxels begins or ends.
+// Parts, cells and pinches of a volume: one sweep over the places where a run of voxels begins or
+// ends.
 #include <algorithm>
 #include <array>
 
@@ -42,6 +43,45 @@ constexpr OwnedCells count_owned_cells() {
 
 constexpr OwnedCells kOwned = count_owned_cells();
 
+/// Whether a label is pinched at a lattice vertex, and at its edges towards +y and +z, as above.
+struct PinchedCells {
+  std::array<bool, 256> corner{};
+  std::array<bool, 256> along_y{};
+  std::array<bool, 256> along_z{};
+};
+
+/// Returns whether voxels around a vertex are several sets that share no face.
+constexpr bool falls_apart(unsigned mask) {
+  unsigned sets = 0;
+  while (mask != 0) {
+    unsigned set = mask & (~mask + 1);
+    for (int steps = 0; steps < 7; ++steps) {
+      set |= ((set & 0x55U) << 1 | (set & 0xaaU) >> 1 | (set & 0x33U) << 2 | (set & 0xccU) >> 2 |
+              (set & 0x0fU) << 4 | (set & 0xf0U) >> 4) &
+             mask;
+    }
+    mask &= ~set;
+    ++sets;
+  }
+  return sets > 1;
+}
+
+constexpr PinchedCells find_pinched_cells() {
+  constexpr unsigned kPlusY = 0b11001100, kPlusZ = 0b11110000;
+  PinchedCells table;
+  for (unsigned mask = 0; mask < 256; ++mask) {
+    const auto is_pinched = [mask](unsigned star) {
+      return falls_apart(mask & star) && falls_apart(star & ~mask);
+    };
+    table.corner[mask] = falls_apart(mask) || falls_apart(0xffU & ~mask);
+    table.along_y[mask] = is_pinched(kPlusY);
+    table.along_z[mask] = is_pinched(kPlusZ);
+  }
+  return table;
+}
+
+constexpr PinchedCells kPinched = find_pinched_cells();
+
 /// Walks one row of runs and tells the parts on both sides of a position.
 class RowCursor {
  public:
@@ -73,14 +113,18 @@ class RowCursor {
   std::size_t next_run_ = 0;
 };
 
-/// Collects the part graph and the Euler sums.  Where none of the four rows around a line of
-/// vertices changes, cells come in pairs (c, c x edge) of opposite sign with the same labels, and
-/// nothing touches that did not touch at the last change: only changes need a look.
+/// Collects the part graph, the Euler sums and pinches.  Where none of the four rows around a line
+/// of vertices changes, cells come in pairs (c, c x edge) of opposite sign with the same labels,
+/// nothing touches that did not touch at the last change, and a label is pinched all along the line
+/// or nowhere: only changes need a look.
 class VoxelSweep {
  public:
   /// owned is a box of vertices, relative to the first voxel of the runs.
   VoxelSweep(const VoxelRuns& runs, const Box3& owned, std::size_t label_count)
-      : runs_(runs), owned_(owned), euler_(label_count + 1) {}
+      : runs_(runs), owned_(owned), euler_(label_count + 1), pinches_(label_count + 1) {}
+
+  /// Returns the pinches by class, that of the exterior being the last.
+  [[nodiscard]] const std::vector<VoxelPinches>& pinches() const { return pinches_; }
 
   PartsPiece run() {
     for (std::int64_t z = owned_.lo.z; z < owned_.hi.z; ++z) {
@@ -101,10 +145,13 @@ class VoxelSweep {
                        static_cast<std::uint32_t>(runs_.shape().x));
     };
     std::array<RowCursor, 4> rows{cursor(-1, -1), cursor(0, -1), cursor(-1, 0), cursor(0, 0)};
+    std::uint32_t last = 0;
     while (true) {
       std::uint32_t x = RowCursor::kNone;
       for (const RowCursor& row : rows) x = std::min(x, row.next());
       if (x == RowCursor::kNone) return;
+      look_along(rows, last, x);
+      last = x;
       std::array<std::uint32_t, 8> around{};
       for (std::size_t r = 0; r < 4; ++r) {
         rows[r].move_to(x);
@@ -113,6 +160,23 @@ class VoxelSweep {
       }
       if (x >= owned_.lo.x && x < owned_.hi.x) look_at(around);
     }
+  }
+
+  /// Takes the edges along x between two vertices, and the vertices between these.
+  void look_along(const std::array<RowCursor, 4>& rows, std::uint32_t from, std::uint32_t to) {
+    std::array<Label, 4> labels{};
+    for (std::size_t r = 0; r < 4; ++r) labels[r] = runs_.part_class()[rows[r].after()];
+    const auto owned = [&](std::int64_t first) {
+      return std::max<std::int64_t>(
+          std::min<std::int64_t>(to, owned_.hi.x) - std::max<std::int64_t>(first, owned_.lo.x), 0);
+    };
+    const auto look = [&](Label across, Label other, Label beside, Label beside_too) {
+      if (across != other || across == beside || across == beside_too) return;
+      pinches_[across].edges[0] += static_cast<std::uint64_t>(owned(from));
+      pinches_[across].corners += static_cast<std::uint64_t>(owned(std::int64_t{from} + 1));
+    };
+    look(labels[0], labels[3], labels[1], labels[2]);
+    look(labels[1], labels[2], labels[0], labels[3]);
   }
 
   /// Takes one vertex, by the parts of its eight voxels.
@@ -130,6 +194,11 @@ class VoxelSweep {
       for (; i < count && runs_.part_class()[parts[i]] == label; ++i) mask |= masks[i];
       euler_.closed[label] += kOwned.closed[mask];
       euler_.only[label] += kOwned.only[mask];
+      if (!kPinched.corner[mask]) continue;
+      VoxelPinches& pinches = pinches_[label];
+      ++pinches.corners;
+      pinches.edges[1] += kPinched.along_y[mask] ? 1U : 0U;
+      pinches.edges[2] += kPinched.along_z[mask] ? 1U : 0U;
     }
   }
 
@@ -157,6 +226,7 @@ class VoxelSweep {
   Box3 owned_;
   PartGraph graph_;
   EulerSums euler_;
+  std::vector<VoxelPinches> pinches_;
 };
 
 /// Lists the voxels of a row (y, z, from the first voxel loaded) that other tiles load too: those
@@ -202,7 +272,9 @@ class SharedRow {
 VoxelParts voxel_parts(const VoxelTile& tile, std::size_t label_count) {
   const VoxelRuns runs(tile.voxels, label_count);
   const Box3 owned{tile.owned.lo - tile.loaded.lo, tile.owned.hi - tile.loaded.lo};
-  VoxelParts out{VoxelSweep(runs, owned, label_count).run(), {}};
+  VoxelSweep sweep(runs, owned, label_count);
+  VoxelParts out{sweep.run(), {}, sweep.pinches()};
+  out.pinches.resize(label_count);  // a box is pinched nowhere, from outside
   const SharedRow shared(tile, runs);
   for (std::int64_t z = 0; z < runs.shape().z; ++z) {
     for (std::int64_t y = 0; y < runs.shape().y; ++y) shared.add(y, z, out.shared);

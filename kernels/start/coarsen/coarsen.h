@@ -46,7 +46,8 @@ struct CoarsenStats {
 /// is scratch.  sizes limit edges; null sets no limits.
 /// REQUIRES: original and labels are equal and cover the tile with its halo; tile inside the volume
 ///           with even low corner, and even high corner where that is not the volume's side.
-/// ENSURES: every label keeps its topology, and is pinched only where the input is; tiles fit together; statistics count cubes in the tile.
+/// ENSURES: every label keeps its topology, and is pinched only where the input is; tiles fit
+///          together; statistics count cubes in the tile.
 CoarsenStats coarsen(const LabelBox& original, LabelBox& labels, const Box3& tile, Index3 volume,
                      double max_distance, const SizeField* sizes = nullptr);
 

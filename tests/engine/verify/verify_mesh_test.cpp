@@ -161,6 +161,8 @@ void expect_same(const AuditReport& tiled, const AuditReport& whole) {
   EXPECT_EQ(tiled.voxels, whole.voxels);
   EXPECT_EQ(tiled.mesh, whole.mesh);
   EXPECT_EQ(tiled.labels_changed, whole.labels_changed);
+  EXPECT_EQ(tiled.pinches.voxels, whole.pinches.voxels);
+  EXPECT_EQ(tiled.pinches.mesh, whole.pinches.mesh);
   if (!whole.checks.front().passed) return;
   expect_near(tiled.validity.volume, whole.validity.volume);
   EXPECT_EQ(tiled.quality.radius_ratio_min, whole.quality.radius_ratio_min);
