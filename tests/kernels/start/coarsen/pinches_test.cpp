@@ -92,8 +92,7 @@ TEST(Promise1Pinches, CoarsenedLabelsAreOnlyPinchedWhereTheInputIs) {
   EXPECT_GT(of_few, 20) << "volumes without a pinch";
 }
 
-/// What a cube of 27 voxels loses depends on where it is; two opposite edges of a cube of 2^3 were
-/// left of some.
+/// What a cube loses depends on where it is.
 TEST(Promise1Pinches, SolidCubesStayCleanWhereverTheyAre) {
   int changed = 0;
   for_each_index(Index3{2, 2, 2}, [&](Index3 at) {
