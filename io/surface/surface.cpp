@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "io/file/scratch/external_sort.h"
+#include "io/surface/apart_places.h"
 #include "io/surface/vertex_sheets.h"
 #include "kernels/core/vector3.h"
 
@@ -40,48 +41,68 @@ SurfaceShell shell_of(const GroupedMesh& mesh, const ShellPlan& plan) {
 }  // namespace
 
 Surface::Surface(const SurfaceSource& source, std::shared_ptr<const SurfaceLabels> labels,
-                 const std::vector<ShellPlan>& plans, bool manifold)
+                 const std::vector<ShellPlan>& plans, Touching touching)
     : vertices_(source.folder), triangles_(source.folder) {
   header_.labels = std::move(labels);
   header_.frame = source.mesh.header().record.frame;
   header_.shift = source.shift;
   header_.shortest_edge = source.mesh.shortest_edge();
-  for (const ShellPlan& plan : plans) add_shell(source, plan, manifold);
+  for (const ShellPlan& plan : plans) add_shell(source, plan, touching);
 }
 
-void Surface::add_shell(const SurfaceSource& source, const ShellPlan& plan, bool manifold) {
-  CornersByVertex corners(source.folder, kSortBytes);
-  if (manifold) {
+void Surface::add_shell(const SurfaceSource& source, const ShellPlan& plan, Touching touching) {
+  CornersByVertex corners(source.folder, kSurfaceSortBytes);
+  if (touching == Touching::kJoined) {
+    add_corners(source, plan, corners);
+  } else {
     each_sheet_corner(source, plan, [&](const SheetCorner& at) {
       corners.add({at.row, at.sheet, at.corner});
     });
-  } else {
-    add_corners(source, plan, corners);
   }
   header_.shells.push_back(shell_of(source.mesh, plan));
-  const std::uint64_t first = vertices_.size() / sizeof(Position);
-  std::uint64_t& count = header_.shells.back().vertices;
-  VerticesByCorner vertices(source.folder, kSortBytes);
-  std::array<std::uint64_t, 2> last{};
-  corners.each([&](const CornersByVertex::Record& record) {
-    const std::array<std::uint64_t, 2> vertex{record[0], record[1]};
-    if (count == 0 || vertex != last) {
-      const Position position = minus(source.mesh.node(record[0]), source.shift);
-      for (const double x : position) header_.largest = std::max(header_.largest, std::abs(x));
-      vertices_.append(std::as_bytes(std::span(position)));
-      ++count;
+  std::uint64_t next = vertices_.size() / sizeof(Position);
+  VerticesByCorner vertices(source.folder, kSurfaceSortBytes);
+  VertexCopies copies;
+  corners.each_group<1>([&](std::span<const CornersByVertex::Record> at_row) {
+    const Position position = minus(source.mesh.node(at_row[0][0]), source.shift);
+    for (const double x : position) header_.largest = std::max(header_.largest, std::abs(x));
+    const bool is_one = at_row.front()[1] == at_row.back()[1];
+    for (std::size_t i = 0; i < at_row.size(); ++i) {
+      const auto& [row, sheet, corner] = at_row[i];
+      if (i == 0 || sheet != at_row[i - 1][1]) {
+        vertices_.append(std::as_bytes(std::span(position)));
+        ++header_.shells.back().vertices;
+        ++next;
+      }
+      vertices.add({corner, next - 1});
+      if (touching != Touching::kApart || is_one) continue;
+      copies[next - 1].row = row;
+      copies[next - 1].corners.push_back(corner);
     }
-    last = vertex;
-    vertices.add({record[2], first + count - 1});
   });
   vertices.each([&](const VerticesByCorner::Record& record) {
     triangles_.append(std::as_bytes(std::span(&record[1], 1)));
+  });
+  moved_.merge(places_apart(source, plan, copies));
+}
+
+void Surface::write_vertices(SurfaceSink& sink) {
+  std::uint64_t first = 0;
+  auto next = moved_.begin();
+  std::vector<Position> batch;
+  vertices_.each_batch<Position>([&](std::span<const Position> positions) {
+    batch.assign(positions.begin(), positions.end());
+    for (; next != moved_.end() && next->first < first + batch.size(); ++next) {
+      batch[next->first - first] = next->second;
+    }
+    first += batch.size();
+    sink.write_vertices(batch);
   });
 }
 
 void Surface::write(SurfaceSink& sink) {
   sink.begin(header_);
-  vertices_.each_batch<Position>([&](const auto& batch) { sink.write_vertices(batch); });
+  write_vertices(sink);
   triangles_.each_batch<Triangle>([&](const auto& batch) { sink.write_triangles(batch); });
   sink.finish();
 }

@@ -4,6 +4,7 @@
 // vertices of its own.
 #pragma once
 
+#include <map>
 #include <optional>
 #include <utility>
 #include <vector>
@@ -14,7 +15,7 @@
 namespace mw::io {
 
 /// The memory of each sort by which the surface of a mesh is made.
-inline constexpr std::size_t kSortBytes = 8 << 20;
+inline constexpr std::size_t kSurfaceSortBytes = 8 << 20;
 
 /// The facets of one group.
 struct ShellPart {
@@ -76,26 +77,34 @@ void for_each_facet(GroupedMesh& mesh, const ShellPlan& plan, Visit visit) {
   }
 }
 
+/// What becomes of places where a shell touches itself.
+enum class Touching : std::uint8_t {
+  kJoined,   ///< one vertex, as in the mesh
+  kDoubled,  ///< the vertices of each_sheet_corner(), of which several may be in one place
+  kApart,    ///< these vertices, in the places of places_apart()
+};
+
 /// Vertices and triangles of shells, in temporary files.
 class Surface {
  public:
   /// Vertices of a shell ascend by their row in the mesh, triangles are as planned.
-  /// With manifold, the vertices of each shell are those of each_sheet_corner().
-  /// REQUIRES: with manifold, all parts of a shell have the same label inside.
-  /// Memory: 32 MiB, and with manifold what each_sheet_corner() takes.
+  /// REQUIRES: all parts of a shell have the same label inside, unless it is kJoined.
+  /// Memory: 32 MiB, and what each_sheet_corner() and places_apart() take.
   /// Cost: two sorts of three numbers a corner.
   Surface(const SurfaceSource& source, std::shared_ptr<const SurfaceLabels> labels,
-          const std::vector<ShellPlan>& plans, bool manifold);
+          const std::vector<ShellPlan>& plans, Touching touching);
 
   [[nodiscard]] const SurfaceHeader& header() const { return header_; }
   /// Writes all of the surface, from begin() to finish().
   void write(SurfaceSink& sink);
 
  private:
-  void add_shell(const SurfaceSource& source, const ShellPlan& plan, bool manifold);
+  void add_shell(const SurfaceSource& source, const ShellPlan& plan, Touching touching);
+  void write_vertices(SurfaceSink& sink);
 
   SurfaceHeader header_;
   ScratchFile vertices_;
+  std::map<std::uint64_t, Position> moved_;  ///< vertices that go elsewhere, by number
   ScratchFile triangles_;
 };
 

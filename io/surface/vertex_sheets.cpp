@@ -22,7 +22,7 @@ EdgeRows edge_of(std::uint64_t a, std::uint64_t b) {
 }
 
 SharedEdges find_shared_edges(const SurfaceSource& source, const ShellPlan& plan) {
-  EdgeRecords records(source.folder, kSortBytes);
+  EdgeRecords records(source.folder, kSurfaceSortBytes);
   for_each_facet(source.mesh, plan, [&](const Triangle& rows) {
     for (std::size_t i = 0; i < 3; ++i) {
       const EdgeRows edge = edge_of(rows[i], rows[(i + 1) % 3]);
@@ -261,7 +261,7 @@ EdgeStrands find_strands(const SurfaceSource& source, const ShellPlan& plan) {
   EdgeStrands strands;
   const SharedEdges shared = find_shared_edges(source, plan);
   if (shared.empty()) return strands;
-  EdgeRecords tets(source.folder, kSortBytes);
+  EdgeRecords tets(source.folder, kSurfaceSortBytes);
   add_tets(source.mesh, inside_of(source.mesh, plan.parts.front()), shared, tets);
   tets.each_group<2>([&](std::span<const EdgeRecords::Record> around) {
     const auto found = shared.find({around[0][0], around[0][1]});
@@ -283,7 +283,7 @@ void each_sheet_corner(const SurfaceSource& source, const ShellPlan& plan,
   for (const auto& [edge, here] : strands) {
     for (const std::uint64_t row : edge) held[row].row = row;
   }
-  Corners corners(source.folder, kSortBytes);
+  Corners corners(source.folder, kSurfaceSortBytes);
   add_corners(source, plan, corners);
   each_star(corners, [&](Star& star) {
     find_sheets(star, strands);

@@ -45,6 +45,8 @@ RUNS = {
     "convert --pieces": ["convert", "in.mesh", "out/m.pvtu", "--pieces=3"],
     "surface .stl": ["surface", "in.vtkhdf", "-o", "out/{label}.stl", "--each"],
     "surface .ply": ["surface", "in.vtu", "-o", "out/s.ply", "--manifold"],
+    "surface .obj": ["surface", "in.vtu", "-o", "out/s.obj", "--labels=1"],
+    "surface .vtp": ["surface", "in.vtu", "-o", "out/s.vtp"],
     "surface folder": ["surface", "in.vtkhdf", "-o", "out/p", "--format=precomputed"],
 }
 READS_ALL = "convert .xdmf"  # every read of its input fails once: nothing may get lost silently

@@ -11,6 +11,7 @@
 #include "io/file/errors.h"
 #include "io/file/scratch/scratch_file.h"
 #include "io/surface/open_surface.h"
+#include "io/surface/surface_names.h"
 
 namespace mw::cli {
 namespace {
@@ -45,16 +46,6 @@ void replace_all(std::string& text, std::string_view from, std::string_view to) 
   }
 }
 
-/// Returns the name as a part of a file's name, which is neither hidden nor another folder.
-std::string file_part(std::string name) {
-  for (char& c : name) {
-    const auto code = static_cast<unsigned char>(c);
-    if (code < ' ' || c == '/' || c == '\\') c = '_';
-  }
-  if (name.starts_with('.')) name.front() = '_';
-  return name;
-}
-
 /// None of the files gets its name before all are whole.
 class EachFileOutput : public SurfaceOutput {
  public:
@@ -65,7 +56,7 @@ class EachFileOutput : public SurfaceOutput {
                                         const std::string& title) override {
     std::string name = pattern_;
     replace_all(name, kLabelPlaceholder, digits);
-    replace_all(name, kNamePlaceholder, file_part(title));
+    replace_all(name, kNamePlaceholder, io::file_word(title));
     if (!names_.insert(name).second) {
       io::fail_usage("-o ", pattern_, ": two labels would be ", name, "; put ", kLabelPlaceholder,
                      " into the name");

@@ -9,6 +9,7 @@
 
 #include "engine/cli/options/mesh_options.h"
 #include "engine/cli/requests.h"
+#include "engine/cli/surface/surface_volume.h"
 #include "io/file/errors.h"
 #include "io/surface/open_surface.h"
 
@@ -49,7 +50,7 @@ std::string format_of(const SurfaceFlags& flags) {
   }
   if (is_folder_format(flags.format)) return flags.format;
   if (!io::is_surface_path("x." + flags.format)) {
-    fail("--format " + flags.format + ": expected stl, ply, precomputed or draco");
+    fail("--format " + flags.format + ": expected stl, ply, obj, vtp, precomputed or draco");
   }
   if (io::is_surface_path(flags.output) && extension != "." + flags.format) {
     fail("--format " + flags.format + " and -o " + flags.output + " contradict each other");
@@ -105,6 +106,20 @@ void set_target(const SurfaceFlags& flags, SurfaceRequest& request) {
   }
 }
 
+/// Surfaces of labels are parted where their format is one for printers, others if asked for.
+/// Readers of a format that joins equal places would undo it unless the places differ, too.
+void set_touching(const SurfaceFlags& flags, SurfaceRequest& request) {
+  const bool is_file = request.target != SurfaceTarget::kFolder;
+  const io::SurfaceTraits traits =
+      is_file ? io::surface_traits(request.output) : io::SurfaceTraits{};
+  const bool of_labels = request.target == SurfaceTarget::kEachFile || !request.labels.empty();
+  request.manifold = flags.manifold.value_or(traits.is_printed && of_labels);
+  request.joined = traits.joined;
+  if (!request.manifold) return;
+  request.touching =
+      traits.joined == io::Joined::kByPlace ? io::Touching::kApart : io::Touching::kDoubled;
+}
+
 void add_output_options(OptionSet& options, SurfaceFlags& flags) {
   options.add({.name = "output",
                .value = "OUTPUT",
@@ -114,18 +129,18 @@ void add_output_options(OptionSet& options, SurfaceFlags& flags) {
                .required = true,
                .assign = into(flags.output)});
   options.add({.name = "each",
-               .help = "a file for each label, as -o 'parts/{label}.stl' or '{name}.stl' says",
+               .help = "a file for each label, as -o 'parts/{label}.stl' or '{name}.stl'",
                .group = kOutputGroup,
                .kind = ValueKind::kSwitch,
                .assign = into(flags.each)});
   options.add({.name = "format",
                .value = "FORMAT",
-               .help = "stl, ply, precomputed or draco [by the extension; --each: stl]",
+               .help = "stl, ply, obj, vtp, precomputed, draco [by extension; --each: stl]",
                .group = kOutputGroup,
                .assign = into(flags.format)});
   options.add({.name = "unit",
                .value = "UNIT",
-               .help = "nm, um, mm or m: of the mesh, for precomputed meshes [its own, or nm]",
+               .help = "nm, um, mm or m: the mesh's, for precomputed ones [its own, or nm]",
                .group = kOutputGroup,
                .assign = into(flags.unit)});
   options.add({.name = "shift",
@@ -139,7 +154,13 @@ void add_output_options(OptionSet& options, SurfaceFlags& flags) {
 }  // namespace
 
 void add_surface_options(OptionSet& options, SurfaceFlags& flags) {
-  add_mesh_option(options, flags.mesh, "mesh to read");
+  options.add({.name = "mesh",
+               .value = "INPUT",
+               .help = "mesh, or volume to mesh for this",
+               .group = kInputGroup,
+               .flags = "INPUT,--mesh",
+               .required = true,
+               .assign = into(flags.input)});
   options.add({.name = "labels",
                .value = "LIST",
                .help = "the surface of each of these, with what lies on the box",
@@ -159,27 +180,29 @@ void add_surface_options(OptionSet& options, SurfaceFlags& flags) {
                .kind = ValueKind::kSwitch,
                .assign = into(flags.open)});
   options.add({.name = "manifold",
-               .help = "doubles vertices where a surface touches itself or another one",
+               .help = "parts surfaces that touch themselves; --no-manifold [.stl, .obj]",
                .group = kSurfaceGroup,
                .kind = ValueKind::kSwitch,
-               .assign = into(flags.manifold)});
+               .flags = "--manifold,!--no-manifold",
+               .assign = into(flags.manifold, parse_switch)});
   add_output_options(options, flags);
+  add_volume_route(options, flags.meshing);
 }
 
 SurfaceRequest parse_surface_request(const SurfaceFlags& flags) {
-  SurfaceRequest request{.mesh = flags.mesh.string(),
+  SurfaceRequest request{.input = flags.input.string(),
                          .output = flags.output,
                          .folder = {},
                          .labels = flags.labels,
                          .pair = flags.pair,
                          .shift = flags.shift.value_or(io::Position{}),
                          .force = flags.force,
-                         .manifold = flags.manifold,
                          .closed = !flags.open};
   if (flags.pair && (!flags.labels.empty() || names_each(flags))) {
     fail(io::text("--pair: not together with --labels, --each or ", kLabelPlaceholder));
   }
   set_target(flags, request);
+  set_touching(flags, request);
   return request;
 }
 

@@ -12,13 +12,16 @@
 
 #include "engine/cli/requests.h"
 #include "io/surface/precomputed/mesh_folder.h"
+#include "io/surface/surface.h"
+#include "io/surface/surface_facts.h"
 #include "kernels/core/label.h"
 
 namespace mw::cli {
 
 /// What was asked for; empty where it was not given.
 struct SurfaceFlags {
-  std::filesystem::path mesh;
+  std::filesystem::path input;
+  MeshRequest meshing;  ///< of an input that is a volume
   std::string output;
   std::vector<RawLabel> labels;
   std::optional<std::array<RawLabel, 2>> pair;
@@ -26,7 +29,7 @@ struct SurfaceFlags {
   std::string unit;
   bool each = false;
   std::optional<io::Position> shift;
-  bool manifold = false;
+  std::optional<bool> manifold;
   bool open = false;
   bool force = false;
 };
@@ -38,7 +41,7 @@ enum class SurfaceTarget {
 };
 
 struct SurfaceRequest {
-  std::string mesh;
+  std::string input;  ///< a mesh, or a volume
   std::string output;
   SurfaceTarget target = SurfaceTarget::kFile;
   io::MeshFolderOptions folder;  ///< with kFolder; its unit is not known before the mesh is
@@ -48,6 +51,8 @@ struct SurfaceRequest {
   io::Position shift{};  ///< is taken off all coordinates
   bool force = false;    ///< whether it may replace files of others
   bool manifold = false;
+  io::Touching touching = io::Touching::kJoined;
+  io::Joined joined = io::Joined::kByNumber;  ///< with files: what their readers join
   bool closed = true;
 };
 

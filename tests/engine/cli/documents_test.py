@@ -87,7 +87,7 @@ class Documents(unittest.TestCase):
                 if line.startswith((".", "OUT", "MESH:"))]
         endings = set(re.findall(r"\.[a-z][a-z0-9]+", " ".join(last)))
         self.assertGreater(len(endings), 20)
-        for ending in sorted(endings) + [".stl", ".ply"]:
+        for ending in sorted(endings) + [".stl", ".ply", ".obj", ".vtp"]:
             with self.subTest(ending=ending):
                 self.assertTrue(f"`{ending}`" in formats)
 

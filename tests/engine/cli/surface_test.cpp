@@ -15,7 +15,7 @@ class SurfaceCommand : public ProgramTest {
 };
 
 TEST_F(SurfaceCommand, RefusesWhatContradictsItself) {
-  expect_failure(2, "surface m.vtu -o s.vtp", "'.vtp'");
+  expect_failure(2, "surface m.vtu -o s.off", "'.off'");
   expect_failure(2, "surface m.vtu -o s.stl --format ply", "contradict");
   expect_failure(2, "surface m.vtu -o s.stl --format foo", "--format foo");
   expect_failure(2, "surface m.vtu -o s --format stl", "extension .stl");
@@ -59,9 +59,56 @@ TEST_F(SurfaceCommand, SaysWhichFrameItWrote) {
             std::string(32, '1') + std::string(32, '2'));
   for (const char* frame : {"lps", "ras"}) {
     expect_done("mesh w.nrrd -o w.vtu --frame " + std::string(frame));
-    EXPECT_EQ(run("surface w.vtu -o s.stl").out, "coordinates " + std::string(frame) + "\n");
+    EXPECT_EQ(run("surface w.vtu -o s.stl").out, "coordinates " + std::string(frame) +
+                                                     "\nsurface     open at 4 edges, manifold, " +
+                                                     "2 triangles\n");
     const std::string space = frame == std::string("lps") ? "SPACE=LPS" : "SPACE=RAS";
     EXPECT_LT(read("s.stl").find(space), 80U);
+  }
+}
+
+TEST_F(SurfaceCommand, TakesAVolumeAndSaysWhatIsWrongWithIt) {
+  make_volume();
+  expect_failure(2, "surface v.npy -o s.stl --labels 77", "77");
+  expect_failure(2, "surface v.npy -o s.stl --labels liver", "no label has a name");
+  expect_failure(2, "surface v.npy -o s.stl --pair 1,77", "77");
+  expect_failure(2, "surface v.npy -o s.stl --labels 1 --size 0", "--size 0");
+  expect_failure(2, "surface v.npy -o s.off --labels 1", "'.off'");
+  expect_failure(3, "surface missing.npy -o s.stl --labels 1", "missing.npy");
+  write("bad.npy", "no array");
+  expect_failure(3, "surface bad.npy -o s.stl --labels 1", "bad.npy");
+  expect_failure(2, "surface v.npy -o v.npy --labels 1", "v.npy");
+  expect_done("mesh v.npy -o v.vtu");
+  expect_failure(2, "surface v.vtu -o s.stl --size 2", "--size: is about volumes, and v.vtu is a");
+  expect_done("surface v.vtu -o s.stl", "MW_SIZE=2");
+}
+
+/// As far as labels are told from voxels, else out of the mesh of all.
+TEST_F(SurfaceCommand, MeshesWhatLabelsNeed) {
+  make_volume();
+  const std::string alone = "all other labels taken for one";
+  EXPECT_NE(run("surface v.npy -o a.stl --labels 1").out.find(alone), std::string::npos);
+  EXPECT_NE(run("surface v.npy -o b.vtp --pair 1,2").out.find(alone), std::string::npos);
+  for (const char* all : {"--labels 9 --merge 1,2=9", "--labels 1 --periodic x", "",
+                          "--labels 1,2 --crop 0,0,0,20,20,10 --merge 3=4"}) {
+    const ProgramRun done = run("surface v.npy -o c.vtp " + std::string(all));
+    EXPECT_EQ(done.code, 0) << all << done.err;
+    EXPECT_EQ(done.out.find(alone), std::string::npos) << all;
+    EXPECT_NE(done.out.find("\nsurface     "), std::string::npos) << all;
+  }
+  expect_done("surface v.npy --each -o parts");
+  for (const std::string& name : files()) EXPECT_FALSE(name.ends_with(".work")) << name;
+}
+
+TEST_F(SurfaceCommand, StlAndObjArePartedUnlessAskedOtherwise) {
+  make_mesh();
+  for (const char* extension : {".stl", ".obj", ".ply", ".vtp"}) {
+    const std::string e = extension, surface = "surface v.vtu --labels 1 -o ";
+    expect_done(surface + "a" + e);
+    expect_done(surface + "b" + e + " --manifold");
+    expect_done(surface + "c" + e + " --no-manifold");
+    const bool is_printed = e == ".stl" || e == ".obj";
+    EXPECT_EQ(read("a" + e), read((is_printed ? "b" : "c") + e)) << e;
   }
 }
 

@@ -4,6 +4,7 @@
 """VTK, meshio and numpy read the surfaces of `mwmesh surface`, and find them whole."""
 import json
 import os
+import re
 import shutil
 import sys
 import unittest
@@ -14,9 +15,10 @@ try:
     from reading_meshio import meshio
     import numpy as np
     from vtkmodules.util.numpy_support import vtk_to_numpy
-    from vtkmodules.vtkFiltersCore import vtkFeatureEdges
-    from vtkmodules.vtkIOGeometry import vtkSTLReader
+    from vtkmodules.vtkFiltersCore import vtkCleanPolyData, vtkFeatureEdges
+    from vtkmodules.vtkIOGeometry import vtkOBJReader, vtkSTLReader
     from vtkmodules.vtkIOPLY import vtkPLYReader
+    from vtkmodules.vtkIOXML import vtkXMLPolyDataReader
 except ImportError as missing:
     print(f"skipped: {missing}")
     sys.exit(77)
@@ -24,6 +26,8 @@ except ImportError as missing:
 READERS = {
     ".stl": vtkSTLReader,
     ".ply": vtkPLYReader,
+    ".obj": vtkOBJReader,
+    ".vtp": vtkXMLPolyDataReader,
 }
 NAMES = {
     1: ('Left "big" one', (255, 0, 10)),
@@ -101,12 +105,15 @@ class Surfaces(unittest.TestCase):
             self.assertEqual(wrong_edges(expected, manifold=False), 0)
             volume = volume_of(points_of(expected), triangles_of(expected))
             self.assertAlmostEqual(volume / self.volumes[label], 1, places=6)
-            for extension in (".stl", ".ply"):
-                run("surface", "v.vtu", "--labels", label, "-o", "one" + extension)
-                poly = read("one" + extension)
+            for extension in READERS:
+                out = "one" + extension
+                run("surface", "v.vtu", "--labels", label, "--no-manifold", "-o", out)
+                poly = read(out)
                 found = points_of(poly)[triangles_of(poly)]
                 np.testing.assert_allclose(found, corners, atol=1e-5, err_msg=extension)
-                mesh = meshio.read("one" + extension)
+                if extension == ".vtp":  # meshio reads none
+                    continue
+                mesh = meshio.read(out)
                 np.testing.assert_allclose(
                     mesh.points[mesh.cells_dict["triangle"]], corners, atol=1e-5, err_msg=extension
                 )
@@ -168,6 +175,98 @@ class Surfaces(unittest.TestCase):
                 volume = volume_of(points_of(poly), triangles_of(poly))
                 self.assertAlmostEqual(volume / row["volume"], 1, places=5)
         self.assertGreater(touching, 0)
+
+    def test_stl_and_obj_are_manifold_by_default(self):
+        """As VTK finds them once it has joined equal places, which is all that an STL has."""
+        facts = json.loads(run("info", "noise.vtu", "--json"))
+        touching = 0
+        for row in facts["volume"]["per_label"]:
+            what = ("surface", "noise.vtu", "--labels", row["label"])
+            for out in ("one.stl", "one.obj"):
+                last = run(*what, "-o", out).splitlines()[-1]
+                poly = read(out)
+                if out == "one.stl":
+                    clean = vtkCleanPolyData()
+                    clean.SetInputData(poly)
+                    clean.Update()
+                    poly = clean.GetOutput()
+                self.assertEqual(wrong_edges(poly), 0, (out, row["label"]))
+                volume = volume_of(points_of(poly), triangles_of(poly))
+                self.assertLess(abs(volume / row["volume"] - 1), 0.01)
+                told = re.fullmatch(
+                    r"surface     closed, manifold, volume ([\d.]+), ([\d,]+) triangles", last)
+                self.assertTrue(told, last)
+                self.assertAlmostEqual(float(told[1]) / volume, 1, places=3)
+                self.assertEqual(int(told[2].replace(",", "")), len(triangles_of(poly)))
+            last = run(*what, "--no-manifold", "-o", "one.stl").splitlines()[-1]
+            found = wrong_edges(read("one.stl"))
+            touching += found
+            self.assertEqual("not manifold" in last, found > 0 or "vert" in last, last)
+        self.assertGreater(touching, 0)
+
+    def test_the_summary_says_what_is_open_and_what_touches(self):
+        last = run("surface", "v.vtu", "--labels", 1, "--open", "-o", "open.stl").splitlines()[-1]
+        told = re.match(r"surface     open at (\d+) edges, manifold, \d+ triangles$", last)
+        self.assertTrue(told, last)
+        self.assertEqual(int(told[1]), wrong_edges(read("open.stl")))
+        lines = run("surface", "v.vtu", "--labels", "1,2,3", "-o", "three.stl").splitlines()
+        self.assertIn("--each", lines[-2])
+        found = re.match(r"surface     closed, not manifold at (\d+) edges", lines[-1])
+        self.assertTrue(found, lines)
+        self.assertEqual(int(found[1]), wrong_edges(read("three.stl")))
+        lines = run("surface", "v.vtu", "--labels", "1,2,3", "--each", "-o", "three").splitlines()
+        self.assertTrue(lines[-2].startswith('surface     3 "Größe 漢字": closed, manifold, volume '))
+        self.assertRegex(lines[-1], "surfaces    3, all closed, all manifold, volume .* triangles")
+
+    def test_names_are_groups_of_an_obj_and_arrays_of_a_vtp(self):
+        run("surface", "v.vtu", "--labels", "1,2,3", "-o", "some.obj")
+        run("surface", "v.vtu", "--labels", "1,2,3", "-o", "some.vtp")
+        run("surface", "v.vtu", "--labels", "1,2,3", "-o", "some.ply")
+        with open("some.obj", encoding="utf-8") as file:
+            groups = [line[2:-1] for line in file if line.startswith("g ")]
+        self.assertEqual(groups, ["Left__big__one", "_grain____two", "Größe_漢字"])
+        poly = read("some.vtp")
+        labels, outside, side = (
+            vtk_to_numpy(poly.GetCellData().GetArray(name)) for name in ("label", "label_out", "side"))
+        corner = triangles_of(read("some.ply"))[:, 0]
+        np.testing.assert_array_equal(labels, meshio.read("some.ply").point_data["label"][corner])
+        blocks = meshio.read("some.obj").cells
+        self.assertEqual([len(block.data) for block in blocks], [sum(labels == k) for k in NAMES])
+        self.assertTrue(((outside > 0) == (side == 0)).all())
+        self.assertTrue((outside != labels).all())
+        fields = poly.GetFieldData()
+        names = fields.GetAbstractArray("label_name")
+        self.assertEqual([names.GetValue(i) for i in range(3)], [NAMES[k][0] for k in NAMES])
+        np.testing.assert_array_equal(vtk_to_numpy(fields.GetArray("label_id")), list(NAMES))
+        colours = vtk_to_numpy(poly.GetCellData().GetArray("colour"))
+        np.testing.assert_array_equal(colours, [NAMES[k][1] or PLAIN for k in labels])
+
+    def test_straight_from_a_volume(self):
+        """Only the label asked for is meshed, and nothing else is left behind."""
+        voxels = np.load("v.npy")
+        os.mkdir("scratch")
+        os.environ["TMPDIR"] = os.path.abspath("scratch")
+        try:
+            for label in (1, 2):
+                lines = run("surface", "v.npy", "--names", "names.csv", "--labels", NAMES[label][0],
+                            "-o", "direct.stl").splitlines()
+                self.assertIn("all other labels taken for one", lines[0])
+                self.assertTrue(lines[-1].startswith("surface     closed, manifold, volume "), lines)
+                poly = read("direct.stl")
+                self.assertEqual(wrong_edges(poly), 0)
+                volume = volume_of(points_of(poly), triangles_of(poly))
+                self.assertLess(abs(volume / (voxels == label).sum() - 1), 0.05)
+                with open("direct.stl", "rb") as file:
+                    self.assertEqual(file.read(80).startswith(b"mwmesh: binary STL; "), True)
+            run("surface", "v.npy", "--labels", 1, "--size", 2, "-o", "fine.stl")
+            run("surface", "v.npy", "--labels", 1, "--preset", "draft", "-o", "draft.stl")
+            self.assertGreater(os.path.getsize("fine.stl"), os.path.getsize("draft.stl"))
+            run("surface", "v.npy", "-o", "all.vtp")
+            found = vtk_to_numpy(read("all.vtp").GetCellData().GetArray("label_out"))
+            self.assertEqual(set(found), set(np.unique(voxels)[1:]))
+        finally:
+            del os.environ["TMPDIR"]
+        self.assertEqual(os.listdir("scratch"), [])
 
     def test_each(self):
         run("surface", "v.vtu", "-o", "parts/{label}.stl")

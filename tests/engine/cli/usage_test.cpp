@@ -83,8 +83,8 @@ TEST_F(UsageTest, SaysWhatWasForgotten) {
   expect_failure(2, "v.npy", "v.npy: no command; give mwmesh mesh v.npy -o OUTPUT.vtu; see");
   write("v.vtu", "");
   expect_failure(2, "v.vtu --json", "v.vtu: no command; give mwmesh info v.vtu; see");
-  for (const char* command : {"picture v.npy -o p.png", "surface v.npy -o s.stl",
-                              "convert v.npy c.vtu", "digest v.npy", "verify v.npy v.npy"}) {
+  for (const char* command :
+       {"picture v.npy -o p.png", "convert v.npy c.vtu", "digest v.npy", "verify v.npy v.npy"}) {
     expect_failure(2, command, "if it is a volume, mesh it first: mwmesh mesh");
   }
   expect_failure(2, "convert v.stl c.vtu", "mwmesh surface MESH -o");
@@ -211,6 +211,8 @@ TEST_F(UsageTest, ReplacesNothingButItsOwnFiles) {
       {"q.csv", "convert m.vtu c.vtu --pairs q.csv"},
       {"s.stl", "surface m.vtu -o s.stl"},
       {"s.ply", "surface m.vtu -o s.ply"},
+      {"s.obj", "surface m.vtu -o s.obj"},
+      {"s.vtp", "surface m.vtu -o s.vtp"},
       {"e4.ply", "surface m.vtu -o 'e{label}.ply'"},
       {"p.png", "picture m.vtu -o p.png --pixels 64x64"},
       {"y.npy", synth + "y.npy"},

@@ -46,12 +46,16 @@ class SurfaceMesh {
   }
 
   [[nodiscard]] GroupedMesh& mesh() { return sink_.mesh(); }
-  [[nodiscard]] Surface surface(const std::vector<ShellPlan>& plans, bool manifold) {
-    return {{mesh(), dir_.path()}, surface_labels(mesh()), plans, manifold};
+  [[nodiscard]] Surface surface(const std::vector<ShellPlan>& plans, Touching touching) {
+    return {{mesh(), dir_.path()}, surface_labels(mesh()), plans, touching};
   }
-  [[nodiscard]] CollectSurface collect(const std::vector<ShellPlan>& plans, bool manifold) {
+  [[nodiscard]] Surface surface(const std::vector<ShellPlan>& plans, bool manifold) {
+    return surface(plans, manifold ? Touching::kDoubled : Touching::kJoined);
+  }
+  template <class How>
+  [[nodiscard]] CollectSurface collect(const std::vector<ShellPlan>& plans, How how) {
     CollectSurface out;
-    surface(plans, manifold).write(out);
+    surface(plans, how).write(out);
     return out;
   }
 

@@ -373,7 +373,8 @@ TEST(ManifoldSurface, SurvivesTetsWithACornerTwice) {
     const ShellPlans plans(sink.mesh(), true);
     for (Label rank = 0; rank < sink.mesh().table().size(); ++rank) {
       CollectSurface out;
-      Surface({sink.mesh(), dir.path()}, surface_labels(sink.mesh()), {plans.of_label(rank)}, true)
+      Surface({sink.mesh(), dir.path()}, surface_labels(sink.mesh()), {plans.of_label(rank)},
+              Touching::kDoubled)
           .write(out);
     }
   }
