@@ -69,9 +69,9 @@ TEST_F(SurfaceCommand, SaysWhichFrameItWrote) {
 
 TEST_F(SurfaceCommand, TakesAVolumeAndSaysWhatIsWrongWithIt) {
   make_volume();
-  expect_failure(2, "surface v.npy -o s.stl --labels 77", "77");
+  expect_failure(3, "surface v.npy -o s.stl --labels 77", "v.npy: no voxel has 77");
   expect_failure(2, "surface v.npy -o s.stl --labels liver", "no label has a name");
-  expect_failure(2, "surface v.npy -o s.stl --pair 1,77", "77");
+  expect_failure(3, "surface v.npy -o s.stl --pair 1,77", "no voxel has 77");
   expect_failure(2, "surface v.npy -o s.stl --labels 1 --size 0", "--size 0");
   expect_failure(2, "surface v.npy -o s.off --labels 1", "'.off'");
   expect_failure(3, "surface missing.npy -o s.stl --labels 1", "missing.npy");
