@@ -30,13 +30,13 @@ constexpr double kMinInnerRatio = 0.1;
 /// The curvature of threads one voxel thick (bench/parameters.md, "Constants").
 constexpr double kMaxCurvatureOfSource = 4.0;
 
-/// Where edges have sizes, the weights of bends, of lines of three labels, and of the fit beside
-/// those (bench/parameters.md, "Constants").  Longer edges would cut the corners of lines.
-constexpr double kBendOfSizes = 8.0, kLineOfSizes = 10.0, kJunctionFitOfSizes = 5.0;
+/// Where edges have sizes, the weights of lines of three labels and of the fit beside those
+/// (bench/parameters.md, "Constants").  Longer edges would cut the corners of lines.
+constexpr double kLineOfSizes = 10.0, kJunctionFitOfSizes = 5.0;
 
-/// The weight of the fit to crossings, whose places are known and not estimated, and that of the
-/// area (bench/parameters.md, "Constants").
-constexpr double kFitOfCrossings = 20.0, kAreaOfCrossings = 0.05;
+/// The weight of the fit to crossings, whose places are known and not estimated, and those of area
+/// and bends beside it (bench/parameters.md, "Constants").
+constexpr double kFitOfCrossings = 20.0, kAreaOfCrossings = 0.05, kBendOfCrossings = 4.7;
 
 std::optional<SurfaceWeights> surface_weights(const MeshSettings& settings,
                                               const PreparedLabels& labels) {
@@ -47,13 +47,13 @@ std::optional<SurfaceWeights> surface_weights(const MeshSettings& settings,
   weights.max_curvature = kMaxCurvatureOfSource;
   if (settings.sizes.rules.any()) weights.line = kLineOfSizes;
   if (!labels.has_crossings()) {
-    weights.bend = kBendOfSizes;
     weights.junction_fit = kJunctionFitOfSizes;
     return weights;
   }
   weights.fit = kFitOfCrossings;
   weights.junction_fit = 0.5 * kFitOfCrossings;
   weights.area = kAreaOfCrossings;
+  weights.bend = kBendOfCrossings;
   return weights;
 }
 

@@ -17,8 +17,8 @@ constexpr double kShareOfPresent = 0.8;
 constexpr double kShareOfMoved = 0.6;
 /// The bend energy that other contractions may leave: between two labels, where surfaces are
 /// smooth, and where more meet (bench/parameters.md, "Constants").
-constexpr double kFreeBetweenTwo = 0.5;
-constexpr double kFreeElsewhere = 1.0;
+constexpr double kFreeBetweenTwo = 0.38;
+constexpr double kFreeElsewhere = 0.55;
 
 }  // namespace
 

@@ -14,8 +14,12 @@
 namespace mw {
 namespace {
 
-/// The sum of bends is divided by the number of spokes of a usual star.
+/// The sums of bends and of needles are divided by the number of spokes of a usual star.
 constexpr double kUsualSpokes = 6.0;
+
+/// The least 1/q that costs: what a triangle of legs of about 1, 1 and 0.4 has
+/// (bench/parameters.md, "Constants").
+constexpr double kFreeNeedle = 1.8;
 
 /// How far an interface may be from where its labels have their volumes before bends give way, in
 /// smallest edges of a voxel (bench/parameters.md, "Constants").
@@ -35,6 +39,9 @@ Vec3 cosine_gradient(const Vec3& normal, double length, const Vec3& edge, const 
                      double cosine) {
   return (other - cosine * normal).cross(edge) / length;
 }
+
+/// 1/q of a triangle is this times the sum of its squared edges over its area.
+const double kEquilateral = 1.0 / (4.0 * std::sqrt(3.0));
 
 /// Pieces of one carrier in metric units.
 struct MetricPieces {
@@ -163,14 +170,22 @@ MW_WIDE void find_nearest(const KnownTriangles& known, std::size_t carrier,
   std::memcpy(out.rows.data(), &rows, sizeof rows);
 }
 
-/// Computes SurfaceTriangle::normal() of four triangles, and their areas.
-MW_WIDE void find_normals(const std::array<StoredLanes, 6>& places, const Vec3& x,
-                          SurfaceNormal* normals, double* areas) {
+/// Where the measures of four triangles go.
+struct FourMeasures {
+  SurfaceNormal* normals;  ///< SurfaceTriangle::normal()
+  double* areas;
+  double* squares;  ///< sums of squared edges
+};
+
+/// Measures four triangles.
+MW_WIDE void measure(const std::array<StoredLanes, 6>& places, const Vec3& x,
+                     const FourMeasures& out) {
   const Lanes3 at = lanes(x);
   const Lanes3 a = Lanes3{load(places[0]), load(places[1]), load(places[2])} - at;
   const Lanes3 b = Lanes3{load(places[3]), load(places[4]), load(places[5])} - at;
-  const Lanes3 n = cross(a, b);
+  const Lanes3 n = cross(a, b), c = b - a;
   const Lanes square = eigen_dot(n, n), area = 0.5 * root(square);
+  const Lanes squares = eigen_dot(a, a) + eigen_dot(b, b) + eigen_dot(c, c);
   // The lanes are transposed, so that a normal and its square lie together.
   const Lanes xy02 = __builtin_shufflevector(n.x, n.y, 0, 4, 2, 6),
               xy13 = __builtin_shufflevector(n.x, n.y, 1, 5, 3, 7),
@@ -184,9 +199,10 @@ MW_WIDE void find_normals(const std::array<StoredLanes, 6>& places, const Vec3& 
   for (std::size_t k = 0; k < kLanes; ++k) {
     StoredLanes row;
     store(rows[k], row);
-    normals[k] = {Vec3(row[0], row[1], row[2]), row[3]};
+    out.normals[k] = {Vec3(row[0], row[1], row[2]), row[3]};
   }
-  std::memcpy(areas, &area, sizeof area);
+  std::memcpy(out.areas, &area, sizeof area);
+  std::memcpy(out.squares, &squares, sizeof squares);
 }
 
 }  // namespace
@@ -240,6 +256,7 @@ void SurfaceEnergy::gather_corners() {
   corners_.assign((triangles.size() + kLanes - 1) / kLanes, {});
   normals_.resize(corners_.size() * kLanes);
   areas_.resize(normals_.size());
+  squares_.resize(normals_.size());
   for (std::size_t i = 0; i < triangles.size(); ++i) {
     std::array<StoredLanes, 6>& places = corners_[i / kLanes].places;
     for (std::size_t k = 0; k < 3; ++k) {
@@ -395,9 +412,11 @@ double SurfaceEnergy::min_cosine() const {
 double SurfaceEnergy::raw_value_at(const Vec3& x) const {
   double value = x.dot(line_square_ * x) - 2.0 * line_linear_.dot(x);
   const bool has_area = mass_ > 0.0 && area_weight_ > 0.0, has_bends = weights_.bend > 0.0;
-  if (has_area || has_bends) {
+  const bool has_needles = weights_.needle > 0.0;
+  if (has_area || has_bends || has_needles) {
     for (std::size_t i = 0; i < corners_.size(); ++i) {
-      find_normals(corners_[i].places, x, &normals_[i * kLanes], &areas_[i * kLanes]);
+      const std::size_t row = i * kLanes;
+      measure(corners_[i].places, x, {&normals_[row], &areas_[row], &squares_[row]});
     }
   }
   if (mass_ > 0.0) {
@@ -410,7 +429,19 @@ double SurfaceEnergy::raw_value_at(const Vec3& x) const {
     value += fit_weight_ / mass_ * fit;
   }
   if (has_bends) value += bend_weight_ * star_->bends(normals_);
+  if (has_needles) value += weights_.needle / kUsualSpokes * needles();
   return value;
+}
+
+/// The sum over the triangles that were measured last.
+double SurfaceEnergy::needles() const {
+  double sum = 0.0;
+  for (std::size_t i = 0; i < star_->triangles().size(); ++i) {
+    if (kEquilateral * squares_[i] <= kFreeNeedle * areas_[i]) continue;
+    const double excess = kEquilateral * squares_[i] / areas_[i] - kFreeNeedle;
+    sum += excess * excess;
+  }
+  return sum;
 }
 
 void SurfaceEnergy::add_derivatives(const Vec3& x, double scale, StarTerms& terms) const {
@@ -423,6 +454,7 @@ void SurfaceEnergy::add_derivatives(const Vec3& x, double scale, StarTerms& term
   terms.gradient += scale * 2.0 * (line_square_ * x - line_linear_);
   terms.hessian += scale * 2.0 * line_square_;
   if (weights_.bend > 0.0) add_bends(x, scale * bend_weight_, terms);
+  if (weights_.needle > 0.0) add_needles(x, scale * weights_.needle / kUsualSpokes, terms);
 }
 
 /// The Hessian leaves out the motions within a triangle's plane.
@@ -463,6 +495,22 @@ void SurfaceEnergy::add_bends(const Vec3& x, double scale, StarTerms& terms) con
     const double cosine = um.dot(r.normal);
     if (!(bend_excess(cosine) > 0.0)) continue;
     add_bend(cosine_gradient(um, length, edge(r.triangle), r.normal, cosine), cosine, scale, terms);
+  }
+}
+
+/// Adds the derivatives of what needles cost, which are squares, with a Gauss-Newton Hessian.
+void SurfaceEnergy::add_needles(const Vec3& x, double scale, StarTerms& terms) const {
+  for (const SurfaceTriangle& t : star_->triangles()) {
+    const Vec3 a = t.to_a - x, b = t.to_b - x, edge = t.to_b - t.to_a, normal = a.cross(b);
+    const double length = normal.norm();
+    const double squares = a.squaredNorm() + b.squaredNorm() + edge.squaredNorm();
+    if (!(length > 0.0) || 2.0 * kEquilateral * squares <= kFreeNeedle * length) continue;
+    const double inverse = 2.0 * kEquilateral * squares / length;
+    // The gradients of sum and length are -2 (a + b) and n x edge, with n the unit normal.
+    const Vec3 gradient =
+        -inverse * (2.0 / squares * (a + b) + normal.cross(edge) / (length * length));
+    terms.gradient += 2.0 * scale * (inverse - kFreeNeedle) * gradient;
+    terms.hessian += 2.0 * scale * gradient * gradient.transpose();
   }
 }
 

@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: The mwmesh authors
 // SPDX-License-Identifier: Apache-2.0
-// What a good interface costs: distance to the input's faces, area at constant volume, bends.
+// What a good interface costs: distance to the input's faces, area at constant volume, bends,
+// needles.
 #pragma once
 
 #include <cstdint>
@@ -54,11 +55,12 @@ class VolumeDebts {
 /// Weights of the parts of SurfaceEnergy.  Where they come from is in bench/parameters.md,
 /// "Constants".
 struct SurfaceWeights {
-  double fit = 2.5;             ///< between two labels
-  double junction_fit = 1.25;   ///< where more labels meet
+  double fit = 3.0;             ///< between two labels
+  double junction_fit = 1.8;    ///< where more labels meet
   double area = 1.0;            ///< beside the fit, voxels squared, between two labels
   double junction_area = 0.01;  ///< beside the fit where more labels meet
-  double bend = 4.7;
+  double bend = 8.0;
+  double needle = 6.0;
   double line = 0.0;  ///< of the distance from a smooth line, in edges of the line
   /// The curvature of a vertex makes pressure up to this, 1 / voxel, and beyond it only where the
   /// whole ring bends as much in the same direction, as on a thread.  Where edges are several
@@ -89,6 +91,10 @@ struct SurfaceWeights {
 ///
 /// Bends.  The sum of the bend energies (surface_star.h) of spokes and rims.
 ///
+/// Needles.  A triangle whose shape q (4 sqrt(3) area / sum of squared edges, 1 at most) is below
+/// 0.56 costs (1/q - 1.8)^2.  Tets beside a needle may be good enough all the same, and what is
+/// computed on the surface is not.
+///
 /// Lines.  Where three labels meet, faces say little of the line's place, which is where three
 /// interfaces cut each other, and voxels make it a zigzag.  So a vertex on a line is drawn to where
 /// its neighbours on the line would have it (LineField), across the line: L is the squared distance
@@ -96,8 +102,8 @@ struct SurfaceWeights {
 ///
 /// The whole energy, with E the present shape energy of v's tets and M the sum of w f^2 (or, where
 /// few faces are carried, a sixth of the triangles' area), is
-///   E (fit/M (Q + area (Area - P.x)) + bend/6 (sum of bend energies) + line L), less its value at
-///   0.
+///   E (fit/M (Q + area (Area - P.x)) + bend/6 (sum of bend energies) + needle/6 (sum of those of
+///   needles) + line L), less its value at 0.
 class SurfaceEnergy {
  public:
   explicit SurfaceEnergy(const SurfaceWeights& weights) : weights_(weights) {}
@@ -155,8 +161,10 @@ class SurfaceEnergy {
   void take_debts(const VolumeDebts& debts);
   void yield_to(const VolumeDebts& debts);
   [[nodiscard]] double raw_value_at(const Vec3& x) const;
+  [[nodiscard]] double needles() const;
   void add_area(const Vec3& x, double scale, StarTerms& terms) const;
   void add_bends(const Vec3& x, double scale, StarTerms& terms) const;
+  void add_needles(const Vec3& x, double scale, StarTerms& terms) const;
   void add_bend(const Vec3& gradient, double cosine, double scale, StarTerms& terms) const;
 
   SurfaceWeights weights_;
@@ -180,6 +188,7 @@ class SurfaceEnergy {
   std::vector<CornerLanes> corners_;            ///< corners of the star's triangles
   mutable std::vector<SurfaceNormal> normals_;  ///< scratch; four for each of corners_
   mutable std::vector<double> areas_;           ///< scratch; areas, in the same rows
+  mutable std::vector<double> squares_;         ///< scratch; sums of squared edges, likewise
 };
 
 }  // namespace mw

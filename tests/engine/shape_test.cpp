@@ -63,9 +63,8 @@ SmallVolume ball(double radius, const Vec3& centre, std::int64_t edge) {
   return body(edge, 2, [&](const Vec3& p) { return (p - centre).norm() < radius ? 1U : 0U; });
 }
 
-/// The mean angle between a plane and the triangles between two labels that do not touch the box of
-/// that edge, by area, in degrees.
-double mean_tilt(const SmallMesh& mesh, double edge, const Vec3& normal) {
+/// The corners of the triangles between two labels.
+std::vector<std::array<Vec3, 3>> interface_triangles(const SmallMesh& mesh) {
   std::map<std::array<std::uint64_t, 3>, std::vector<Label>> faces;
   for (std::size_t t = 0; t < mesh.tets.size(); ++t) {
     for (std::size_t out = 0; out < 4; ++out) {
@@ -78,19 +77,26 @@ double mean_tilt(const SmallMesh& mesh, double edge, const Vec3& normal) {
       faces[face].push_back(mesh.labels[t]);
     }
   }
-  double sum = 0.0, total = 0.0;
+  std::vector<std::array<Vec3, 3>> found;
   for (const auto& [face, labels] : faces) {
     if (labels.size() != 2 || labels[0] == labels[1]) continue;
-    const auto& corners = face;
-    const auto at = [&](std::size_t i) -> Vec3 {
-      const Position& p = mesh.vertices[corners[i]];
+    const auto at = [&](std::uint64_t v) -> Vec3 {
+      const Position& p = mesh.vertices[v];
       return {p[0], p[1], p[2]};
     };
-    const auto on_box = [&](std::size_t i) {
-      return at(i).minCoeff() <= 0.0 || at(i).maxCoeff() >= edge;
-    };
-    if (on_box(0) || on_box(1) || on_box(2)) continue;
-    const Vec3 n = (at(1) - at(0)).cross(at(2) - at(0));
+    found.push_back({at(face[0]), at(face[1]), at(face[2])});
+  }
+  return found;
+}
+
+/// The mean angle between a plane and the triangles between two labels that do not touch the box of
+/// that edge, by area, in degrees.
+double mean_tilt(const SmallMesh& mesh, double edge, const Vec3& normal) {
+  const auto on_box = [&](const Vec3& p) { return p.minCoeff() <= 0.0 || p.maxCoeff() >= edge; };
+  double sum = 0.0, total = 0.0;
+  for (const auto& corners : interface_triangles(mesh)) {
+    if (std::ranges::any_of(corners, on_box)) continue;
+    const Vec3 n = (corners[1] - corners[0]).cross(corners[2] - corners[0]);
     const double cosine = std::min(1.0, std::abs(n.dot(normal)) / n.norm());
     sum += n.norm() * std::acos(cosine) * 180.0 / std::numbers::pi;
     total += n.norm();
@@ -393,7 +399,6 @@ TEST(SmoothSurface, Promise8HoldsOfSheetsThatTouchAlongEdges) {
   }
 }
 
-/// Half balls of two labels: a junction line where three labels meet.
 /// The turns of the line in which three labels meet, and how much a circle would turn there, summed
 /// over the nodes that have two neighbours on it.
 struct LineTurns {
@@ -449,6 +454,31 @@ TEST(SmoothSurface, LinesOfThreeLabelsAreSmoothWhereEdgesHaveSizes) {
     EXPECT_GT(found.nodes, 20.0);
     EXPECT_LT(found.turn, 1.3 * found.ideal);
   }
+}
+
+/// Shapes, 4 sqrt(3) area / sum of squared edges, of triangles between grains with noisy faces.
+TEST(SmoothSurface, FewTrianglesAreNeedles) {
+  std::mt19937 random(97);
+  std::vector<Vec3> seeds;
+  for (int i = 0; i < 14; ++i) {
+    const double x = draw_between(random, 0, 48), y = draw_between(random, 0, 48);
+    seeds.emplace_back(x, y, draw_between(random, 0, 48));
+  }
+  const Result r = run(body(48, seeds.size(), [&](const Vec3& p) {
+    const double noise = draw_between(random, -0.5, 0.5);
+    const Vec3 off(noise, draw_between(random, -0.5, 0.5), 0);
+    const auto nearest = std::ranges::min_element(
+        seeds, {}, [&](const Vec3& seed) { return (p - seed - off).norm(); });
+    return static_cast<Label>(nearest - seeds.begin());
+  }));
+  std::vector<double> shapes;
+  for (const auto& [a, b, c] : interface_triangles(r.mesh)) {
+    const double squares = (b - a).squaredNorm() + (c - b).squaredNorm() + (a - c).squaredNorm();
+    shapes.push_back(2 * std::sqrt(3.0) * (b - a).cross(c - a).norm() / squares);
+  }
+  ASSERT_GT(shapes.size(), 2000);
+  std::ranges::sort(shapes);
+  EXPECT_GT(shapes[shapes.size() / 100], 0.45);
 }
 
 TEST(SmoothSurface, TwoLabelsShareABall) {

@@ -12,8 +12,9 @@ namespace mw::test {
 namespace {
 
 constexpr double kBound = 1.5;
-constexpr SurfaceWeights kFitAlone{.area = 0.0, .junction_area = 0.0, .bend = 0.0};
-constexpr SurfaceWeights kBendsAlone{.fit = 0.0, .junction_fit = 0.0, .bend = 4.5};
+constexpr SurfaceWeights kFitAlone{.area = 0.0, .junction_area = 0.0, .bend = 0.0, .needle = 0.0};
+constexpr SurfaceWeights kBendsAlone{.fit = 0.0, .junction_fit = 0.0, .bend = 4.5, .needle = 0.0};
+constexpr SurfaceWeights kNeedlesAlone{.fit = 0.0, .junction_fit = 0.0, .bend = 0.0, .needle = 3.0};
 
 Vec3 random_offset(std::mt19937& random) {
   const auto step = [&] { return 0.001 * (static_cast<double>(below(random, 401)) - 200.0); };
@@ -111,7 +112,8 @@ TEST(SurfaceEnergy, HasItsDerivatives) {
     const VolumeDebts debts = random_debts(mesh, random);
     const SurfaceWeights no_bends{.bend = 0.0};
     const SurfaceWeights with_lines{.line = 3.0};
-    for (const SurfaceWeights& weights : {no_bends, kFitAlone, kBendsAlone, with_lines}) {
+    for (const SurfaceWeights& weights :
+         {no_bends, kFitAlone, kBendsAlone, kNeedlesAlone, with_lines}) {
       SurfaceEnergy energy(weights);
       energy.collect(mesh, metric, star, guard, &curvature, &debts);
       EXPECT_EQ(energy.value_at(Vec3::Zero()), 0.0);
@@ -161,6 +163,36 @@ TEST(SurfaceEnergy, OfBendsAloneIsTheirSum) {
     }
     EXPECT_NEAR(energy.min_cosine(), min, 1e-9);
   });
+}
+
+TEST(SurfaceEnergy, OfNeedlesAloneIsThatOfTheirShapes) {
+  std::mt19937 random(1147);
+  int needles = 0;
+  each_random_star(1148, [&](const TetMesh& mesh, const Metric& metric, const DistanceGuard& guard,
+                             const SurfaceStar& star) {
+    SurfaceEnergy energy(kNeedlesAlone);
+    energy.collect(mesh, metric, star, guard, nullptr, nullptr);
+    const Vec3 x = random_offset(random);
+    if (!is_regular(star, x)) return;
+    const auto cost_at = [&](const Vec3& at) {
+      double sum = 0.0;
+      for (const SurfaceTriangle& t : star.triangles()) {
+        const std::array<Vec3, 3> corners{at, t.to_a, t.to_b};
+        double squares = 0.0;
+        for (std::size_t i = 0; i < 3; ++i) {
+          squares += (corners[(i + 1) % 3] - corners[i]).squaredNorm();
+        }
+        const double area = 0.5 * (t.to_a - at).cross(t.to_b - at).norm();
+        const double excess = squares / (4.0 * std::sqrt(3.0) * area) - 1.8;
+        if (excess > 0.0) sum += excess * excess;
+      }
+      return sum;
+    };
+    const double expected = 3.0 / 6.0 * (cost_at(x) - cost_at(Vec3::Zero()));
+    EXPECT_NEAR(energy.value_at(x), expected, 1e-9 * (1.0 + cost_at(x)));
+    needles += cost_at(x) > 0.0 ? 1 : 0;
+  });
+  EXPECT_GT(needles, 100);
 }
 
 /// Gradient at 0 of the energy without bends.
@@ -229,7 +261,7 @@ TEST(SurfaceEnergy, HasPressureAndDebtsInProportionToTheArea) {
                              const SurfaceStar& star) {
     const LocalVertex v = star.vertex();
     if (mesh.planes(v) != 0 || mesh.order(v) != 2 || !is_regular(star, Vec3::Zero())) return;
-    constexpr SurfaceWeights kWithArea{.area = 1.0, .bend = 0.0};
+    constexpr SurfaceWeights kWithArea{.area = 1.0, .bend = 0.0, .needle = 0.0};
     const Vec3 plain = slope(kWithArea, mesh, metric, guard, star);
     const Vec3 of_area = area_slope(star);
     const Vec3 added = plain - slope(kFitAlone, mesh, metric, guard, star);
