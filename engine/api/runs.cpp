@@ -86,7 +86,7 @@ engine::MeshJob Run::job() {
   job.stop = watch_.stop();
   job.warn = watch_.warn();
   job.run.progress = watch_.progress();
-  job.is_measured = job.finds_parts = request.is_measured;
+  job.is_measured = job.finds_parts = job.finds_volumes = request.is_measured;
   const bool tells_edit = !request.from.empty() && request.is_measured;
   job.delta = tells_edit ? engine::Delta::kIfKnown : engine::Delta::kNo;
   job.folder = request.output.empty() ? io::scratch_folder() : request.output.parent_path();

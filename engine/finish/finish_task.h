@@ -7,12 +7,14 @@
 #include <cstdint>
 #include <functional>
 #include <optional>
+#include <vector>
 
 #include "engine/connect/connect_mesh.h"
 #include "engine/finish/certificate.h"
 #include "engine/finish/cut.h"
 #include "engine/finish/edges.h"
 #include "engine/finish/figures.h"
+#include "engine/finish/label_volumes.h"
 #include "engine/output/label_selection.h"
 #include "engine/sample/image_sampler.h"
 #include "kernels/audit/audit.h"
@@ -28,6 +30,7 @@ struct FinishTask {
   bool finds_parts = false;  ///< whether parts and hinges are counted where the mesh stays as it is
   ImageSampler* samples = nullptr;  ///< outlives the task
   std::optional<EdgesTask> edges{};
+  std::optional<VolumesTask> volumes{};
   std::optional<FiguresTask> figures{};
   bool leaves_values_out = false;
   std::function<void()> between = [] {};  ///< called often; may throw
@@ -39,6 +42,7 @@ struct FinishFacts {
   std::optional<audit::AuditReport> certificate;
   std::optional<ConnectFacts> connected;
   std::optional<EdgeFigures> edges;
+  std::optional<std::vector<Int128>> volumes6;  ///< label_volumes6()
   std::optional<MeshFigures> figures;
 };
 

@@ -59,6 +59,13 @@ constexpr std::array kPasses{
              [](io::ScratchMesh& mesh, const FinishTask& task, FinishFacts& facts) {
                facts.edges = measure_edges(mesh, *task.edges, task.between);
              }},
+    Pass{.name = "volumes",
+         .is_asked = [](const FinishTask& task) { return task.volumes.has_value(); },
+         .bytes = [](const FinishTask&) { return std::uint64_t{0}; },
+         .apply =
+             [](io::ScratchMesh& mesh, const FinishTask& task, FinishFacts& facts) {
+               facts.volumes6 = label_volumes6(mesh, *task.volumes, task.between);
+             }},
     Pass{.name = "figures",
          .is_asked = [](const FinishTask& task) { return task.figures.has_value(); },
          .bytes = [](const FinishTask& task) { return bytes_to_measure(*task.figures); },

@@ -488,12 +488,12 @@ FinishTask looking_task(const MeshJob& job, const report::FinishedRun& run) {
     out.edges.emplace(
         EdgesTask{.table = run.labels, .sizes = edge_sizes(run.sizes.rules, run.labels)});
   }
-  if (!job.is_measured) return out;
-  const io::VolumeSpace& space = run.volume.space;
-  out.figures.emplace(FiguresTask{.table = run.labels,
-                                  .space = space,
-                                  .layers = layers_of(space.spacing),
-                                  .sort_bytes = sort_bytes});
+  if (job.finds_volumes) {
+    const io::VolumeSpace& space = run.volume.space;
+    out.volumes.emplace(
+        VolumesTask{.table = run.labels, .space = space, .layers = layers_of(space.spacing)});
+  }
+  if (job.is_measured) out.figures.emplace(FiguresTask{.sort_bytes = sort_bytes});
   return out;
 }
 

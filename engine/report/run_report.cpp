@@ -252,6 +252,7 @@ void FinishedRun::take(const engine::FinishFacts& facts) {
   certificate = facts.certificate;
   connected = facts.connected;
   edges = facts.edges;
+  volumes6 = facts.volumes6;
   figures = facts.figures;
 }
 
@@ -267,7 +268,7 @@ void for_each_volume(const FinishedRun& run,
   for (Label label = 0; label < engine.label_voxels.size(); ++label) {
     const std::uint64_t voxels = engine.label_voxels[label] / static_cast<std::uint64_t>(parts);
     if (voxels > 0)
-      visit(audit::volume_row(label, voxels, run.figures->label_volumes6[label], parts));
+      visit(audit::volume_row(label, voxels, (*run.volumes6)[label], parts));
   }
 }
 

@@ -60,6 +60,7 @@ struct FinishedRun {
   std::string fingerprint;      ///< of the labels
   std::optional<audit::AuditReport> certificate;  ///< empty if none was made
   std::optional<engine::EdgeFigures> edges;       ///< empty if no size was asked for
+  std::optional<std::vector<Int128>> volumes6;    ///< by label; empty if not measured
   std::optional<engine::MeshFigures> figures;     ///< empty if not measured
   std::optional<io::Json> delta;                  ///< delta_json() (engine/job/volume_delta.h)
   std::optional<engine::ConnectFacts> connected;  ///< empty if not counted
@@ -79,12 +80,12 @@ struct FinishedRun {
 [[nodiscard]] io::Json run_report(const FinishedRun& run, const std::filesystem::path& mesh,
                                   io::Json settings);
 
-/// Calls visit on each label that was written, ascending.  REQUIRES: run.engine's volumes.
+/// Calls visit on each label that was written, ascending.  REQUIRES: run.volumes6.
 void for_each_volume(const FinishedRun& run,
                      const std::function<void(const audit::VolumeRow&)>& visit);
 
 /// Appends the report.  Memory does not grow with labels.
-/// REQUIRES: run.figures.
+/// REQUIRES: run.volumes6 and run.figures.
 void append_run_report(const FinishedRun& run, const std::filesystem::path& mesh, io::Json settings,
                        const AppendText& append);
 

@@ -42,6 +42,9 @@ std::optional<SurfaceWeights> surface_weights(const MeshSettings& settings,
                                               const PreparedLabels& labels) {
   if (settings.surface == Surface::kVoxel) return std::nullopt;
   SurfaceWeights weights;
+  const double near = settings.max_distance.value_or(kMaxCoarseDistance);
+  const bool is_fine = near < *MeshSettings{}.max_distance || settings.sizes.rules.any();
+  weights.keep_thin = is_fine && !labels.has_crossings();
   // Edges that follow a source surface have no steps, and threads of a voxel would be pulled tight.
   if (!labels.has_source()) return weights;
   weights.max_curvature = kMaxCurvatureOfSource;

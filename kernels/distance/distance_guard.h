@@ -40,6 +40,9 @@ class DistanceGuard {
   /// REQUIRES: `source` has all faces whose samples are carried.
   void aim_at(const SourceSurface& source) { source_ = &source; }
 
+  /// The labels of the input, around the window.
+  [[nodiscard]] const LabelBox& labels() const { return labels_; }
+
   /// The smallest bound for which the samples can prove anything.
   [[nodiscard]] static constexpr double min_distance() { return 2.0 * kSampleCoveringRadius; }
 

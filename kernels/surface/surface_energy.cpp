@@ -10,6 +10,7 @@
 
 #include "kernels/distance/point_triangle.h"
 #include "kernels/surface/surface_star.h"
+#include "kernels/surface/thin_label.h"
 
 namespace mw {
 namespace {
@@ -24,6 +25,9 @@ constexpr double kFreeNeedle = 1.8;
 /// How far an interface may be from where its labels have their volumes before bends give way, in
 /// smallest edges of a voxel (bench/parameters.md, "Constants").
 constexpr double kMostOwed = 0.125;
+
+/// How much bends count between two labels of which one is thin (bench/parameters.md, "Constants").
+constexpr double kBendOfThin = 0.25;
 
 /// A factor that exceeds the rounding of squared distances.
 constexpr double kRoundedUp = 1.0 + 1e-9;
@@ -234,10 +238,16 @@ void SurfaceEnergy::collect(const TetMesh& mesh, const Metric& metric, const Sur
   fit_weight_ = two_labels ? weights_.fit : weights_.junction_fit;
   area_weight_ = on_box ? 0.0 : two_labels ? weights_.area : weights_.junction_area;
   bend_weight_ = weights_.bend / kUsualSpokes;
+  if (two_labels && area_weight_ > 0.0 && is_at(is_speck_at, mesh.position(v), guard)) {
+    area_weight_ = bend_weight_ = 0.0;
+  }
   if (curvature != nullptr && area_weight_ > 0.0) find_pressure(*curvature);
   if (debts != nullptr && mass_ > 0.0) {
     take_debts(*debts);
-    if (two_labels) yield_to(*debts);
+    const bool is_thin = weights_.keep_thin && is_at(is_thin_at, mesh.position(v), guard);
+    if (is_thin) remember(*debts);
+    if (is_thin && two_labels) bend_weight_ *= kBendOfThin;
+    if (!is_thin && two_labels) yield_to(*debts);
   }
   gather_corners();
   present_ = raw_value_at(Vec3::Zero());
@@ -338,7 +348,7 @@ SurfaceEnergy::Balance& SurfaceEnergy::balance(Label low, Label high) {
 std::span<const VolumeDebt> SurfaceEnergy::debts_at(const Vec3& x) {
   debts_.clear();
   for (const Balance& b : balances_) {
-    debts_.push_back({b.low, b.high, (b.volume - b.slope.dot(x)) / b.triangles});
+    debts_.push_back({b.low, b.high, b.before + (b.volume - b.slope.dot(x)) / b.triangles});
   }
   return debts_;
 }
@@ -396,6 +406,17 @@ void SurfaceEnergy::yield_to(const VolumeDebts& debts) {
   const double share = owed / (mass_ * kMostOwed);
   const double square = share * share;
   bend_weight_ /= 1.0 + square * square * square * square;
+}
+
+/// Keeps what v owed before its visit.
+void SurfaceEnergy::remember(const VolumeDebts& debts) {
+  for (Balance& b : balances_) b.before = debts.of(star_->vertex(), b.low, b.high);
+}
+
+bool SurfaceEnergy::is_at(LabelTest* test, Point place, const DistanceGuard& guard) const {
+  return std::any_of(balances_.begin(), balances_.end(), [&](const Balance& b) {
+    return test(guard.labels(), place, b.low) || test(guard.labels(), place, b.high);
+  });
 }
 
 double SurfaceEnergy::min_cosine() const {

@@ -67,6 +67,8 @@ struct SurfaceWeights {
   /// voxels long, what is sharper than a ball of a few voxels is otherwise a step and not a shape.
   double max_curvature = 0.5;
   bool with_pressure = true;
+  /// Debts add up where a label is thin, until they are paid, at the cost of shapes and bends.
+  bool keep_thin = false;
 };
 
 /// An energy of the interface triangles at a vertex v, as a function of where v is put, that adds
@@ -88,6 +90,13 @@ struct SurfaceWeights {
 /// to what Q asks for, because shapes and bends may hold v back but not its neighbours.  Where all
 /// of them owe in the same direction no neighbour can help.  So between two labels bends count
 /// 1 / (1 + (8 d)^8) times as much, where d is the mean distance that is owed, in voxels.
+///
+/// Thin labels.  A sheet of one voxel whose voxels touch along edges is held there, so what is
+/// between these places has to be thicker than the sheet.  With keep_thin, debts of vertices at a
+/// label that is_thin_at() are added to those that they had before, and bends count less.
+///
+/// Specks.  Area and bends of a part of one to three voxels say nothing, and would pull it to
+/// nothing.  They are left out where a vertex is between two labels, one of which is_speck_at().
 ///
 /// Bends.  The sum of the bend energies (surface_star.h) of spokes and rims.
 ///
@@ -131,11 +140,14 @@ class SurfaceEnergy {
   [[nodiscard]] double min_cosine() const;
 
  private:
+  using LabelTest = bool(const LabelBox& labels, Point place, Label label);
+
   /// Sums of the fit between two labels.
   struct Balance {
     Label low = 0;
     Label high = 0;
     double triangles = 0.0;
+    double before = 0.0;        ///< debt of a thin label that is not forgotten
     double volume = 0.0;        ///< sum of w f r
     Vec3 slope = Vec3::Zero();  ///< sum of w f^2 n
   };
@@ -160,6 +172,8 @@ class SurfaceEnergy {
   void find_pressure(const CurvatureField& curvature);
   void take_debts(const VolumeDebts& debts);
   void yield_to(const VolumeDebts& debts);
+  void remember(const VolumeDebts& debts);
+  [[nodiscard]] bool is_at(LabelTest* test, Point place, const DistanceGuard& guard) const;
   [[nodiscard]] double raw_value_at(const Vec3& x) const;
   [[nodiscard]] double needles() const;
   void add_area(const Vec3& x, double scale, StarTerms& terms) const;

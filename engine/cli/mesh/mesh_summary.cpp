@@ -12,6 +12,7 @@
 #include "engine/labels/voxel_lattice.h"
 #include "engine/report/connect_report.h"
 #include "engine/report/mesh_facts.h"
+#include "engine/report/volumes_off.h"
 #include "io/file/errors.h"
 
 namespace mw::cli {
@@ -231,6 +232,24 @@ void print_certificate(const report::FinishedRun& run) {
             << (has_bound ? "" : "; distance had no bound") << "\n";
 }
 
+/// Says what keeps the volumes of thin labels, as measured (bench/parameters.md, "Thin labels").
+std::string volumes_mend_text(const report::FinishedRun& run,
+                              const engine::MeshSettings& settings) {
+  constexpr double kNear = 1.0;
+  if (!run.why_no_volumes.empty()) return run.why_no_volumes + " is why";
+  if (settings.sizes.rules.any()) return "";
+  return settings.max_distance.value_or(kNear) > kNear ? "--max-distance 1 keeps thin labels better"
+                                                       : "--size 3 keeps thin labels better";
+}
+
+/// Names large labels whose volumes are off, and the option that mends most of that.
+void print_volumes(const report::FinishedRun& run, const engine::MeshSettings& settings) {
+  const std::string off = report::volumes_off_text(run);
+  if (off.empty()) return;
+  const std::string mend = volumes_mend_text(run, settings);
+  std::cout << "volumes     " << off << (mend.empty() ? "" : "; ") << mend << "\n";
+}
+
 std::string name_of(RawLabel label, const report::FinishedRun& run) {
   return report::label_text(label, run.labels.is_signed(), run.volume.names);
 }
@@ -306,6 +325,7 @@ void print_summary(const report::FinishedRun& run, const MeshRequest& request,
   print_unmet(run);
   print_across(run);
   for (const Json& sample : facts["samples"].elements()) print_sample(sample);
+  print_volumes(run, request.job.settings);
   print_certificate(run);
   print(
       "seconds     {performance.wall_s:g}\nvoxels/s    {performance.voxels_per_s:g}\n"

@@ -47,8 +47,7 @@ TEST(Promise6BoundedMemory, OfMeasuringAMeshOfAnyLength) {
   io::ScratchMesh mesh(io::scratch_folder());
   io::ScratchMeshSink sink(mesh);
   stream_bar(kCubes, sink);
-  const io::LabelTable table({0, 1}, false);
-  const FiguresTask task{.table = table, .sort_bytes = 1 << 20};
+  const FiguresTask task{.sort_bytes = 1 << 20};
   const audit::ShapeReport shape = measure(mesh, task).shape;
   EXPECT_LE(mw::test::peak_allocated_bytes() - before,
             io::ScratchMesh::kBufferBytes + bytes_to_measure(task) + kFixedBytes);

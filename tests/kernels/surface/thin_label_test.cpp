@@ -1,0 +1,104 @@
+// SPDX-FileCopyrightText: The mwmesh authors
+// SPDX-License-Identifier: Apache-2.0
+// Thin labels and specks, against sets of voxels that are looked at one by one.
+#include "kernels/surface/thin_label.h"
+
+#include "kernels/core/index.h"
+#include "tests/oracle/small_volumes.h"
+#include "tests/testing.h"
+
+namespace mw::test {
+namespace {
+
+using audit::test::below;
+
+constexpr std::int64_t kEdge = 14;
+
+LabelBox empty_box() {
+  const Box3 box{{-3, 2, 0}, {kEdge - 3, kEdge + 2, kEdge}};
+  return {box, std::vector<Label>(static_cast<std::size_t>(box.voxels()))};
+}
+
+Label& at(LabelBox& labels, Index3 voxel) {
+  return labels.labels[static_cast<std::size_t>(labels.box.offset(voxel))];
+}
+
+Point corner(Index3 voxel) {
+  const auto units = [](std::int64_t v) { return static_cast<std::int32_t>(v * kUnitsPerVoxel); };
+  return {units(voxel.x), units(voxel.y), units(voxel.z)};
+}
+
+Index3 in_the_middle(std::mt19937& random, const Box3& box) {
+  const auto step = [&] { return std::int64_t{4} + below(random, 6); };
+  const std::int64_t x = step(), y = step();
+  return box.lo + Index3{x, y, step()};
+}
+
+/// Puts boxes of random sizes into the label 1.
+LabelBox random_boxes(std::mt19937& random) {
+  LabelBox out = empty_box();
+  for (std::uint32_t i = 0; i < 1 + below(random, 4); ++i) {
+    const Index3 lo = in_the_middle(random, out.box);
+    const Index3 size{1 + below(random, 3), 1 + below(random, 3), 1 + below(random, 2)};
+    for_each_index(Box3{lo, lo + size}, [&](Index3 v) { at(out, v) = 1; });
+  }
+  return out;
+}
+
+/// The voxels of the label whose centres are within a cube around a corner.
+std::vector<Index3> voxels_near(const LabelBox& labels, Index3 around, double reach) {
+  std::vector<Index3> out;
+  for_each_index(labels.box, [&](Index3 v) {
+    const auto distance = [](std::int64_t a, std::int64_t b) {
+      return std::abs(static_cast<double>(a) + 0.5 - static_cast<double>(b));
+    };
+    const double most =
+        std::max({distance(v.x, around.x), distance(v.y, around.y), distance(v.z, around.z)});
+    if (labels.at(v) == 1 && most < reach) out.push_back(v);
+  });
+  return out;
+}
+
+/// Whether eight of the voxels make a cube: each voxel is tried as its lowest.
+bool has_cube(const std::vector<Index3>& voxels) {
+  return std::any_of(voxels.begin(), voxels.end(), [&](Index3 lo) {
+    const auto in_cube = std::count_if(voxels.begin(), voxels.end(), [&](Index3 v) {
+      const Index3 d = v - lo;
+      return d.x >= 0 && d.x < 2 && d.y >= 0 && d.y < 2 && d.z >= 0 && d.z < 2;
+    });
+    return in_cube == 8;
+  });
+}
+
+TEST(ThinLabel, HasNoCubeOfEightVoxelsWithinTwo) {
+  std::mt19937 random(60);
+  int thin = 0, specks = 0;
+  for (int i = 0; i < 2000; ++i) {
+    const LabelBox labels = random_boxes(random);
+    const Index3 around = in_the_middle(random, labels.box);
+    const bool expected = !has_cube(voxels_near(labels, around, 2));
+    const bool ends =
+        voxels_near(labels, around, 3).size() == voxels_near(labels, around, 4).size();
+    EXPECT_EQ(is_thin_at(labels, corner(around), 1), expected) << i;
+    EXPECT_EQ(is_speck_at(labels, corner(around), 1), expected && ends) << i;
+    thin += expected ? 1 : 0;
+    specks += expected && ends ? 1 : 0;
+  }
+  EXPECT_GT(specks, 100);
+  EXPECT_GT(thin, specks + 100);
+  EXPECT_LT(thin, 1900);
+}
+
+/// The corner nearest to a place decides.
+TEST(ThinLabel, IsThatOfTheNearestCorner) {
+  LabelBox labels = empty_box();
+  for_each_index(Box3{{0, 8, 4}, {2, 10, 6}}, [&](Index3 v) { at(labels, v) = 1; });
+  Point place = corner({3, 9, 5});
+  place.x += kUnitsPerVoxel / 2 - 1;
+  EXPECT_TRUE(is_thin_at(labels, place, 1));
+  place.x -= kUnitsPerVoxel;
+  EXPECT_FALSE(is_thin_at(labels, place, 1));
+}
+
+}  // namespace
+}  // namespace mw::test
