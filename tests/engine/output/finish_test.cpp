@@ -113,7 +113,7 @@ TEST(Finish, StreamsTheMeshThatAListOfEverythingGives) {
     for (const io::TetRows& t : mesh.tets) EXPECT_GT(volume6_of(mesh, t), 0);
     const audit::QualityReport quality =
         measure_quality({.vertices = mesh.vertices, .tets = mesh.tets, .labels = {}});
-    const MeshFigures figures = test::figures_of(mesh, volume);
+    const FiguresAndVolumes figures = test::figures_of(mesh, volume);
     EXPECT_EQ(figures.quality.radius_ratio_min, quality.radius_ratio_min);
     EXPECT_EQ(figures.quality.radius_ratio_mean, quality.radius_ratio_mean);
     EXPECT_EQ(figures.quality.radius_ratio_histogram, quality.radius_ratio_histogram);

@@ -86,7 +86,7 @@ TEST(ThinLabel, HasNoCubeOfEightVoxelsWithinTwo) {
   }
   EXPECT_GT(specks, 100);
   EXPECT_GT(thin, specks + 100);
-  EXPECT_LT(thin, 1900);
+  EXPECT_LT(thin, 1950);
 }
 
 /// The corner nearest to a place decides.
