@@ -79,9 +79,8 @@ TEST(Figures, AreThoseBeforeVerticesWereDoubled) {
         row = doubled.vertices.size() - 1;
       }
     }
-    const io::LabelTable table({0, 1, 2, 3, 4, 5, 6, 7}, false);
     Stored stored(doubled);
-    const MeshFigures figures = measure(stored.mesh, {.table = table, .sort_bytes = kSortBytes});
+    const MeshFigures figures = measure(stored.mesh, {.sort_bytes = kSortBytes});
     expect_same(figures.shape, audit::test::measure_shape(mesh.view()));
   }
 }
