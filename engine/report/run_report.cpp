@@ -267,8 +267,7 @@ void for_each_volume(const FinishedRun& run,
   const std::int64_t parts = engine.lattice.layers.product();
   for (Label label = 0; label < engine.label_voxels.size(); ++label) {
     const std::uint64_t voxels = engine.label_voxels[label] / static_cast<std::uint64_t>(parts);
-    if (voxels > 0)
-      visit(audit::volume_row(label, voxels, (*run.volumes6)[label], parts));
+    if (voxels > 0) visit(audit::volume_row(label, voxels, (*run.volumes6)[label], parts));
   }
 }
 

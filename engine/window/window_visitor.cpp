@@ -43,8 +43,7 @@ std::optional<SurfaceWeights> surface_weights(const MeshSettings& settings,
   if (settings.surface == Surface::kVoxel) return std::nullopt;
   SurfaceWeights weights;
   const double near = settings.max_distance.value_or(kMaxCoarseDistance);
-  const bool is_fine = near < *MeshSettings{}.max_distance || settings.sizes.rules.any();
-  weights.keep_thin = is_fine && !labels.has_crossings();
+  weights.keep_thin = near < *MeshSettings{}.max_distance && !labels.has_crossings();
   // Edges that follow a source surface have no steps, and threads of a voxel would be pulled tight.
   if (!labels.has_source()) return weights;
   weights.max_curvature = kMaxCurvatureOfSource;

@@ -237,9 +237,8 @@ std::string volumes_mend_text(const report::FinishedRun& run,
                               const engine::MeshSettings& settings) {
   constexpr double kNear = 1.0;
   if (!run.why_no_volumes.empty()) return run.why_no_volumes + " is why";
-  if (settings.sizes.rules.any()) return "";
-  return settings.max_distance.value_or(kNear) > kNear ? "--max-distance 1 keeps thin labels better"
-                                                       : "--size 3 keeps thin labels better";
+  if (settings.max_distance.value_or(kNear) <= kNear) return "";
+  return "--max-distance 1 keeps thin labels better";
 }
 
 /// Names large labels whose volumes are off, and the option that mends most of that.

@@ -63,8 +63,8 @@ double volume6_of(const io::MeshData& mesh, const io::TetRows& t) {
 }
 
 /// Figures of the last pass are those of the audit, which holds the whole mesh.
-void expect_same_shape(const FiguresAndVolumes& figures, const io::MeshData& mesh, const Trial& trial,
-                       const WantedLabel& wanted) {
+void expect_same_shape(const FiguresAndVolumes& figures, const io::MeshData& mesh,
+                       const Trial& trial, const WantedLabel& wanted) {
   const test::SmallMesh small = test::small_mesh(mesh);
   const audit::ShapeReport expected = measure_shape(small.view());
   const audit::ShapeReport& actual = figures.shape;
