@@ -26,8 +26,8 @@ struct Pinched {
 
 using PinchedByLabel = std::map<Label, Pinched>;
 
-/// Of all labels that occur.  Vertices of a volume are its voxel corners, x fastest; those of a
-/// mesh are rows.
+/// Returns the pinches of all labels that occur.  Vertices of a volume are its voxel corners, x
+/// fastest; those of a mesh are rows.
 [[nodiscard]] PinchedByLabel pinches_of(const VoxelLabels& volume);
 [[nodiscard]] PinchedByLabel pinches_of(const AuditMesh& mesh);
 

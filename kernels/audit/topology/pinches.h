@@ -20,7 +20,7 @@ struct Pinches {
   std::uint64_t edges = 0;
 
   void add(const Pinches& other);
-  /// What they become when each edge is halved, so many times.
+  /// Returns what they become when each edge is halved, `times` times.
   [[nodiscard]] Pinches halved(int times) const;
   friend bool operator==(const Pinches&, const Pinches&) = default;
 };

@@ -83,7 +83,7 @@ TEST_F(SurfaceCommand, TakesAVolumeAndSaysWhatIsWrongWithIt) {
   expect_done("surface v.vtu -o s.stl", "MW_SIZE=2");
 }
 
-/// As far as labels are told from voxels, else out of the mesh of all.
+/// Labels that voxels tell are meshed alone, others come out of the mesh of all.
 TEST_F(SurfaceCommand, MeshesWhatLabelsNeed) {
   make_volume();
   const std::string alone = "all other labels taken for one";
