@@ -13,7 +13,8 @@ namespace {
 
 constexpr double kBound = 1.5;
 constexpr SurfaceWeights kFitAlone{.area = 0.0, .junction_area = 0.0, .bend = 0.0, .needle = 0.0};
-constexpr SurfaceWeights kBendsAlone{.fit = 0.0, .junction_fit = 0.0, .bend = 4.5, .needle = 0.0};
+constexpr SurfaceWeights kBendsAlone{
+    .fit = 0.0, .junction_fit = 0.0, .area = 0.0, .bend = 4.5, .needle = 0.0};
 constexpr SurfaceWeights kNeedlesAlone{.fit = 0.0, .junction_fit = 0.0, .bend = 0.0, .needle = 3.0};
 
 Vec3 random_offset(std::mt19937& random) {
@@ -333,7 +334,7 @@ TEST(SurfaceEnergy, LeavesAreaOutOnTheBox) {
   each_random_star(1149, [&](const TetMesh& mesh, const Metric& metric, const DistanceGuard& guard,
                              const SurfaceStar& star) {
     if (mesh.planes(star.vertex()) == 0) return;
-    EXPECT_EQ(slope({.bend = 0.0}, mesh, metric, guard, star),
+    EXPECT_EQ(slope({.bend = 0.0, .needle = 0.0}, mesh, metric, guard, star),
               slope(kFitAlone, mesh, metric, guard, star));
     ++on_box;
   });
