@@ -26,8 +26,9 @@ constexpr double kFreeNeedle = 1.8;
 /// smallest edges of a voxel (bench/parameters.md, "Constants").
 constexpr double kMostOwed = 0.125;
 
-/// How much bends count between two labels of which one is thin (bench/parameters.md, "Constants").
-constexpr double kBendOfThin = 0.25;
+/// How much bends count between two labels of which one is thin, and how much where such labels
+/// keep their volume (bench/parameters.md, "Constants").
+constexpr double kBendOfThin = 0.6, kBendOfKept = 0.25;
 
 /// A factor that exceeds the rounding of squared distances.
 constexpr double kRoundedUp = 1.0 + 1e-9;
@@ -238,16 +239,15 @@ void SurfaceEnergy::collect(const TetMesh& mesh, const Metric& metric, const Sur
   fit_weight_ = two_labels ? weights_.fit : weights_.junction_fit;
   area_weight_ = on_box ? 0.0 : two_labels ? weights_.area : weights_.junction_area;
   bend_weight_ = weights_.bend / kUsualSpokes;
-  if (two_labels && area_weight_ > 0.0 && is_at(is_speck_at, mesh.position(v), guard)) {
-    area_weight_ = bend_weight_ = 0.0;
-  }
+  needle_weight_ = weights_.needle / kUsualSpokes;
+  const bool is_thin = is_at(is_thin_at, mesh.position(v), guard);
+  if (is_thin && two_labels) yield_to_thin(is_at(is_speck_at, mesh.position(v), guard));
   if (curvature != nullptr && area_weight_ > 0.0) find_pressure(*curvature);
   if (debts != nullptr && mass_ > 0.0) {
     take_debts(*debts);
-    const bool is_thin = weights_.keep_thin && is_at(is_thin_at, mesh.position(v), guard);
-    if (is_thin) remember(*debts);
-    if (is_thin && two_labels) bend_weight_ *= kBendOfThin;
-    if (!is_thin && two_labels) yield_to(*debts);
+    const bool is_kept = is_thin && weights_.keep_thin;
+    if (is_kept) remember(*debts);
+    if (!is_kept && two_labels) yield_to(*debts);
   }
   gather_corners();
   present_ = raw_value_at(Vec3::Zero());
@@ -408,6 +408,15 @@ void SurfaceEnergy::yield_to(const VolumeDebts& debts) {
   bend_weight_ /= 1.0 + square * square * square * square;
 }
 
+/// Lowers the weight of what would pull a thin label to nothing.
+void SurfaceEnergy::yield_to_thin(bool is_speck) {
+  if (is_speck && area_weight_ > 0.0) {
+    area_weight_ = bend_weight_ = needle_weight_ = 0.0;
+  } else {
+    bend_weight_ *= weights_.keep_thin ? kBendOfKept : kBendOfThin;
+  }
+}
+
 /// Keeps what v owed before its visit.
 void SurfaceEnergy::remember(const VolumeDebts& debts) {
   for (Balance& b : balances_) b.before = debts.of(star_->vertex(), b.low, b.high);
@@ -433,7 +442,7 @@ double SurfaceEnergy::min_cosine() const {
 double SurfaceEnergy::raw_value_at(const Vec3& x) const {
   double value = x.dot(line_square_ * x) - 2.0 * line_linear_.dot(x);
   const bool has_area = mass_ > 0.0 && area_weight_ > 0.0, has_bends = weights_.bend > 0.0;
-  const bool has_needles = weights_.needle > 0.0;
+  const bool has_needles = needle_weight_ > 0.0;
   if (has_area || has_bends || has_needles) {
     for (std::size_t i = 0; i < corners_.size(); ++i) {
       const std::size_t row = i * kLanes;
@@ -450,7 +459,7 @@ double SurfaceEnergy::raw_value_at(const Vec3& x) const {
     value += fit_weight_ / mass_ * fit;
   }
   if (has_bends) value += bend_weight_ * star_->bends(normals_);
-  if (has_needles) value += weights_.needle / kUsualSpokes * needles();
+  if (has_needles) value += needle_weight_ * needles();
   return value;
 }
 
@@ -475,7 +484,7 @@ void SurfaceEnergy::add_derivatives(const Vec3& x, double scale, StarTerms& term
   terms.gradient += scale * 2.0 * (line_square_ * x - line_linear_);
   terms.hessian += scale * 2.0 * line_square_;
   if (weights_.bend > 0.0) add_bends(x, scale * bend_weight_, terms);
-  if (weights_.needle > 0.0) add_needles(x, scale * weights_.needle / kUsualSpokes, terms);
+  if (needle_weight_ > 0.0) add_needles(x, scale * needle_weight_, terms);
 }
 
 /// The Hessian leaves out the motions within a triangle's plane.

@@ -92,11 +92,12 @@ struct SurfaceWeights {
 /// 1 / (1 + (8 d)^8) times as much, where d is the mean distance that is owed, in voxels.
 ///
 /// Thin labels.  A sheet of one voxel whose voxels touch along edges is held there, so what is
-/// between these places has to be thicker than the sheet.  With keep_thin, debts of vertices at a
-/// label that is_thin_at() are added to those that they had before, and bends count less.
+/// between these places has to be thicker than the sheet, and bends count less at a label that
+/// is_thin_at().  With keep_thin, debts there are added to those that vertices had before, and
+/// bends count still less.
 ///
-/// Specks.  Area and bends of a part of one to three voxels say nothing, and would pull it to
-/// nothing.  They are left out where a vertex is between two labels, one of which is_speck_at().
+/// Specks.  Area, bends and needles of a part of one to three voxels say nothing, and would pull it
+/// to nothing.  They are left out where a vertex is between two labels, one of which is_speck_at().
 ///
 /// Bends.  The sum of the bend energies (surface_star.h) of spokes and rims.
 ///
@@ -172,6 +173,7 @@ class SurfaceEnergy {
   void find_pressure(const CurvatureField& curvature);
   void take_debts(const VolumeDebts& debts);
   void yield_to(const VolumeDebts& debts);
+  void yield_to_thin(bool is_speck);
   void remember(const VolumeDebts& debts);
   [[nodiscard]] bool is_at(LabelTest* test, Point place, const DistanceGuard& guard) const;
   [[nodiscard]] double raw_value_at(const Vec3& x) const;
@@ -188,6 +190,7 @@ class SurfaceEnergy {
   double fit_weight_ = 0.0;
   double area_weight_ = 0.0;
   double bend_weight_ = 0.0;                          ///< weight of each spoke and rim
+  double needle_weight_ = 0.0;                        ///< weight of each triangle
   Eigen::Matrix3d square_ = Eigen::Matrix3d::Zero();  ///< Q is x.square x - 2 linear.x
   Vec3 linear_ = Vec3::Zero();
   Vec3 pressure_ = Vec3::Zero();
