@@ -6,6 +6,7 @@
 #include <Eigen/Eigenvalues>
 
 #include "kernels/simplify/simplify.h"
+#include "kernels/surface/thin_label.h"
 #include "tests/kernels/surface/interface_triangles.h"
 
 namespace mw::test {
@@ -15,7 +16,8 @@ constexpr double kBound = 1.5;
 constexpr SurfaceWeights kFitAlone{.area = 0.0, .junction_area = 0.0, .bend = 0.0, .needle = 0.0};
 constexpr SurfaceWeights kBendsAlone{
     .fit = 0.0, .junction_fit = 0.0, .area = 0.0, .bend = 4.5, .needle = 0.0};
-constexpr SurfaceWeights kNeedlesAlone{.fit = 0.0, .junction_fit = 0.0, .bend = 0.0, .needle = 3.0};
+constexpr SurfaceWeights kNeedlesAlone{
+    .fit = 0.0, .junction_fit = 0.0, .area = 0.0, .bend = 0.0, .needle = 3.0};
 
 Vec3 random_offset(std::mt19937& random) {
   const auto step = [&] { return 0.001 * (static_cast<double>(below(random, 401)) - 200.0); };
@@ -146,15 +148,30 @@ TEST(SurfaceEnergy, HasTheHessianOfTheFit) {
   });
 }
 
-TEST(SurfaceEnergy, OfBendsAloneIsTheirSum) {
+/// Whether the vertex is between two labels of which one is thin there.
+bool is_between_thin(const TetMesh& mesh, const DistanceGuard& guard, const SurfaceStar& star) {
+  const LocalVertex v = star.vertex();
+  if (mesh.order(v) != (mesh.planes(v) != 0 ? 3 : 2)) return false;
+  const auto is_thin = [&](Label label) {
+    return is_thin_at(guard.labels(), mesh.position(v), label);
+  };
+  return std::any_of(star.triangles().begin(), star.triangles().end(),
+                     [&](const SurfaceTriangle& t) { return is_thin(t.low) || is_thin(t.high); });
+}
+
+TEST(SurfaceEnergy, OfBendsAloneIsTheirSumAndLessAtThinLabels) {
   std::mt19937 random(1145);
+  int thin = 0;
   each_random_star(1146, [&](const TetMesh& mesh, const Metric& metric, const DistanceGuard& guard,
                              const SurfaceStar& star) {
     SurfaceEnergy energy(kBendsAlone);
     energy.collect(mesh, metric, star, guard, nullptr, nullptr);
     const Vec3 x = random_offset(random);
-    EXPECT_NEAR(energy.value_at(x), 4.5 / 6.0 * (star.bends_at(x) - star.bends_at(Vec3::Zero())),
+    const bool is_thin = is_between_thin(mesh, guard, star);
+    const double weight = (is_thin ? 0.6 : 1.0) * 4.5 / 6.0;
+    EXPECT_NEAR(energy.value_at(x), weight * (star.bends_at(x) - star.bends_at(Vec3::Zero())),
                 1e-9);
+    thin += is_thin ? 1 : 0;
     double min = 1.0;
     for (const InterfaceEdge& e : interface_edges(interface_triangles(mesh))) {
       const LocalVertex v = star.vertex();
@@ -164,6 +181,7 @@ TEST(SurfaceEnergy, OfBendsAloneIsTheirSum) {
     }
     EXPECT_NEAR(energy.min_cosine(), min, 1e-9);
   });
+  EXPECT_GT(thin, 100);
 }
 
 TEST(SurfaceEnergy, OfNeedlesAloneIsThatOfTheirShapes) {
