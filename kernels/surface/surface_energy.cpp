@@ -18,8 +18,8 @@ namespace {
 /// The sums of bends and of needles are divided by the number of spokes of a usual star.
 constexpr double kUsualSpokes = 6.0;
 
-/// The least 1/q that costs: what a triangle of legs of about 1, 1 and 0.4 has
-/// (bench/parameters.md, "Constants").
+/// The least 1/q that costs: that of a triangle with edges of 1, 1 and 0.35 (bench/parameters.md,
+/// "Constants").
 constexpr double kFreeNeedle = 1.8;
 
 /// How far an interface may be from where its labels have their volumes before bends give way, in
@@ -240,7 +240,8 @@ void SurfaceEnergy::collect(const TetMesh& mesh, const Metric& metric, const Sur
   area_weight_ = on_box ? 0.0 : two_labels ? weights_.area : weights_.junction_area;
   bend_weight_ = weights_.bend / kUsualSpokes;
   needle_weight_ = weights_.needle / kUsualSpokes;
-  const bool is_thin = is_at(is_thin_at, mesh.position(v), guard);
+  const bool is_thin =
+      (two_labels || weights_.keep_thin) && is_at(is_thin_at, mesh.position(v), guard);
   if (is_thin && two_labels) yield_to_thin(is_at(is_speck_at, mesh.position(v), guard));
   if (curvature != nullptr && area_weight_ > 0.0) find_pressure(*curvature);
   if (debts != nullptr && mass_ > 0.0) {

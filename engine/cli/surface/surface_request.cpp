@@ -50,7 +50,8 @@ std::string format_of(const SurfaceFlags& flags) {
   }
   if (is_folder_format(flags.format)) return flags.format;
   if (!io::is_surface_path("x." + flags.format)) {
-    fail("--format " + flags.format + ": expected stl, ply, obj, vtp, precomputed or draco");
+    fail("--format " + flags.format + ": expected precomputed, draco, or one of " +
+         io::surface_extensions() + " without the dot");
   }
   if (io::is_surface_path(flags.output) && extension != "." + flags.format) {
     fail("--format " + flags.format + " and -o " + flags.output + " contradict each other");
@@ -135,7 +136,7 @@ void add_output_options(OptionSet& options, SurfaceFlags& flags) {
                .assign = into(flags.each)});
   options.add({.name = "format",
                .value = "FORMAT",
-               .help = "stl, ply, obj, vtp, precomputed, draco [by extension; --each: stl]",
+               .help = "precomputed, draco, or an extension of -o [that of -o; --each: stl]",
                .group = kOutputGroup,
                .assign = into(flags.format)});
   options.add({.name = "unit",
