@@ -137,11 +137,8 @@ std::size_t ConnectTask::memory_of(std::uint64_t budget) {
 
 ConnectFacts connect(io::ScratchMesh& mesh, const ConnectTask& task,
                      const std::function<void()>& between) {
-  PartFinder finder(task.options, mesh.folder(), task.memory_bytes);
-  mesh.each_tet_batch([&](const io::TetBatch& batch) {
-    between();
-    finder.add(batch.tets, batch.labels);
-  });
+  PartFinder finder(task.options, mesh.folder(), task.memory_bytes, task.threads);
+  finder.add(mesh, between);
   finder.find();
   find_places(mesh, finder.facts());
   if (task.options.change_mesh()) mesh = ChangedMesh(mesh, finder, task).make(between);

@@ -15,6 +15,7 @@ namespace mw::engine {
 struct ConnectTask {
   ConnectOptions options{};
   std::size_t memory_bytes = kMaxMemoryBytes;
+  int threads = 1;
 
   static constexpr std::size_t kMaxMemoryBytes = 8 << 20;
   /// Returns the part of a budget that each sort takes.

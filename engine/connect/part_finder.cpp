@@ -5,178 +5,138 @@
 
 #include <algorithm>
 #include <limits>
+#include <utility>
 
+#include "engine/system/crew.h"
 #include "io/file/errors.h"
 
 namespace mw::engine {
 namespace {
 
-/// Returns the place of a tet: its chunk, then its piece and itself, both counted in the chunk.
-std::uint64_t place_of(std::uint64_t chunk, std::uint64_t piece, std::uint64_t tet) {
-  return chunk << 32 | piece << 16 | tet;
+/// Returns how chunks and stars are worked on, in half of the memory that a sort has.
+WorkInOrder work_within(std::size_t memory_bytes, int threads) {
+  static_assert(StarFindings::kBytes <= TetChunk::kBytes);
+  const WorkInOrder most{.threads = threads};
+  const std::size_t fit = memory_bytes / 2 / TetChunk::kBytes;
+  return {.threads = threads, .at_once = std::clamp<std::size_t>(fit, 1, most.at_once)};
 }
 
-/// A face of a chunk's tet, and that tet.
-using ChunkFace = std::array<std::uint64_t, 4>;
-
-/// True if a star whose tets faces join is a ball around the vertex or a half ball, so that no edge
-/// has two fans.  The faces opposite to the vertex form a connected surface, whose Euler
-/// characteristic is at most 2, or 1 if it has a border; only a sphere or a disc has that much, as
-/// each place where the surface is pinched takes at least one from it.
-bool is_plain(std::span<const StarTet> star, std::size_t inner_faces) {
-  std::vector<std::uint64_t> others;
-  for (const StarTet& tet : star) others.insert(others.end(), tet.others.begin(), tet.others.end());
-  std::sort(others.begin(), others.end());
-  const auto vertices = std::unique(others.begin(), others.end()) - others.begin();
-  const std::size_t tets = star.size();
-  const std::size_t faces = 3 * tets - inner_faces;
-  const bool is_closed = 2 * inner_faces == 3 * tets;
-  return static_cast<std::size_t>(vertices) + tets == faces + (is_closed ? 2 : 1);
+bool is_alone(const WorkInOrder& work) {
+  return work.threads == 1 || work.at_once == 1;
 }
 
-/// True for a vertex inside a label: all faces of its tets are shared, and the tets are of one
-/// label.
-bool is_inside(std::span<const StarTet> star, std::size_t inner_faces) {
-  return 2 * inner_faces == 3 * star.size() &&
-         std::all_of(star.begin(), star.end(),
-                     [&](const StarTet& tet) { return tet.label == star[0].label; });
-}
-
-bool are_cut(const SplitRule& split, std::span<const StarTet> star, const StarPair& pair) {
-  return split.any() && split.cuts(star[pair[0]].label, star[pair[1]].label);
+/// Returns the sort of all corners, which has the memory that is left of `memory_bytes`.
+io::ExternalSort<6> corner_sort(const std::filesystem::path& folder, std::size_t memory_bytes,
+                                const WorkInOrder& work) {
+  if (is_alone(work)) return {folder, memory_bytes};
+  return {folder, memory_bytes - work.at_once * TetChunk::kBytes,
+          [](std::span<StarRecord> held) { tbb_sort(held); }};
 }
 
 }  // namespace
 
 PartFinder::PartFinder(ConnectOptions options, std::filesystem::path folder,
-                       std::size_t memory_bytes)
+                       std::size_t memory_bytes, int threads)
     : options_(std::move(options)),
       split_(options_.all_split()),
       met_(split_.pairs.size()),
       seen_(options_.watched.size()),
       folder_(std::move(folder)),
-      memory_bytes_(memory_bytes),
-      stars_(folder_, memory_bytes_),
-      pinched_(folder_, 3 * memory_bytes_ / 8),
-      insides_(folder_, memory_bytes_ / 8),
-      copied_(folder_, memory_bytes_ / 4),
-      held_(folder_, memory_bytes_ / 4),
+      work_(work_within(memory_bytes, threads)),
+      corners_(corner_sort(folder_, memory_bytes, work_)),
+      pinched_(folder_, 3 * memory_bytes / 8),
+      insides_(folder_, memory_bytes / 8),
+      copied_(folder_, memory_bytes / 4),
+      held_(folder_, memory_bytes / 4),
       copies_(folder_),
       tet_pieces_(folder_) {}
 
-void PartFinder::add(std::span<const io::TetRows> tets, std::span<const RawLabel> labels) {
-  for (std::size_t t = 0; t < tets.size(); ++t) {
-    tets_.push_back(tets[t]);
-    labels_.push_back(labels[t]);
-    if (tets_.size() == kChunkTets) close_chunk();
-  }
+void PartFinder::add(io::ScratchMesh& mesh, const std::function<void()>& between) {
+  mesh.settle();
+  const std::uint64_t tets = mesh.tet_count();
+  each_in_order<TetChunk>(
+      work_, (tets + TetChunk::kTets - 1) / TetChunk::kTets,
+      [&](std::uint64_t i) {
+        const std::uint64_t first = i * TetChunk::kTets;
+        TetChunk out;
+        out.tets.resize(std::min<std::uint64_t>(TetChunk::kTets, tets - first));
+        out.labels.resize(out.tets.size());
+        mesh.read_tets(first, out.tets, out.labels);
+        look_at_chunk(i, split_, out);
+        return out;
+      },
+      [&](std::uint64_t, TetChunk&& chunk) {
+        between();
+        take(chunk);
+      });
 }
 
-/// Returns the piece of each tet of the chunk; pieces are numbered by their first tets.
-std::vector<std::uint32_t> PartFinder::pieces_of_chunk() {
-  std::vector<ChunkFace> faces;
-  for (std::size_t t = 0; t < tets_.size(); ++t) {
-    io::TetRows rows = tets_[t];
-    std::sort(rows.begin(), rows.end());
-    const auto [a, b, c, d] = rows;
-    faces.insert(faces.end(), {{a, b, c, t}, {a, b, d, t}, {a, c, d, t}, {b, c, d, t}});
-  }
-  std::sort(faces.begin(), faces.end());
-  StarSets sets(tets_.size());
-  for (std::size_t f = 1; f < faces.size(); ++f) {
-    const ChunkFace &one = faces[f - 1], &other = faces[f];
-    if (!std::equal(one.begin(), one.begin() + 3, other.begin())) continue;
-    if (!split_.cuts(labels_[one[3]], labels_[other[3]])) sets.unite(one[3], other[3]);
-  }
-  const std::vector<std::size_t> numbers = sets.numbers();
-  return {numbers.begin(), numbers.end()};
-}
-
-void PartFinder::close_chunk() {
-  const std::vector<std::uint32_t> numbers = pieces_of_chunk();
-  if (pieces_.size() + tets_.size() > std::numeric_limits<std::uint32_t>::max()) {
+void PartFinder::take(const TetChunk& chunk) {
+  if (pieces_.size() + chunk.tets.size() > std::numeric_limits<std::uint32_t>::max()) {
     throw Error(ErrorKind::kResource, "parts of the mesh: more than 2^32 pieces");
   }
   const auto first = static_cast<std::uint32_t>(pieces_.size());
-  const std::uint64_t chunk = first_pieces_.size();
   first_pieces_.push_back(first);
-  for (std::size_t t = 0; t < tets_.size(); ++t) {
-    const std::uint32_t piece = first + numbers[t];
+  for (std::size_t t = 0; t < chunk.tets.size(); ++t) {
+    const std::uint32_t piece = first + chunk.pieces[t];
     if (piece == pieces_.size()) {
       pieces_.push_back({.split_parent = piece,
                          .parent = piece,
                          .body_parent = piece,
-                         .row = tets_[t][0],
-                         .label = labels_[t]});
+                         .row = chunk.tets[t][0],
+                         .label = chunk.labels[t]});
     }
     ++pieces_[piece].tets;
-    io::TetRows rows = tets_[t];
-    std::sort(rows.begin(), rows.end());
-    const auto [a, b, c, d] = rows;
-    const std::uint64_t place = place_of(chunk, numbers[t], t);
-    stars_.add({a, b, c, d, place, labels_[t]});
-    stars_.add({b, a, c, d, place, labels_[t]});
-    stars_.add({c, a, b, d, place, labels_[t]});
-    stars_.add({d, a, b, c, place, labels_[t]});
     if (options_.parts.leaves_out()) {
       tet_pieces_.append(std::as_bytes(std::span(&piece, 1)));
     }
   }
-  note_labels();
-  tets_.clear();
-  labels_.clear();
-}
-
-/// Notes the chunk's labels, which it sorts.
-void PartFinder::note_labels() {
-  std::sort(labels_.begin(), labels_.end());
-  const auto end = std::unique(labels_.begin(), labels_.end());
-  for (auto label = labels_.begin(); label != end; ++label) insides_.add({*label, 0});
+  for (const StarRecord& corner : chunk.corners) corners_.add(corner);
+  for (const RawLabel label : chunk.labels_met) insides_.add({label, 0});
 }
 
 void PartFinder::find() {
-  if (!tets_.empty()) close_chunk();
-  each_star(stars_, [&](std::uint64_t row, std::vector<StarTet>& star) { unite_star(row, star); });
+  const StarRules rules{
+      .split = split_, .watched = options_.watched, .first_pieces = first_pieces_};
+  items_in_order<std::vector<StarRecord>, StarFindings>(
+      work_, [&] { return next_stars(); },
+      [&](std::vector<StarRecord>&& records) { return look_at_stars(records, rules); },
+      [&](StarFindings&& found) { take(found); });
   count_stiff_labels();
   choose_parts();
-  each_star(pinched_,
-            [&](std::uint64_t row, std::vector<StarTet>& star) { look_at_pinched(row, star); });
+  pinched_.each_group<1>([&](std::span<const StarRecord> same) {
+    each_star(same,
+              [&](std::uint64_t row, std::vector<StarTet>& star) { look_at_pinched(row, star); });
+  });
   count_held_facets();
   count_parts();
   tell_apart();
 }
 
-void PartFinder::each_star(io::ExternalSort<6>& records,
-                           const std::function<void(std::uint64_t, std::vector<StarTet>&)>& visit) {
-  std::vector<StarTet> star;
-  records.each_group<1>([&](std::span<const StarRecord> same) {
-    star.clear();
-    for (const auto& [row, a, b, c, place, label] : same) {
-      star.push_back({{a, b, c}, place, label});
+/// Returns the corners of the vertices that follow, or nothing behind the last.
+std::optional<std::vector<StarRecord>> PartFinder::next_stars() {
+  std::vector<StarRecord> out;
+  out.reserve(kStarRecords);
+  if (ahead_) out.push_back(*std::exchange(ahead_, std::nullopt));
+  while (const StarRecord* record = corners_.next()) {
+    if (out.size() >= kStarRecords && (*record)[0] != out.back()[0]) {
+      ahead_ = *record;
+      break;
     }
-    visit(same[0][0], star);
-  });
+    out.push_back(*record);
+  }
+  if (out.empty()) return std::nullopt;
+  return out;
 }
 
-void PartFinder::unite_star(std::uint64_t row, std::vector<StarTet>& star) {
-  StarSets sets(star.size());
-  std::size_t inner_faces = 0;
-  bool is_cut = false;
-  each_star_face(star, [&](const StarPair& pair) {
-    ++inner_faces;
-    sets.unite(pair[0], pair[1]);
-    const bool cuts = are_cut(split_, star, pair);
-    is_cut = is_cut || cuts;
-    if (!seen_.empty()) watch(star[pair[0]].label, star[pair[1]].label);
-    const std::uint32_t one = piece_at(star[pair[0]].tet), other = piece_at(star[pair[1]].tet);
-    unite(&Piece::parent, one, other);
-    if (!cuts) unite(&Piece::split_parent, one, other);
-  });
-  if (is_inside(star, inner_faces)) insides_.add({star[0].label, 1});
-  if (!is_cut && sets.count() == 1 && is_plain(star, inner_faces)) return;
-  for (const StarTet& tet : star) {
-    pinched_.add({row, tet.others[0], tet.others[1], tet.others[2], tet.tet, tet.label});
+void PartFinder::take(const StarFindings& found) {
+  for (const PieceJoint& joint : found.joints) {
+    unite(&Piece::parent, joint.one, joint.other);
+    if (!joint.is_cut) unite(&Piece::split_parent, joint.one, joint.other);
   }
+  for (const RawLabel label : found.insides) insides_.add({label, 1});
+  for (const StarRecord& corner : found.pinched) pinched_.add(corner);
+  for (const std::size_t pair : found.watched) seen_[pair] = true;
 }
 
 void PartFinder::count_stiff_labels() {
@@ -247,7 +207,8 @@ void PartFinder::count_parts() {
 }
 
 void PartFinder::look_at_pinched(std::uint64_t row, std::vector<StarTet>& star) {
-  std::erase_if(star, [&](const StarTet& tet) { return !pieces_[piece_at(tet.tet)].is_kept; });
+  std::erase_if(
+      star, [&](const StarTet& tet) { return !pieces_[piece_at(first_pieces_, tet.tet)].is_kept; });
   if (star.empty()) return;
   StarSets joined(star.size()), split(star.size());
   bool is_cut = false;
@@ -259,7 +220,8 @@ void PartFinder::look_at_pinched(std::uint64_t row, std::vector<StarTet>& star) 
     if (!cuts) split.unite(pair[0], pair[1]);
   });
   for (const StarTet& tet : star) {
-    unite(&Piece::body_parent, piece_at(star[0].tet), piece_at(tet.tet));
+    unite(&Piece::body_parent, piece_at(first_pieces_, star[0].tet),
+          piece_at(first_pieces_, tet.tet));
   }
   if ((is_cut || options_.open_hinges) && split.count() > 1) double_vertex(row, star, split);
   if (is_cut) count_facets(row, star, split);
@@ -271,15 +233,6 @@ void PartFinder::note_cut(RawLabel one, RawLabel other) {
   const auto pair =
       std::lower_bound(pairs.begin(), pairs.end(), LabelPair(std::minmax(one, other)));
   if (!split_.all) met_[static_cast<std::size_t>(pair - pairs.begin())] = true;
-}
-
-void PartFinder::watch(RawLabel one, RawLabel other) {
-  if (one == other) return;
-  const std::vector<LabelPair>& pairs = options_.watched;
-  const LabelPair wanted = std::minmax(one, other);
-  const auto pair = std::lower_bound(pairs.begin(), pairs.end(), wanted);
-  if (pair == pairs.end() || *pair != wanted) return;
-  seen_[static_cast<std::size_t>(pair - pairs.begin())] = true;
 }
 
 void PartFinder::tell_apart() {
@@ -355,7 +308,7 @@ void PartFinder::double_vertex(std::uint64_t row, std::span<const StarTet> star,
   for (std::size_t t = 0; t < star.size(); ++t) {
     if (numbers[t] == 0) continue;
     const std::uint64_t place = star[t].tet;
-    const std::uint64_t tet = (place >> 32) * kChunkTets + (place & 0xffffU);
+    const std::uint64_t tet = (place >> 32) * TetChunk::kTets + (place & 0xffffU);
     copied_.add({tet, row, facts_.copies + numbers[t] - 1});
   }
   ++facts_.doubled;
@@ -366,15 +319,15 @@ void PartFinder::double_vertex(std::uint64_t row, std::span<const StarTet> star,
 
 bool PartFinder::keeps(std::uint64_t tet) {
   if (!options_.parts.leaves_out()) return true;
-  const std::uint64_t chunk = tet / kChunkTets;
+  const std::uint64_t chunk = tet / TetChunk::kTets;
   if (chunk != loaded_chunk_) {
-    const std::uint64_t first = chunk * kChunkTets;
+    const std::uint64_t first = chunk * TetChunk::kTets;
     const std::uint64_t all = tet_pieces_.size() / sizeof(std::uint32_t);
-    loaded_.resize(std::min<std::uint64_t>(kChunkTets, all - first));
+    loaded_.resize(std::min<std::uint64_t>(TetChunk::kTets, all - first));
     tet_pieces_.read_at(first * sizeof(std::uint32_t), std::as_writable_bytes(std::span(loaded_)));
     loaded_chunk_ = chunk;
   }
-  return pieces_[loaded_[tet % kChunkTets]].is_kept;
+  return pieces_[loaded_[tet % TetChunk::kTets]].is_kept;
 }
 
 void PartFinder::each_copied_corner(const std::function<void(const CopiedCorner&)>& visit) {
@@ -395,10 +348,6 @@ std::uint32_t PartFinder::root(Tree tree, std::uint32_t piece) {
 void PartFinder::unite(Tree tree, std::uint32_t one, std::uint32_t other) {
   const auto [low, high] = std::minmax({root(tree, one), root(tree, other)});
   pieces_[high].*tree = low;
-}
-
-std::uint32_t PartFinder::piece_at(std::uint64_t place) const {
-  return first_pieces_[place >> 32] + static_cast<std::uint32_t>(place >> 16 & 0xffffU);
 }
 
 }  // namespace mw::engine

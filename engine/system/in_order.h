@@ -8,6 +8,7 @@
 #include <cstddef>
 #include <functional>
 #include <memory>
+#include <optional>
 #include <type_traits>
 #include <utility>
 
@@ -21,6 +22,41 @@ struct WorkInOrder {
   std::size_t at_once = 2 * static_cast<std::size_t>(threads);
 };
 
+/// Calls merge(work(item)) for each item that take() returns, until it returns none.  Several
+/// threads call work; take and merge are each called by one thread at a time and in the order of
+/// the items, but take may run while merge does. REQUIRES: how.threads and how.at_once are
+/// positive. Memory: how.at_once items and results.  ERRORS: what they throw; other calls may then
+/// be left out.
+template <typename Item, typename Result>
+void items_in_order(WorkInOrder how,
+                    const std::type_identity_t<std::function<std::optional<Item>()>>& take,
+                    const std::type_identity_t<std::function<Result(Item&&)>>& work,
+                    const std::type_identity_t<std::function<void(Result&&)>>& merge) {
+  if (how.threads == 1 || how.at_once == 1) {
+    while (std::optional<Item> item = take()) merge(work(std::move(*item)));
+    return;
+  }
+  using SharedItem = std::shared_ptr<Item>;
+  using SharedResult = std::shared_ptr<Result>;
+  const auto start = [&](tbb::flow_control& control) {
+    std::optional<Item> item = take();
+    if (!item) control.stop();
+    return item ? std::make_shared<Item>(std::move(*item)) : SharedItem();
+  };
+  const auto run = [&](const SharedItem& item) {
+    return std::make_shared<Result>(work(std::move(*item)));
+  };
+  const auto finish = [&](const SharedResult& result) { merge(std::move(*result)); };
+  constexpr auto kInOrder = tbb::filter_mode::serial_in_order;
+  constexpr auto kParallel = tbb::filter_mode::parallel;
+  Crew(how.threads).run([&] {
+    tbb::parallel_pipeline(how.at_once,
+                           tbb::make_filter<void, SharedItem>(kInOrder, start) &
+                               tbb::make_filter<SharedItem, SharedResult>(kParallel, run) &
+                               tbb::make_filter<SharedResult, void>(kInOrder, finish));
+  });
+}
+
 /// Calls merge(i, work(i)) for i from 0 to count - 1.  Several threads call work; merge is called
 /// by one thread at a time and in the order of i, whatever the number of threads.
 /// REQUIRES: how.threads and how.at_once are positive.
@@ -29,29 +65,17 @@ template <typename Result, typename Index>
 void each_in_order(WorkInOrder how, Index count,
                    const std::type_identity_t<std::function<Result(Index)>>& work,
                    const std::type_identity_t<std::function<void(Index, Result&&)>>& merge) {
-  if (how.threads == 1 || how.at_once == 1) {
-    for (Index i = 0; i < count; ++i) merge(i, work(i));
-    return;
-  }
-  struct Done {
-    Index i = 0;
-    Result result;
-  };
+  using Done = std::pair<Index, Result>;
   Index next = 0;
-  const auto start = [&](tbb::flow_control& control) {
-    if (next == count) control.stop();
-    return next == count ? count : next++;
+  const auto take = [&]() -> std::optional<Index> {
+    return next == count ? std::nullopt : std::optional<Index>(next++);
   };
-  const auto finish = [&](std::shared_ptr<Done> done) { merge(done->i, std::move(done->result)); };
-  const auto run = [&](Index i) { return std::make_shared<Done>(Done{i, work(i)}); };
-  constexpr auto kInOrder = tbb::filter_mode::serial_in_order;
-  constexpr auto kParallel = tbb::filter_mode::parallel;
-  Crew(how.threads).run([&] {
-    tbb::parallel_pipeline(how.at_once,
-                           tbb::make_filter<void, Index>(kInOrder, start) &
-                               tbb::make_filter<Index, std::shared_ptr<Done>>(kParallel, run) &
-                               tbb::make_filter<std::shared_ptr<Done>, void>(kInOrder, finish));
-  });
+  items_in_order<Index, Done>(
+      how, take,
+      [&](Index&& i) {
+        return Done{i, work(i)};
+      },
+      [&](Done&& done) { merge(done.first, std::move(done.second)); });
 }
 
 }  // namespace mw::engine

@@ -122,6 +122,17 @@ void ScratchMesh::drop_values() {
   values_ = ScratchFile(folder_);
 }
 
+void ScratchMesh::settle() {
+  tets_.flush();
+  labels_.flush();
+}
+
+void ScratchMesh::read_tets(std::uint64_t first, std::span<TetRows> tets,
+                            std::span<RawLabel> labels) {
+  tets_.read_at(first * sizeof(TetRows), std::as_writable_bytes(tets));
+  labels_.read_at(first * sizeof(RawLabel), std::as_writable_bytes(labels));
+}
+
 void ScratchMesh::each_tet_batch(const std::function<void(const TetBatch&)>& visit) {
   std::vector<TetRows> tets;
   std::vector<RawLabel> labels;
@@ -132,8 +143,7 @@ void ScratchMesh::each_tet_batch(const std::function<void(const TetBatch&)>& vis
     tets.resize(count);
     labels.resize(count);
     values.resize(count * width);
-    tets_.read_at(first * sizeof(TetRows), std::as_writable_bytes(std::span(tets)));
-    labels_.read_at(first * sizeof(RawLabel), std::as_writable_bytes(std::span(labels)));
+    read_tets(first, tets, labels);
     values_.read_at(first * width * sizeof(double), std::as_writable_bytes(std::span(values)));
     visit({first, tets, labels, values});
   }

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <array>
+#include <functional>
 #include <optional>
 #include <queue>
 #include <span>
@@ -21,10 +22,16 @@ template <std::size_t N>
 class ExternalSort {
  public:
   using Record = std::array<std::uint64_t, N>;
+  /// Sorts what memory holds.
+  using SortHeld = std::function<void(std::span<Record>)>;
 
   /// Makes a temporary file in `folder` when memory is not enough.  ERRORS: see ScratchFile.
-  ExternalSort(std::filesystem::path folder, std::size_t memory_bytes)
-      : folder_(std::move(folder)), max_(std::max<std::size_t>(memory_bytes / sizeof(Record), 2)) {}
+  ExternalSort(
+      std::filesystem::path folder, std::size_t memory_bytes,
+      SortHeld sort_held = [](std::span<Record> held) { std::sort(held.begin(), held.end()); })
+      : folder_(std::move(folder)),
+        max_(std::max<std::size_t>(memory_bytes / sizeof(Record), 2)),
+        sort_held_(std::move(sort_held)) {}
 
   void add(const Record& record) {
     if (records_.size() == max_) spill();
@@ -37,15 +44,23 @@ class ExternalSort {
   /// Calls visit(record) on every record, ascending.  REQUIRES: called once, nothing added after.
   template <class Visit>
   void each(Visit visit) {
-    if (!file_) {
-      std::sort(records_.begin(), records_.end());
-      for (const Record& record : records_) visit(record);
-      records_ = std::vector<Record>();
-      return;
+    while (const Record* record = next()) visit(*record);
+  }
+
+  /// Returns the next record, ascending, which is there until the next call; null behind the last.
+  /// REQUIRES: nothing is added after the first call.
+  const Record* next() {
+    if (!is_sorted_) sort();
+    if (!file_ && at_ < records_.size()) return &records_[at_++];
+    if (last_ != nullptr && (last_->at < last_->buffer.size() || refill(*last_)))
+      queue_.push(last_);
+    if (queue_.empty()) {
+      end();
+      return nullptr;
     }
-    spill();
-    records_ = std::vector<Record>();
-    merge(visit);
+    last_ = queue_.top();
+    queue_.pop();
+    return &last_->buffer[last_->at++];
   }
 
   /// Calls visit(std::span<const Record>) on each group of records that agree in their first `Keys`
@@ -75,9 +90,15 @@ class ExternalSort {
     std::size_t at = 0;
   };
 
+  struct IsLater {
+    bool operator()(const Run* a, const Run* b) const {
+      return a->buffer[a->at] > b->buffer[b->at];
+    }
+  };
+
   void spill() {
     if (!file_) file_.emplace(folder_);
-    std::sort(records_.begin(), records_.end());
+    sort_held_(records_);
     file_->append(std::as_bytes(std::span(records_)));
     const std::uint64_t begin = runs_.empty() ? 0 : runs_.back().end;
     runs_.push_back({.next = begin, .end = begin + records_.size(), .buffer = {}, .at = 0});
@@ -94,30 +115,36 @@ class ExternalSort {
     return !run.buffer.empty();
   }
 
-  template <class Visit>
-  void merge(Visit visit) {
-    const auto later = [](const Run* a, const Run* b) {
-      return a->buffer[a->at] > b->buffer[b->at];
-    };
-    std::priority_queue<Run*, std::vector<Run*>, decltype(later)> queue(later);
+  /// Sorts the records where they are, or makes the runs ready to be merged.
+  void sort() {
+    is_sorted_ = true;
+    if (!file_) return sort_held_(records_);
+    spill();
+    records_ = std::vector<Record>();
     for (Run& run : runs_) {
-      if (refill(run)) queue.push(&run);
+      if (refill(run)) queue_.push(&run);
     }
-    while (!queue.empty()) {
-      Run* const run = queue.top();
-      queue.pop();
-      visit(run->buffer[run->at++]);
-      if (run->at < run->buffer.size() || refill(*run)) queue.push(run);
-    }
+  }
+
+  /// Lets go of all records.
+  void end() {
+    records_ = std::vector<Record>();
+    at_ = 0;
+    last_ = nullptr;
     runs_ = std::vector<Run>();
     file_.reset();
   }
 
   std::filesystem::path folder_;
   std::size_t max_;  ///< the most records in memory
+  SortHeld sort_held_;
   std::vector<Record> records_;
   std::vector<Run> runs_;
   std::optional<ScratchFile> file_;
+  bool is_sorted_ = false;
+  std::size_t at_ = 0;   ///< of the records in memory, the next one
+  Run* last_ = nullptr;  ///< the run of the record that was returned last
+  std::priority_queue<Run*, std::vector<Run*>, IsLater> queue_;
 };
 
 }  // namespace mw::io

@@ -74,6 +74,7 @@ void ScratchFile::append(std::span<const std::byte> bytes) {
 }
 
 void ScratchFile::flush() {
+  if (buffer_.empty()) return;
   write(buffer_);
   buffer_.clear();
 }

@@ -47,7 +47,8 @@ class UnlinkedFile {
 /// A file to which bytes are appended, and which is read by place.  Its space is free again when
 /// the object is destroyed or the process ends, however it does.
 /// ERRORS (all members): mw::Error(kResource) naming the folder when the disk is full; kUsage when
-/// the folder cannot be written.  Thread safety: none.
+/// the folder cannot be written.  Thread safety: several threads may read at once after flush(), or
+/// after a read, until more is appended.
 class ScratchFile {
  public:
   /// REQUIRES: an existing folder.
@@ -56,6 +57,8 @@ class ScratchFile {
   void append(std::span<const std::byte> bytes);
   void append(std::string_view text) { append(std::as_bytes(std::span(text))); }
   [[nodiscard]] std::uint64_t size() const { return flushed_ + buffer_.size(); }
+  /// Puts what was appended into the file.
+  void flush();
   /// REQUIRES: offset + out.size() <= size().
   void read_at(std::uint64_t offset, std::span<std::byte> out);
   /// Calls visit(std::span<const Record>) on all records in their order, some thousands at once.
@@ -85,7 +88,6 @@ class ScratchFile {
   [[nodiscard]] FileDescriptor release();
 
  private:
-  void flush();
   void write(std::span<const std::byte> bytes);
 
   UnlinkedFile file_;

@@ -3,6 +3,7 @@
 // Parts, hinges and doubled vertices of random meshes, against floods over the whole mesh.
 #include "engine/connect/connect_mesh.h"
 
+#include "engine/connect/tet_chunk.h"
 #include "io/mesh/digest.h"
 #include "io/mesh/merged_vertices.h"
 #include "kernels/core/error.h"
@@ -137,6 +138,32 @@ TEST(Connect, CountsPartsAndHinges) {
     hinge_edges += facts.hinge_edges;
   }
   EXPECT_GT(std::min({hanging, free, hinge_vertices, hinge_edges}), 20U);
+}
+
+/// The mesh has several chunks of tets and batches of stars.
+TEST(Connect, FindsTheSameOnAnyNumberOfThreads) {
+  const std::array<ConnectOptions, 3> rules{
+      ConnectOptions{.watched = {{0, 1}, {1, 2}, {7, 8}}},
+      {.parts = {.least_tets = 9}, .open_hinges = true},
+      {.split = {.all = true, .pairs = {}}, .cohesive = {.all = false, .pairs = {{{1, 2}}}}}};
+  for (unsigned seed = 0; seed < kVolumeKinds; ++seed) {
+    std::mt19937 random(seed);
+    const auto kind = static_cast<VolumeKind>(seed);
+    const io::MeshData mesh = mesh_without(random_volume_of(random, kind, {14, 13, 12}, 4), 1);
+    for (const ConnectOptions& options : rules) {
+      SCOPED_TRACE(seed);
+      if (mesh.tets.size() < 4 * TetChunk::kTets) continue;
+      const Connected alone = connect(mesh, options);
+      for (const std::size_t memory :
+           {std::size_t{1} << 16U, std::size_t{2} << 20U, std::size_t{8} << 20U}) {
+        const Connected many = connect(mesh, options, memory, 4);
+        expect_same_facts(many.facts, alone.facts);
+        EXPECT_EQ(many.facts.stiff, alone.facts.stiff);
+        EXPECT_EQ(many.mesh.tets, alone.mesh.tets);
+        EXPECT_EQ(many.mesh.vertices, alone.mesh.vertices);
+      }
+    }
+  }
 }
 
 /// Parts that were left out hide no hinge of those that are left, and make none.

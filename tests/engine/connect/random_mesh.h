@@ -17,15 +17,12 @@ using audit::test::five_tet_mesh;
 using audit::test::kVolumeKinds;
 using audit::test::random_volume_of;
 using audit::test::SmallMesh;
+using audit::test::SmallVolume;
 using audit::test::VolumeKind;
 
-/// Five tets a voxel, without those of some labels, and without vertices that no tet has.
-inline io::MeshData random_mesh(unsigned seed) {
-  std::mt19937 random(seed);
-  const auto kind = static_cast<VolumeKind>(seed % kVolumeKinds);
-  const Index3 shape{2 + below(random, 5), 2 + below(random, 5), 2 + below(random, 6)};
-  const std::uint32_t left_out = below(random, 3);
-  const SmallMesh all = five_tet_mesh(random_volume_of(random, kind, shape, 4));
+/// Five tets a voxel, without those of labels below one, and without vertices that no tet has.
+inline io::MeshData mesh_without(const SmallVolume& volume, std::uint32_t left_out) {
+  const SmallMesh all = five_tet_mesh(volume);
   io::MeshData out;
   std::map<std::uint64_t, std::uint64_t> rows;
   for (std::size_t t = 0; t < all.tets.size(); ++t) {
@@ -41,18 +38,26 @@ inline io::MeshData random_mesh(unsigned seed) {
   return out;
 }
 
+inline io::MeshData random_mesh(unsigned seed) {
+  std::mt19937 random(seed);
+  const auto kind = static_cast<VolumeKind>(seed % kVolumeKinds);
+  const Index3 shape{2 + below(random, 5), 2 + below(random, 5), 2 + below(random, 6)};
+  const std::uint32_t left_out = below(random, 3);
+  return mesh_without(random_volume_of(random, kind, shape, 4), left_out);
+}
+
 struct Connected {
   io::MeshData mesh;
   ConnectFacts facts;
 };
 
 inline Connected connect(const io::MeshData& mesh, const ConnectOptions& options,
-                         std::size_t memory = 1 << 16) {
+                         std::size_t memory = 1 << 16, int threads = 1) {
   const ::mw::test::TempFolder folder;
   io::ScratchMesh stored(folder.path());
   io::ScratchMeshSink into(stored);
   io::write_mesh(mesh, into);
-  Connected out{.mesh = {}, .facts = engine::connect(stored, {options, memory})};
+  Connected out{.mesh = {}, .facts = engine::connect(stored, {options, memory, threads})};
   io::MeshDataSink back;
   stored.copy_to(back);
   out.mesh = std::move(back.mesh());

@@ -37,6 +37,27 @@ TEST(InOrder, TakesEveryResultOnceInOrder) {
   }
 }
 
+TEST(InOrder, TakesItemsInTurnUntilThereAreNone) {
+  for (const int threads : {1, 2, 8}) {
+    std::vector<int> next{3, 1, 4, 1, 5, 9, 2, 6, 5, 3, 5}, seen;
+    const std::vector<int> all = next;
+    const auto take = [&]() -> std::optional<int> {
+      if (next.empty()) return std::nullopt;
+      const int item = next.front();
+      next.erase(next.begin());
+      return item;
+    };
+    items_in_order<int, std::vector<int>>(
+        {.threads = threads}, take,
+        [](int&& item) {
+          std::this_thread::sleep_for(std::chrono::microseconds(100 * item));
+          return std::vector<int>{item};
+        },
+        [&](std::vector<int>&& result) { seen.push_back(result.at(0)); });
+    EXPECT_EQ(seen, all) << threads;
+  }
+}
+
 /// A result counts from before the work on it begins until it is taken in.
 TEST(InOrder, HoldsNoMoreResultsThanItMay) {
   for (const std::size_t at_once : {1U, 2U, 3U, 9U}) {

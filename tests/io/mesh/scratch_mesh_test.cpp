@@ -3,6 +3,8 @@
 // Facets of a mesh in columns are those of brute force, and files of such a mesh those of a stream.
 #include "io/mesh/scratch_mesh.h"
 
+#include <thread>
+
 #include "tests/io/mesh/grid_mesh.h"
 #include "tests/io/mesh/mesh_endings.h"
 #include "tests/io/test_files.h"
@@ -71,6 +73,29 @@ TEST(ScratchMesh, FacetsAreThoseOfBruteForceWithAnyMemory) {
       EXPECT_EQ(facets_of(stored, 0), expected);  // those that are there
     }
   }
+}
+
+TEST(ScratchMesh, SeveralThreadsReadTets) {
+  const TempDir dir;
+  const MeshData mesh = grid_mesh({6, 6, 6}, 2);
+  ScratchMesh stored(dir.path());
+  fill(stored, mesh);
+  stored.settle();
+  std::vector<TetRows> tets(mesh.tets.size());
+  std::vector<RawLabel> labels(tets.size());
+  std::vector<std::thread> threads;
+  for (std::size_t part = 0; part < 4; ++part) {
+    threads.emplace_back([&, part] {
+      for (std::size_t at = 10 * part; at < tets.size(); at += 40) {
+        const std::size_t count = std::min<std::size_t>(10, tets.size() - at);
+        stored.read_tets(at, std::span(tets).subspan(at, count),
+                         std::span(labels).subspan(at, count));
+      }
+    });
+  }
+  for (std::thread& thread : threads) thread.join();
+  EXPECT_EQ(tets, mesh.tets);
+  EXPECT_EQ(labels, mesh.labels);
 }
 
 /// Tets on both sides of doubled vertices share a facet.

@@ -150,6 +150,26 @@ TEST(ExternalSort, IsStdSortForEveryBudget) {
   }
 }
 
+TEST(ExternalSort, GivesRecordsOneByOneAndLetsOthersSortThem) {
+  const TempDir dir;
+  for (const std::size_t memory : {3000U, 65536U}) {
+    std::size_t sorts = 0;
+    ExternalSort<1> sort(dir.path(), memory, [&](std::span<std::array<std::uint64_t, 1>> held) {
+      ++sorts;
+      std::sort(held.begin(), held.end());
+    });
+    for (std::uint64_t i = 0; i < 1000; ++i) sort.add({i * 7919 % 1000});
+    for (std::uint64_t i = 0; i < 1000; ++i) {
+      const std::array<std::uint64_t, 1>* const record = sort.next();
+      ASSERT_NE(record, nullptr);
+      EXPECT_EQ((*record)[0], i);
+    }
+    EXPECT_EQ(sort.next(), nullptr);
+    EXPECT_EQ(sort.next(), nullptr);
+    EXPECT_EQ(sorts, 1 + 8000 / (memory + 1));
+  }
+}
+
 TEST(ScratchFile, GivesBackWhatWasAppendedAndLeavesNoName) {
   const TempDir dir;
   ScratchFile file(dir.path());
