@@ -107,6 +107,7 @@ CertificateTask certificate_task(const CertificatePlan& plan, const MeshJob& job
   const bool has_scores = volume.raw().scores() != nullptr;
   if (has_scores || !why_no_volumes(promises).empty()) options.max_volume_error.reset();
   options.kept = kept_labels(job.choice, volume.table());
+  options.measure_distance = job.is_measured;
   options.label_text = report::label_texts(volume.table(), volume.info().names);
   options.count_junctions = options.count_junctions && options.kept.empty();
   return out;

@@ -22,6 +22,12 @@ struct SharedTet {
   std::uint32_t part = 0;
 };
 
+/// A run of centres, and a tile that it meets.
+struct CentreOfTile {
+  std::uint32_t tile = 0;
+  audit::CentreRun run;
+};
+
 /// What one tile tells.  Labels of pieces and triangles are those of the whole, others its own.
 struct TileFindings {
   TileLabels names{{}, 0};
@@ -35,7 +41,7 @@ struct TileFindings {
   audit::QualityMeter quality;
   audit::ShapeMeter shape;
   audit::VolumeTally volumes;
-  std::vector<audit::CentreRun> centres;
+  std::vector<CentreOfTile> centres;
   audit::FaceTally faces;
   std::vector<audit::InterfaceTriangle> triangles;
   std::vector<audit::LineCrossing> crossings;
@@ -116,9 +122,7 @@ class MeshStage {
     out.shape = audit::measure_shape(stars);
     task_.between();
     out.volumes = audit::tally_volumes(view, loaded.names.size(), lattice_);
-    out.centres = audit::centre_runs(view, loaded.names.size(), validity_.frame, validity_.shape,
-                                     task_.options.layers);
-    for (audit::CentreRun& run : out.centres) run.label = loaded.names.of_whole(run.label);
+    take_centres(loaded, out);
     out.faces = audit::tally_faces(view, validity_.frame, validity_.shape, task_.options.periodic);
     task_.between();
     if (pieces_ != nullptr) take_triangles(stars, out);
@@ -128,6 +132,17 @@ class MeshStage {
       loaded.names.to_whole(out.junctions);
     }
     return out;
+  }
+
+  void take_centres(const LoadedMesh& loaded, TileFindings& out) const {
+    for (audit::CentreRun& run :
+         audit::centre_runs(loaded.view(), loaded.names.size(), validity_.frame, validity_.shape,
+                            task_.options.layers)) {
+      run.label = loaded.names.of_whole(run.label);
+      for_each_index(mesh_.grid().meeting(audit::voxels_of(run, validity_.shape)), [&](Index3 at) {
+        out.centres.push_back({mesh_.grid().number(at), run});
+      });
+    }
   }
 
   static void take_parts(const LoadedMesh& loaded, const audit::MeshStars& stars,
@@ -164,7 +179,7 @@ class MeshStage {
     found_.quality.add(found.quality);
     found_.shape.add(found.shape);
     found_.volumes.add(found.volumes, found.names.whole());
-    for (const audit::CentreRun& run : found.centres) add(run);
+    for (const auto& [met, run] : found.centres) centres_.add(met, run);
     found_.faces.add(found.faces);
     const std::uint32_t first = parts_.add(std::move(found.parts));
     for (const SharedTet& tet : found.shared) links_.add(tet.id, 1, first + tet.part);
@@ -175,12 +190,6 @@ class MeshStage {
       crossings_.add({c.column, ordered_bits(c.z), ordered_bits(c.enters)});
     }
     task_.between();
-  }
-
-  void add(const audit::CentreRun& run) {
-    const Box3 voxels = audit::voxels_of(run, validity_.shape);
-    for_each_index(mesh_.grid().meeting(voxels),
-                   [&](Index3 tile) { centres_.add(mesh_.grid().number(tile), run); });
   }
 
   void judge_lines() {

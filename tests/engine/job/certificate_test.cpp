@@ -20,6 +20,10 @@ using nlohmann::json;
 
 constexpr std::uint64_t kGibibyte = std::uint64_t{1} << 30U;
 
+audit::test::SmallVolume volume_of_two_labels() {
+  return audit::test::volume_from({6, 5, 4}, 2, [](auto x, auto y, auto) { return x + y > 4; });
+}
+
 class CertifyTest : public testing::Test {
  protected:
   /// Returns what a certificate says against a mesh of the volume.
@@ -49,8 +53,7 @@ class CertifyTest : public testing::Test {
     return "";
   }
 
-  audit::test::SmallVolume volume_ =
-      audit::test::volume_from({6, 5, 4}, 2, [](auto x, auto y, auto) { return x + y > 4; });
+  audit::test::SmallVolume volume_ = volume_of_two_labels();
   audit::test::SmallMesh mesh_ = audit::test::five_tet_mesh(volume_);
 };
 
@@ -100,6 +103,24 @@ TEST_F(CertificateTest, IsInTheReport) {
     EXPECT_EQ(row["betti_of_volume"], row["betti_of_mesh"]);
     EXPECT_GE(row["betti_of_mesh"]["closed"][0], 1);
   }
+}
+
+/// Without a bound nobody sees a distance but the reader of a report.
+TEST_F(CertificateTest, MeasuresDistancesForABoundOrAReport) {
+  const MemoryVolume volume(volume_of_two_labels(), {});
+  const io::LabelTable table = io::collect_labels(volume);
+  const io::DenseVolume labels(volume, table);
+  engine::MeshJob job;
+  job.run.store.memory = kGibibyte;
+  for (const bool is_measured : {false, true}) {
+    job.is_measured = is_measured;
+    const engine::CertificateTask task =
+        certificate_task(engine::plan_certificate(job), job, labels, {.quality_floor = 0.2});
+    EXPECT_EQ(task.check.options.measure_distance, is_measured);
+  }
+  const json made = certificate("--memory 1GiB --preset draft");
+  EXPECT_EQ(made["made"], true);
+  EXPECT_GT(report_["distance"]["max_voxels"], 0.0);
 }
 
 TEST_F(CertificateTest, SaysWhyThereIsNone) {
