@@ -16,7 +16,7 @@ trap 'rm -rf "$work"' EXIT
 }
 
 rows=(
-  "" "--surface voxel" "--start octree" "--start dense" "--order colour" "--topology interfaces"
+  "" "--surface voxel" "--start octree" "--start dense" "--order raster" "--topology interfaces"
   "--window 16" "--window 24" "--window 48" "--window 64"
   "--marches 1" "--marches 3"
   "--quality-floor 0.1" "--quality-floor 0.3"

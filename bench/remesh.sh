@@ -51,7 +51,7 @@ row() { # NAME OPTION...
      (if $r then $r.folder_bytes / $n | short else "" end)]
     | map(tostring) | "| " + join(" | ") + " |"' "$1.json"
 }
-row fresh --order colour
+row fresh
 row keep --keep kept
 box="$(/usr/bin/python3 - "$edit" <<'PYTHON'
 import sys
@@ -71,6 +71,6 @@ print(",".join(str(v) for v in lo[::-1] + [v + edge for v in lo[::-1]]))
 PYTHON
 )"
 row again --from kept --changed "$box"
-run edited --order colour >edited.s
+run edited >edited.s
 echo "a fresh run of the edited volume: $(cat edited.s) CPU s"
 cmp again.vtu edited.vtu

@@ -54,25 +54,17 @@ std::vector<Box3> parse_boxes(const std::string& text) {
   return out;
 }
 
-/// Sets the colour order, since nothing could be used again in another one.
-OptionTexts implied_by_keep(const std::string& folder) {
-  if (folder.empty()) return {};
-  return {{"order", "colour"}};
-}
-
 void add_keep_options(OptionSet& options, MeshRequest& request) {
   options.add({.name = "keep",
                .value = "FOLDER",
-               .help = "keeps what --from needs after an edit; sets --order colour",
+               .help = "keeps what --from needs after an edit",
                .group = kRunGroup,
-               .assign = into(request.keep),
-               .implied = implied_by_keep});
+               .assign = into(request.keep)});
   options.add({.name = "from",
                .value = "FOLDER",
                .help = "only windows that an edit reaches, to the same mesh; updates FOLDER",
                .group = kRunGroup,
-               .assign = into(request.from),
-               .implied = implied_by_keep});
+               .assign = into(request.from)});
   options.add({.name = "changed",
                .value = "X0,Y0,Z0,X1,Y1,Z1",
                .help = "with --from: box changed since the last mesh, repeatable [anywhere]",

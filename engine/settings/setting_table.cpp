@@ -133,7 +133,7 @@ std::vector<Setting> march_settings() {
        .read = [](Settings& s, const Text& t) { s.marches = parse_int(t); },
        .is_allowed = [](const Settings& s) { return is_within(s.marches, 1, kMaxMarches); }},
       {.name = "order",
-       .help = "colour: another mesh, wider marches on small volumes",
+       .help = "raster: the paper's, another mesh, narrow on small volumes",
        .kind = SettingKind::kChoice,
        .choices = words(kOrders),
        .expert = true,

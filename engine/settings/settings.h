@@ -26,8 +26,8 @@ enum class StartMesh {
 
 /// Which of two windows that share a block comes first; each order has its own result.
 enum class Order {
-  kRaster,  ///< the paper's (Sec 4.1)
-  kColour,  ///< eight colours by parity of the window's position: far wider on small volumes
+  kRaster,  ///< the paper's (Sec 4.1): narrow on small volumes
+  kColour,  ///< eight colours by parity of the window's position
 };
 
 /// What interfaces are made to follow.
@@ -118,7 +118,7 @@ struct SizeSettings {
 struct MeshSettings {
   int window = 32;  ///< window edge in voxels, even
   int marches = 2;  ///< each over the whole volume, with windows twice as large
-  Order order = Order::kRaster;
+  Order order = Order::kColour;
   StartMesh start = StartMesh::kCoarse;
   std::optional<double> edge_variance;  ///< bound on Eq (3); empty if unbounded
   /// No tet has a radius ratio below this; 0 asks nothing of shapes, as in the paper.

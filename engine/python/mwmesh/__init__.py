@@ -154,7 +154,7 @@ def mesh(volume, *, progress=None, **arguments):
         from what a run that was interrupted left in keep.
     keep, keep_bytes, from_kept, changed
         a folder, used instead of workdir, that holds what a later run of the volume, edited, need
-        not do again (set order="colour"); the most bytes that it takes when a run ends, as memory has them; whether
+        not do again; the most bytes that it takes when a run ends, as memory has them; whether
         an earlier run has left something there; and a list of boxes
         ((x0, y0, z0), (x1, y1, z1)) that have all changes since the last call that returned, also
         those of calls that raised.  :class:`Session` does it all.

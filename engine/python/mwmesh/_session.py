@@ -47,7 +47,7 @@ class Session:
         everything else that :func:`mesh` takes, except report, the order of windows, object, and
         values and overlaps that give a voxel more than one label.
 
-    Each mesh is, byte for byte, the one that ``mesh(array, order="colour", **settings)`` would give
+    Each mesh is, byte for byte, the one that ``mesh(array, **settings)`` would give
     if that had the labels as they are now.
 
     >>> import mwmesh

@@ -323,8 +323,8 @@ class Remote(unittest.TestCase):
             self.assertTrue(all(h.get("Authorization") == SECRET for _, h in server.requests))
             self.assertTrue(other.requests)
             self.assertFalse(any("Authorization" in h for _, h in other.requests))
-        mesh("stores/precomputed", "colour.vtkhdf", "--order", "colour")  # what --keep sets
-        self.assertEqual(run("digest", "a.vtkhdf"), run("digest", "colour.vtkhdf"))
+        mesh("stores/precomputed", "fresh.vtkhdf")
+        self.assertEqual(run("digest", "a.vtkhdf"), run("digest", "fresh.vtkhdf"))
         written = [done.stdout.encode(), done.stderr.encode()]
         for path in ["a.vtkhdf", "a.json", "a.html"] + [
                 os.path.join(folder, file) for folder, _, files in os.walk("a.kept")

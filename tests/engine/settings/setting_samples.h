@@ -18,7 +18,7 @@ struct Samples {
 inline const std::map<std::string, Samples> kSettingSamples{
     {"window", {{"4", "40", "256"}, {"-4", "2", "33", "258", "99999999999"}, {"4e1", "4.0", ""}}},
     {"marches", {{"1", "4"}, {"0", "5", "-1", "4294967297"}, {"two"}}},
-    {"order", {{"colour"}, {}, {"color", "Raster", ""}}},
+    {"order", {{"raster"}, {}, {"color", "Raster", ""}}},
     {"edge-variance", {{"0.1", "1e-300", "5"}, {"0", "-0.1"}, {"nan", "inf", "None", "1,5"}}},
     {"quality-floor", {{"0", "0.1", "0.5"}, {"-0.1", "0.51"}, {"none", "nan"}}},
     {"inner-quality", {{"0", "0.3", "0.8"}, {"-0.1", "0.81"}, {"none", "nan", "Auto"}}},
