@@ -13,6 +13,7 @@
 #include "io/file/source/file_source.h"
 #include "io/json/json.h"
 #include "io/remote/address.h"
+#include "io/store/held_bytes.h"
 
 namespace mw::io {
 namespace {
@@ -24,28 +25,6 @@ constexpr std::size_t kFrontBytes = 16U << 10U;
 constexpr std::uint64_t kMaxRemembered = 256U << 10U;
 constexpr std::size_t kMaxAnswers = 256;
 constexpr std::size_t kMaxVersions = 4096;
-
-class HeldBytes : public ByteSource {
- public:
-  HeldBytes(std::vector<std::byte> bytes, std::string name)
-      : bytes_(std::move(bytes)), name_(std::move(name)) {}
-
-  [[nodiscard]] std::uint64_t size() const override { return bytes_.size(); }
-  [[nodiscard]] const std::string& name() const override { return name_; }
-  void read_at(std::uint64_t offset, std::span<std::byte> out) const override {
-    if (offset > bytes_.size() || out.size() > bytes_.size() - offset) {
-      fail_input(name_, {},
-                 text("expected ", out.size(), " bytes at offset ", offset, ", and the file has ",
-                      bytes_.size()),
-                 "get a whole copy of the store");
-    }
-    std::copy_n(bytes_.begin() + static_cast<std::ptrdiff_t>(offset), out.size(), out.begin());
-  }
-
- private:
-  std::vector<std::byte> bytes_;
-  std::string name_;
-};
 
 /// A body, in memory if it is small and else in a file.
 class Body : public BodySink {

@@ -220,7 +220,7 @@ VolumeSpace placed(std::string_view file, const FileSpace& space, const OpenOpti
 }
 
 Index3 number_of_first_voxel(const std::function<OwnPlace()>& place) {
-  constexpr double kRounding = 1e-3;
+  constexpr double kOffGrid = 1e-3;
   constexpr double kMost = 0x1p48;  // far beyond any volume
   std::array<std::int64_t, 3> out{};
   try {
@@ -229,7 +229,7 @@ Index3 number_of_first_voxel(const std::function<OwnPlace()>& place) {
     for (std::size_t i = 0; i < 3; ++i) {
       const double number = space.origin[i] / space.spacing[i] + (first_is_centre ? 0.5 : 0);
       const double whole = std::round(number);
-      if (!(std::abs(number - whole) <= kRounding && std::abs(whole) < kMost)) return {0, 0, 0};
+      if (!(std::abs(number - whole) <= kOffGrid && std::abs(whole) < kMost)) return {0, 0, 0};
       out[i] = static_cast<std::int64_t>(whole);
     }
   } catch (const Error& error) {

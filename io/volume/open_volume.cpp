@@ -16,9 +16,11 @@
 #include "io/remote/address.h"
 #include "io/remote/remote_store.h"
 #include "io/store/place.h"
+#include "io/store/zip_directory.h"
 #include "io/volume/checks.h"
 #include "io/volume/cropped_volume.h"
 #include "io/volume/dicom/open_dicom.h"
+#include "io/volume/freesurfer/open_mgh.h"
 #include "io/volume/hdf5/open_hdf5.h"
 #include "io/volume/masks/open_masks.h"
 #include "io/volume/metaimage/open_metaimage.h"
@@ -33,6 +35,7 @@
 #include "io/volume/scores/open_scores.h"
 #include "io/volume/slices/slice_folder.h"
 #include "io/volume/tiff/open_tiff.h"
+#include "io/volume/vti/open_vti.h"
 #include "io/volume/zarr/open_zarr.h"
 
 namespace mw::io {
@@ -62,8 +65,11 @@ struct VolumeFormat {
   bool has_scales = false;    ///< --scale chooses in it
   bool has_masks = false;     ///< --overlap says what masks become that overlap
   bool has_forms = false;     ///< --use-form chooses one of two places
-  /// Null where the format has no scales.
+  /// Null where the format has no scales; the first in rows of stores, the second in those of
+  /// files.
   std::size_t (*count_scales)(const Place& place, const OpenOptions& options) = nullptr;
+  std::size_t (*count_file_scales)(std::unique_ptr<ByteSource> source,
+                                   const OpenOptions& options) = nullptr;
 };
 
 /// Folders of slices come last: other stores may hold pictures, too.
@@ -80,19 +86,36 @@ constexpr std::array kFormats{
                  .open_file = open_hdf5,
                  .has_datasets = true},
     VolumeFormat{"MetaImage", ".mha .mhd", has_metaimage_magic, open_metaimage},
+    VolumeFormat{.name = "VTK image",
+                 .endings = ".vti",
+                 .is_file = has_vti_magic,
+                 .open_file = open_vti,
+                 .has_datasets = true},
     VolumeFormat{"TIFF", ".tif .tiff", has_tiff_magic, open_tiff},
     VolumeFormat{"PNG", ".png", has_png_magic, open_png},
     VolumeFormat{.name = "NIfTI",
-                 .endings = ".nii",
+                 .endings = ".nii .hdr .img",
                  .is_file = has_nifti_magic,
                  .open_file = open_nifti,
                  .has_masks = true,
                  .has_forms = true},
+    VolumeFormat{.name = "FreeSurfer",
+                 .endings = ".mgh .mgz",
+                 .is_file = has_mgh_magic,
+                 .open_file = open_mgh,
+                 .has_masks = true},
     VolumeFormat{.name = "DICOM segmentation",
                  .endings = ".dcm",
                  .is_file = has_dicom_magic,
                  .open_file = open_dicom,
                  .has_masks = true},
+    VolumeFormat{.name = "zipped Zarr",
+                 .endings = ".zip",
+                 .is_file = has_zip_magic,
+                 .open_file = open_zarr_zip,
+                 .has_datasets = true,
+                 .has_scales = true,
+                 .count_file_scales = count_zarr_zip_scales},
     VolumeFormat{.name = "neuroglancer precomputed",
                  .is_store = is_precomputed,
                  .open_store = open_precomputed,
@@ -265,9 +288,20 @@ std::unique_ptr<LabelVolume> open_whole(const std::filesystem::path& path,
   return format.open_file(std::move(source), options);
 }
 
+/// Returns how many scales a file has.  Lists of files have none.
+std::size_t count_file_scales(const std::filesystem::path& path, const OpenOptions& options) {
+  std::error_code ignored;
+  if (!std::filesystem::is_regular_file(path, ignored)) return 0;
+  std::unique_ptr<ByteSource> source = open_bytes(path);
+  const VolumeFormat& format = format_of(read_prefix(*source, kNiftiHeaderBytes), path);
+  if (format.count_file_scales == nullptr) return 0;
+  return format.count_file_scales(std::move(source), options);
+}
+
 std::size_t count_scales(const std::filesystem::path& path, const OpenOptions& options) {
   const bool is_remote = is_remote_address(path.string());
-  if (options.raw || (!is_remote && !is_folder(path))) return 0;
+  if (options.raw) return 0;
+  if (!is_remote && !is_folder(path)) return count_file_scales(path, options);
   const Place place = is_remote ? remote_place(path.string(), cache_of(options)) : Place(path);
   const VolumeFormat& format = is_remote ? format_of_remote(place) : format_of_folder(path);
   return format.count_scales == nullptr ? 0 : format.count_scales(place, options);

@@ -9,13 +9,17 @@
 #include <algorithm>
 #include <charconv>
 
+#include "io/codec/codec.h"
 #include "io/file/errors.h"
 
 namespace mw::io {
 namespace {
 
-/// The most bytes that a packed byte unpacks to; no packing is tighter than that of zlib.
-constexpr std::uint64_t kMaxRatio = 1040;
+/// The most bytes that a packed byte unpacks to.
+std::uint64_t max_ratio(VtkPacking packing) {
+  return packing == VtkPacking::kXz ? 16384 : 1040;
+}
+
 constexpr std::uint64_t kPieceBytes = 1 << 20;
 /// The most packed bytes of an array whose size is not known from elsewhere.
 constexpr std::uint64_t kMaxAnnounced = std::uint64_t{1} << 40U;
@@ -63,50 +67,54 @@ void inflate_lz4(const std::vector<std::byte>& packed, std::span<std::byte> out,
   }
 }
 
-/// Appends a piece.  The first one shows that the expected size is credible, so that memory for all
-/// of it is taken then.
-void append(std::vector<std::byte>& all, const std::vector<std::byte>& piece,
-            std::uint64_t expected) {
-  if (all.empty()) all.reserve(expected);
-  all.insert(all.end(), piece.begin(), piece.end());
+void unpack_xz(const std::vector<std::byte>& packed, std::span<std::byte> out,
+               const ArrayName& name) {
+  const std::vector<std::byte> plain =
+      unpack(Codec::kXz, packed, out.size(), text(name.file, ": array '", name.array, "'"));
+  check_length(plain.size(), out.size(), name);
+  std::copy(plain.begin(), plain.end(), out.begin());
 }
+
+void unpack_block(VtkPacking packing, const std::vector<std::byte>& packed,
+                  std::span<std::byte> out, const ArrayName& name) {
+  if (packing == VtkPacking::kXz) return unpack_xz(packed, out, name);
+  if (packing == VtkPacking::kLz4) return inflate_lz4(packed, out, name);
+  inflate_zlib(packed, out, name);
+}
+
+using UsePiece = std::function<void(std::span<const std::byte>)>;
 
 /// Reads [blocks][bytes of a block][bytes of the last, 0 when whole][packed bytes of each] and then
 /// the packed blocks.
-std::vector<std::byte> read_compressed(ByteStream& stream, const VtkEncoding& encoding,
-                                       std::uint64_t expected, const ArrayName& name) {
+void each_block(ByteStream& stream, const VtkEncoding& encoding, std::uint64_t expected,
+                const ArrayName& name, const UsePiece& use) {
   const std::uint64_t blocks = read_word(stream, encoding);
   const std::uint64_t block_bytes = read_word(stream, encoding);
   const std::uint64_t last_bytes = read_word(stream, encoding);
   const std::uint64_t last = blocks == 0 || last_bytes != 0 ? last_bytes : block_bytes;
+  const std::uint64_t ratio = max_ratio(encoding.packing);
   // The numbers of a damaged file may be anything, so that no product may overflow.
   const auto word = static_cast<std::uint64_t>(encoding.header_bytes);
-  if (!may_hold(stream, saturating_product(blocks, word)) ||
-      !may_hold(stream, expected / kMaxRatio) || last > block_bytes ||
+  if (!may_hold(stream, saturating_product(blocks, word)) || !may_hold(stream, expected / ratio) ||
+      last > block_bytes ||
       (blocks > 1 && (block_bytes == 0 || blocks - 1 > expected / block_bytes))) {
     fail(name, "block counts are not credible");
   }
   check_length(blocks == 0 ? 0 : (blocks - 1) * block_bytes + last, expected, name);
   std::vector<std::uint64_t> packed_bytes(blocks);
   for (std::uint64_t& size : packed_bytes) size = read_word(stream, encoding);
-  std::vector<std::byte> all;
   std::vector<std::byte> out;
   std::vector<std::byte> packed;
   for (std::uint64_t i = 0; i < blocks; ++i) {
     const std::uint64_t bytes = i + 1 < blocks ? block_bytes : last;
     if (!may_hold(stream, packed_bytes[i])) fail(name, "truncated");
-    if (bytes / kMaxRatio > packed_bytes[i]) fail(name, "a block is not credible");
+    if (bytes / ratio > packed_bytes[i]) fail(name, "a block is not credible");
     packed.resize(packed_bytes[i]);
     stream.read(packed);
     out.resize(bytes);
-    if (encoding.packing == VtkPacking::kLz4) {
-      inflate_lz4(packed, out, name);
-    } else {
-      inflate_zlib(packed, out, name);
-    }
-    append(all, out, expected);
+    unpack_block(encoding.packing, packed, out, name);
+    use(out);
   }
-  return all;
 }
 
 /// Calls use(number) on each number of the bytes.
@@ -175,23 +183,32 @@ std::optional<NumberType> parse_number_type(std::string_view name) {
   return std::nullopt;
 }
 
-std::vector<std::byte> read_payload(ByteStream& stream, const VtkEncoding& encoding,
-                                    std::uint64_t expected, const ArrayName& name) {
+void each_piece(ByteStream& stream, const VtkEncoding& encoding, std::uint64_t expected,
+                const ArrayName& name, const UsePiece& use) {
   if (encoding.packing != VtkPacking::kNone) {
-    return read_compressed(stream, encoding, expected, name);
+    return each_block(stream, encoding, expected, name, use);
   }
   check_length(read_word(stream, encoding), expected, name);
   const std::uint64_t left = stream.left(expected);
   if (expected > left) {
     fail(name, text("truncated: needs ", expected, " bytes, at most ", left, " are left"));
   }
-  std::vector<std::byte> all;
   std::vector<std::byte> piece;
-  while (all.size() < expected) {
-    piece.resize(static_cast<std::size_t>(std::min(expected - all.size(), kPieceBytes)));
+  for (std::uint64_t done = 0; done < expected; done += piece.size()) {
+    piece.resize(static_cast<std::size_t>(std::min(expected - done, kPieceBytes)));
     stream.read(piece);
-    append(all, piece, expected);
+    use(piece);
   }
+}
+
+std::vector<std::byte> read_payload(ByteStream& stream, const VtkEncoding& encoding,
+                                    std::uint64_t expected, const ArrayName& name) {
+  std::vector<std::byte> all;
+  each_piece(stream, encoding, expected, name, [&](std::span<const std::byte> piece) {
+    // The first piece shows that the size is credible, so that memory for all is taken then.
+    if (all.empty()) all.reserve(expected);
+    all.insert(all.end(), piece.begin(), piece.end());
+  });
   return all;
 }
 
@@ -205,7 +222,7 @@ std::uint64_t announced_bytes(ByteStream& stream, const VtkEncoding& encoding,
   const std::uint64_t block_bytes = read_word(stream, encoding);
   const std::uint64_t last_bytes = read_word(stream, encoding);
   if (first == 0) return 0;
-  const std::uint64_t max = stream.left(kMaxAnnounced) * kMaxRatio;
+  const std::uint64_t max = stream.left(kMaxAnnounced) * max_ratio(encoding.packing);
   if (block_bytes > max || last_bytes > block_bytes ||
       (block_bytes != 0 && first > max / block_bytes)) {
     fail(name, "block counts are not credible");
@@ -270,19 +287,43 @@ constexpr std::array<std::int8_t, 256> kValues = make_values();
 
 }  // namespace
 
+std::uint64_t Base64Stream::unread(std::uint64_t max) const {
+  if (source_ == nullptr) return 0;
+  const std::uint64_t end = source_->size_within(std::min(end_, saturating_sum(next_, max)));
+  return end > next_ ? end - next_ : 0;
+}
+
+std::uint64_t Base64Stream::left(std::uint64_t max) const {
+  return std::min<std::uint64_t>(ready_ + (text_.size() - at_) + unread(max), max);
+}
+
+/// Reads the next characters of the source; false where there are none.
+bool Base64Stream::refill() {
+  constexpr std::uint64_t kWindowBytes = 64 << 10;
+  const std::uint64_t count = unread(kWindowBytes);
+  if (count == 0) return false;
+  window_.resize(count);
+  source_->read_at(next_, std::as_writable_bytes(std::span(window_)));
+  next_ += count;
+  text_ = window_;
+  at_ = 0;
+  return true;
+}
+
 void Base64Stream::decode_group() {
   std::uint32_t bits = 0;
   std::size_t digits = 0;
   std::size_t padding = 0;
   while (digits + padding < 4) {
-    if (at_ == text_.size()) fail_input(file_, "base64 data", "truncated");
+    if (at_ == text_.size() && !refill()) fail_input(file_, "base64 data", "truncated");
     const char c = text_[at_++];
     if (c == ' ' || (c >= '\t' && c <= '\r')) continue;
     const std::int8_t value = kValues[static_cast<unsigned char>(c)];
     if (c == '=' && digits >= 2) {
       ++padding;
     } else if (value < 0 || padding > 0) {
-      fail_input(file_, "base64 data", text("invalid character at position ", at_ - 1));
+      fail_input(file_, "base64 data",
+                 text("invalid character at position ", next_ - begin_ - window_.size() + at_ - 1));
     } else {
       bits |= static_cast<std::uint32_t>(value) << (18 - 6 * digits++);
     }

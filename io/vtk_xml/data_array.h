@@ -5,6 +5,7 @@
 
 #include <array>
 #include <cstddef>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <string>
@@ -43,21 +44,30 @@ class SourceStream : public ByteStream {
   std::uint64_t next_;
 };
 
-/// Decodes groups of four characters.  A padded group may stand in the middle, as VTK encodes the
-/// header of an array and its data apart.  Blanks are skipped.
+/// Decodes groups of four characters, in memory or in a source.  A padded group may stand in the
+/// middle, as VTK encodes the header of an array and its data apart.  Blanks are skipped.
 class Base64Stream : public ByteStream {
  public:
   Base64Stream(std::string_view text, std::string file) : text_(text), file_(std::move(file)) {}
+  /// Takes the characters from `begin` to `end`, or to the end of the source, which outlives this.
+  /// Memory: 64 KiB.
+  Base64Stream(const ByteSource& source, std::uint64_t begin, std::uint64_t end)
+      : file_(source.name()), source_(&source), begin_(begin), next_(begin), end_(end) {}
   void read(std::span<std::byte> out) override;
-  [[nodiscard]] std::uint64_t left(std::uint64_t max) const override {
-    return std::min<std::uint64_t>(ready_ + (text_.size() - at_), max);
-  }
+  [[nodiscard]] std::uint64_t left(std::uint64_t max) const override;
 
  private:
   void decode_group();
+  [[nodiscard]] bool refill();
+  [[nodiscard]] std::uint64_t unread(std::uint64_t max) const;
 
   std::string_view text_;
   std::string file_;
+  const ByteSource* source_ = nullptr;  ///< null for characters in memory
+  std::uint64_t begin_ = 0;             ///< where the first character is in the source
+  std::uint64_t next_ = 0;              ///< behind those of the text
+  std::uint64_t end_ = 0;
+  std::string window_;
   std::size_t at_ = 0;
   std::array<std::byte, 3> group_{};
   std::size_t ready_ = 0;  ///< bytes of group_ not yet given out
@@ -72,7 +82,7 @@ struct NumberType {
 };
 [[nodiscard]] std::optional<NumberType> parse_number_type(std::string_view name);
 
-enum class VtkPacking { kNone, kZlib, kLz4 };
+enum class VtkPacking { kNone, kZlib, kLz4, kXz };
 
 /// How the file encodes binary arrays.
 struct VtkEncoding {
@@ -91,6 +101,10 @@ struct ArrayName {
 /// ERRORS (here and below): mw::Error(kInput) naming file and array.
 [[nodiscard]] std::vector<std::byte> read_payload(ByteStream& stream, const VtkEncoding& encoding,
                                                   std::uint64_t expected, const ArrayName& name);
+
+/// Calls use() with these bytes piece by piece.  Memory: a block, and 8 bytes for each of them.
+void each_piece(ByteStream& stream, const VtkEncoding& encoding, std::uint64_t expected,
+                const ArrayName& name, const std::function<void(std::span<const std::byte>)>& use);
 
 /// Returns the number of bytes that an array's own head announces, which is no more than the stream
 /// could hold.  Takes the head off the stream.

@@ -4,36 +4,18 @@
 #include "io/vtk_xml/vtk_document.h"
 
 #include <algorithm>
+#include <limits>
 #include <new>
 
 #include "io/file/errors.h"
 #include "io/file/text_numbers.h"
+#include "io/vtk_xml/vtk_head.h"
 
 namespace mw::io {
 namespace {
 
-constexpr std::string_view kAppendedTag = "<AppendedData";
 constexpr std::uint64_t kChunkBytes = 1 << 20;
-constexpr std::string_view kRootTag = "<VTKFile";
-/// The most bytes of text, which is held in memory.
-constexpr std::uint64_t kMaxTextBytes = std::uint64_t{1} << 33U;
 constexpr std::uint64_t kMaxStringBytes = 64 << 20;
-
-[[noreturn]] void fail_too_much_text(const std::string& file, std::string_view field) {
-  fail_input(file, field, text("more than ", kMaxTextBytes, " bytes of text"),
-             "save the arrays as binary data: appended, raw");
-}
-
-/// Appends to text, which has the source's bytes from start on, at most `count` of those that
-/// follow; false at the end of the source.
-bool append_chunk(const ByteSource& source, std::uint64_t start, std::uint64_t count,
-                  std::string& text) {
-  const std::size_t before = text.size();
-  const std::uint64_t from = start + before;
-  text.resize(before + (source.size_within(from + count) - from));
-  source.read_at(from, std::as_writable_bytes(std::span(text)).subspan(before));
-  return text.size() > before;
-}
 
 NumberType type_of(pugi::xml_node array, const ArrayName& name) {
   const std::string type = array.attribute("type").as_string();
@@ -58,40 +40,27 @@ void check_count(std::uint64_t found, std::uint64_t expected, const ArrayName& n
 }  // namespace
 
 VtkDocument::VtkDocument(const ByteSource& source, VtkKind kind) : source_(source), kind_(kind) {
-  // Read the XML up to the appended data, which may be binary, or all of it when there are none.
-  std::string head;
-  std::size_t found = std::string::npos;
-  while (found == std::string::npos) {
-    const std::size_t before = head.size();
-    if (before > kMaxTextBytes) fail_too_much_text(source.name(), "XML");
-    if (!append_chunk(source, 0, kChunkBytes, head)) break;
-    if (before == 0 && head.find(kRootTag) == std::string::npos) {
-      fail_input(source.name(), "XML", "no VTKFile begins here", "give a VTK XML file");
-    }
-    found = head.find(kAppendedTag, before - std::min(before, kAppendedTag.size()));
-  }
-  if (found != std::string::npos) {
-    // Read the rest of the start tag and its '_', since the chunk may have cut them.
-    append_chunk(source, 0, 4096, head);
-    appended_ = true;
-    appended_start_ = found;
-    find_appended(head);
-  }
-  parse(std::move(head));
+  VtkHead head = kind.leaves_contents ? read_outline(source) : read_head(source);
+  if (head.tag) find_appended(head);
+  parse(std::move(head.xml));
 }
 
-/// Takes the appended data off head and notes where and what they are.
-void VtkDocument::find_appended(std::string& head) {
-  const std::size_t tag = appended_start_;
-  const std::size_t close = head.find('>', tag);
-  const std::size_t mark = close == std::string::npos ? close : head.find('_', close);
-  if (mark == std::string::npos) {
+/// Takes the start tag of the appended data off the text and notes where and what they are.
+void VtkDocument::find_appended(VtkHead& head) {
+  constexpr std::uint64_t kMaxBlanks = 4096;
+  const std::string tag = head.xml.substr(*head.tag);
+  const std::uint64_t behind = head.tag_in_file + tag.size();
+  std::string blanks;
+  static_cast<void>(append_text(source_, behind, kMaxBlanks, blanks));
+  const std::size_t mark = blanks.find('_');
+  if (!tag.ends_with('>') || mark == std::string::npos) {
     fail_input(file(), "AppendedData", "no '_' in front of the data", "the file is truncated");
   }
-  appended_raw_ = head.substr(tag, close - tag).find("base64") == std::string::npos;
-  appended_start_ = mark + 1;
-  head.resize(tag);
-  head += "</VTKFile>";
+  appended_ = true;
+  appended_raw_ = tag.find("base64") == std::string::npos;
+  appended_start_ = behind + mark + 1;
+  head.xml.resize(*head.tag);
+  head.xml += "</VTKFile>";
 }
 
 void VtkDocument::parse(std::string head) {
@@ -112,9 +81,10 @@ void VtkDocument::parse(std::string head) {
   const std::string_view compressor = root.attribute("compressor").as_string();
   if (compressor == "vtkZLibDataCompressor") encoding_.packing = VtkPacking::kZlib;
   if (compressor == "vtkLZ4DataCompressor") encoding_.packing = VtkPacking::kLz4;
+  if (compressor == "vtkLZMADataCompressor") encoding_.packing = VtkPacking::kXz;
   if (!compressor.empty() && encoding_.packing == VtkPacking::kNone) {
     fail_input(file(), "compressor", text(compressor, " is not supported"),
-               "save uncompressed, or with zlib or LZ4");
+               "save uncompressed, or with zlib, LZ4 or LZMA");
   }
 }
 
@@ -139,8 +109,8 @@ std::string_view VtkDocument::appended_text() {
     std::size_t end = std::string::npos;
     while (end == std::string::npos) {
       const std::size_t before = appended_text_.size();
-      if (before > kMaxTextBytes) fail_too_much_text(file(), "AppendedData");
-      if (!append_chunk(source_, appended_start_, kChunkBytes, appended_text_)) break;
+      if (before > kMaxVtkTextBytes) fail_too_much_text(file(), "AppendedData");
+      if (!append_text(source_, appended_start_, kChunkBytes, appended_text_)) break;
       end = appended_text_.find('<', before);
     }
     appended_text_.resize(std::min(end, appended_text_.size()));
@@ -148,11 +118,9 @@ std::string_view VtkDocument::appended_text() {
   return appended_text_;
 }
 
-std::unique_ptr<ByteStream> VtkDocument::stream_of(pugi::xml_node array, const ArrayName& name) {
+/// Returns where the data of an array begin in the file.
+std::uint64_t VtkDocument::appended_place(pugi::xml_node array, const ArrayName& name) const {
   const std::string_view format = array.attribute("format").as_string("ascii");
-  if (format == "binary") {
-    return std::make_unique<Base64Stream>(array.text().get(), name.file);
-  }
   const std::uint64_t offset = number(array, "offset", 0);
   const std::uint64_t position = saturating_sum(appended_start_, offset);
   if (format != "appended" || !appended_) {
@@ -164,8 +132,33 @@ std::unique_ptr<ByteStream> VtkDocument::stream_of(pugi::xml_node array, const A
                text("truncated: the file ends before its data, at byte ", position),
                "get a whole copy");
   }
+  return position;
+}
+
+VtkContent VtkDocument::content_of(pugi::xml_node array) const {
+  using Form = VtkContent::Form;
+  const std::string_view format = array.attribute("format").as_string("ascii");
+  if (format != "ascii" && format != "binary") {
+    return {.form = appended_raw_ ? Form::kRaw : Form::kBase64,
+            .begin = appended_place(array, name_of(array, file())),
+            .end = std::numeric_limits<std::uint64_t>::max()};
+  }
+  const auto words = words_of(array.text().get());
+  VtkContent out{.form = format == "ascii" ? Form::kText : Form::kBase64};
+  if (words.size() != 2) return out;  // an array without a content
+  out.begin = parse_count(words[0]).value_or(0);
+  out.end = parse_count(words[1]).value_or(0);
+  return out;
+}
+
+std::unique_ptr<ByteStream> VtkDocument::stream_of(pugi::xml_node array, const ArrayName& name) {
+  if (std::string_view(array.attribute("format").as_string("ascii")) == "binary") {
+    return std::make_unique<Base64Stream>(array.text().get(), name.file);
+  }
+  const std::uint64_t position = appended_place(array, name);
   if (appended_raw_) return std::make_unique<SourceStream>(source_, position);
   const std::string_view all = appended_text();
+  const std::uint64_t offset = position - appended_start_;
   return std::make_unique<Base64Stream>(all.substr(std::min<std::size_t>(offset, all.size())),
                                         name.file);
 }

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The mwmesh authors
 // SPDX-License-Identifier: Apache-2.0
-// A VTK XML file (.vtu, .vtp, .pvtu), and its arrays as numbers.
+// A VTK XML file (.vtu, .vtp, .pvtu, .vti), and its arrays as numbers or by their place.
 #pragma once
 
 #include <pugixml.hpp>
@@ -11,13 +11,26 @@
 
 namespace mw::io {
 
+struct VtkHead;
+
 /// What a VTKFile must be.
 struct VtkKind {
   const char* type;     ///< the value of its attribute type, and the name of its first element
   const char* way_out;  ///< what errors say when it is of another type
+  /// Contents of inline arrays stay in the file, so that memory does not grow with them: arrays are
+  /// found by content_of(), and their numbers and strings are not read.
+  bool leaves_contents = false;
 };
 
-/// Arrays may be appended (raw or base64) or inline (ascii or base64), packed with zlib, with LZ4
+/// Where the content of an array is in its file.
+struct VtkContent {
+  enum class Form { kText, kBase64, kRaw };
+  Form form = Form::kText;
+  std::uint64_t begin = 0;
+  std::uint64_t end = 0;  ///< of an inline array; the largest number for one that is appended
+};
+
+/// Arrays may be appended (raw or base64) or inline (ascii or base64), packed with zlib, LZ4 or xz,
 /// or not.
 class VtkDocument {
  public:
@@ -29,6 +42,10 @@ class VtkDocument {
   [[nodiscard]] std::uint64_t number(pugi::xml_node node, const char* attribute,
                                      std::optional<std::uint64_t> fallback = {}) const;
   [[nodiscard]] const std::string& file() const { return source_.name(); }
+  [[nodiscard]] const VtkEncoding& encoding() const { return encoding_; }
+  /// Returns where the content of an array begins.  REQUIRES: array is a DataArray of the document,
+  /// whose kind leaves contents.
+  [[nodiscard]] VtkContent content_of(pugi::xml_node array) const;
   /// Return the `count` numbers of an array.  REQUIRES: array is a DataArray of the document.
   [[nodiscard]] std::vector<std::uint64_t> integers(pugi::xml_node array, std::uint64_t count);
   [[nodiscard]] std::vector<double> reals(pugi::xml_node array, std::uint64_t count);
@@ -37,7 +54,8 @@ class VtkDocument {
   [[nodiscard]] std::vector<std::string> strings(pugi::xml_node array);
 
  private:
-  void find_appended(std::string& head);
+  void find_appended(VtkHead& head);
+  [[nodiscard]] std::uint64_t appended_place(pugi::xml_node array, const ArrayName& name) const;
   void parse(std::string head);
   [[nodiscard]] std::unique_ptr<ByteStream> stream_of(pugi::xml_node array, const ArrayName& name);
   [[nodiscard]] std::vector<std::byte> bytes_of(pugi::xml_node array, NumberType type,

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Volumes: files of each format, and metadata and chunks of stores.
 #include "io/file/source/inflated_source.h"
+#include "io/volume/freesurfer/open_mgh.h"
 #include "io/volume/metaimage/open_metaimage.h"
 #include "io/volume/n5/open_n5.h"
 #include "io/volume/nifti/open_nifti.h"
@@ -11,6 +12,7 @@
 #include "io/volume/precomputed/open_precomputed.h"
 #include "io/volume/raw_array.h"
 #include "io/volume/tiff/open_tiff.h"
+#include "io/volume/vti/open_vti.h"
 #include "io/volume/zarr/open_zarr.h"
 #include "tests/fuzz/all_targets.h"
 #include "tests/fuzz/byte_file.h"
@@ -37,6 +39,13 @@ template <OpenStore open>
 void folder(Bytes bytes) {
   const FileTree files(bytes);
   ends_well([&] { look_at(*open(files.path(), {.cache_bytes = 1 << 20})); });
+}
+
+/// A header a.hdr and voxels a.img.
+void nifti_pair(Bytes bytes) {
+  const FileTree files(bytes);
+  ends_well([&] { look_at(*io::open_nifti(io::open_bytes(files.path() / "a.hdr"), kPlain)); });
+  ends_well([&] { look_at(*io::open_nifti(io::open_bytes(files.path() / "a.img"), kPlain)); });
 }
 
 /// The reader opens files itself.
@@ -78,12 +87,16 @@ std::vector<Target> volume_targets() {
   return {{"npy", file<io::open_npy>},
           {"nrrd", file<io::open_nrrd>},
           {"nifti", file<io::open_nifti>},
+          {"nifti_pair", nifti_pair},
+          {"mgh", file<io::open_mgh>},
           {"metaimage", file<io::open_metaimage>},
           {"tiff", file<io::open_tiff>},
+          {"vti", file<io::open_vti>},
           {"png", png},
           {"raw", raw},
           {"gzip", gzip},
           {"zarr", folder<io::open_zarr>},
+          {"zarr_zip", file<io::open_zarr_zip>},
           {"n5", folder<io::open_n5>},
           {"precomputed", folder<io::open_precomputed>}};
 }

@@ -20,6 +20,7 @@ namespace mw::io {
 enum class DeflateFraming {
   kGzipChain,   ///< gzip members, one after the other
   kZlibOrGzip,  ///< one stream of either kind
+  kBare,        ///< one stream without a header and a checksum, as in ZIP archives
 };
 
 /// Where deflated bytes are.

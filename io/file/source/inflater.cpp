@@ -18,6 +18,7 @@ constexpr std::size_t kChunkBytes = 1 << 18;
 /// Returns zlib's "window bits", which give the largest window and the framing.
 int window_bits(DeflateFraming framing) {
   constexpr int kWindow = 15;
+  if (framing == DeflateFraming::kBare) return -kWindow;
   return kWindow + (framing == DeflateFraming::kGzipChain ? 16 : 32);
 }
 

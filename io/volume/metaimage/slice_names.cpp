@@ -7,54 +7,16 @@
 
 #include "io/file/errors.h"
 #include "io/file/text_numbers.h"
+#include "io/volume/numbered_name.h"
 
 namespace mw::io {
 namespace {
 
 constexpr const char* kField = "MetaImage field 'ElementDataFile'";
-constexpr std::int64_t kMaxWidth = 32;
-
-/// A pattern of names, such as "img" "%03d" ".raw".
-struct Pattern {
-  std::string_view before;
-  std::int64_t width = 0;
-  bool zeros = false;
-  std::string_view behind;
-};
-
-Pattern parse_pattern(std::string_view word, std::string_view file) {
-  const std::size_t mark = word.find('%');
-  const std::size_t end = word.find_first_of("diu", mark);
-  const auto fail = [&] {
-    fail_input(file, kField, text("'", word, "' is no pattern with one %d"),
-               "give it as in slice%03d.raw");
-  };
-  if (mark == std::string_view::npos || end == std::string_view::npos) fail();
-  std::string_view width = word.substr(mark + 1, end - mark - 1);
-  Pattern pattern{.before = word.substr(0, mark),
-                  .zeros = width.starts_with('0'),
-                  .behind = word.substr(end + 1)};
-  if (!width.empty()) {
-    const auto number = parse_integer(width);
-    if (!number || *number < 0 || *number > kMaxWidth) fail();
-    pattern.width = *number;
-  }
-  if (pattern.behind.find('%') != std::string_view::npos) fail();
-  return pattern;
-}
-
-std::string name_of(const Pattern& pattern, std::int64_t number) {
-  std::string digits = std::to_string(number);
-  const auto width = static_cast<std::size_t>(pattern.width);
-  if (digits.size() < width) {
-    digits.insert(0, width - digits.size(), pattern.zeros ? '0' : ' ');
-  }
-  return text(pattern.before, digits, pattern.behind);
-}
 
 std::vector<std::string> names_of_pattern(const std::vector<std::string_view>& words,
                                           std::int64_t count, std::string_view file) {
-  const Pattern pattern = parse_pattern(words[0], file);
+  const NumberedName pattern(words[0], file, kField);
   std::vector<std::int64_t> numbers{1, 0, 1};  // first, last, step
   for (std::size_t i = 1; i < words.size() && i < 4; ++i) {
     const auto number = parse_integer(words[i]);
@@ -73,7 +35,7 @@ std::vector<std::string> names_of_pattern(const std::vector<std::string_view>& w
   }
   std::vector<std::string> names;
   for (std::int64_t i = 0; i < count; ++i) {
-    names.push_back(name_of(pattern, numbers[0] + i * numbers[2]));
+    names.push_back(pattern.with(numbers[0] + i * numbers[2]));
   }
   return names;
 }

@@ -78,18 +78,6 @@ std::optional<View> detect(std::span<const std::byte> bytes) {
   return std::nullopt;
 }
 
-void check_magic(const View& view, std::string_view file) {
-  const std::string_view magic = view.magic();
-  const std::string_view version = view.fields().version == 1 ? "1" : "2";
-  if (magic == text("ni", version)) {
-    fail_input(file, "magic", "header and voxels are in two files (.hdr and .img)",
-               "convert to a single .nii");
-  }
-  if (magic != text("n+", version)) {
-    fail_input(file, "magic", text("not 'n+", version, "'"), "convert to NIfTI-1 or NIfTI-2");
-  }
-}
-
 constexpr std::int64_t kMaxVolumes = 32767;
 
 VoxelType parse_datatype(int code, std::string_view file) {
@@ -150,9 +138,41 @@ VoxelScaling parse_scaling(const View& view, std::string_view file) {
              "save the labels with slope 1 and intercept 0");
 }
 
-std::uint64_t parse_vox_offset(const View& view, std::string_view file) {
+/// Says how voxels of Analyze 7.5 are meshed where someone knows how they lie.
+std::string way_out_of_analyze(const View& view, std::string_view file) {
+  std::string out =
+      "convert it to NIfTI with the program that wrote it, which knows how it turns images";
+  try {
+    std::int64_t volumes = 1;
+    const Index3 n = parse_dim(view, volumes, file);
+    const VoxelType type = parse_datatype(view.int16(view.fields().datatype), file);
+    out += text(", or mesh the bare voxels of the .img with --shape ", n.x, ",", n.y, ",", n.z,
+                " --dtype ", name(type), view.order() == ByteOrder::kBig ? "be" : "",
+                " and --spacing");
+  } catch (const Error&) {
+    // The header does not even tell the shape.
+  }
+  return out;
+}
+
+/// Returns whether the voxels are in a file of their own.
+bool parse_magic(const View& view, std::string_view file) {
+  const std::string_view magic = view.magic();
+  const int version = view.fields().version;
+  if (magic == text("ni", version)) return true;
+  if (magic == text("n+", version)) return false;
+  if (version == 1) {
+    fail_input(
+        file, "magic",
+        "neither 'n+1' nor 'ni1' of NIfTI: Analyze 7.5 does not say where left and right are",
+        way_out_of_analyze(view, file));
+  }
+  fail_input(file, "magic", "neither 'n+2' nor 'ni2'", "convert to NIfTI-1 or NIfTI-2");
+}
+
+std::uint64_t parse_vox_offset(const View& view, bool is_pair, std::string_view file) {
   const double offset = view.vox_offset();
-  const double min = view.fields().version == 1 ? 352 : 544;
+  const double min = is_pair ? 0 : view.fields().version == 1 ? 352 : 544;
   if (!(offset >= min && offset < 0x1p53) || offset != std::floor(offset)) {
     fail_input(file, "vox_offset", text(offset, " is not a whole number of at least ", min),
                "the header is damaged");
@@ -294,8 +314,9 @@ NiftiHeader parse_nifti_header(std::span<const std::byte> bytes, std::string_vie
                text("truncated: it needs ", needed, " bytes, the file holds ", bytes.size()),
                "get a whole copy of the file");
   }
-  check_magic(*view, file);
+  const bool is_pair = parse_magic(*view, file);
   NiftiHeader header{.version = view->fields().version,
+                     .is_pair = is_pair,
                      .order = view->order(),
                      .shape = {},
                      .scaling = parse_scaling(*view, file),
@@ -304,7 +325,7 @@ NiftiHeader parse_nifti_header(std::span<const std::byte> bytes, std::string_vie
   parse_space(*view, header, form);
   header.type = parse_datatype(view->int16(view->fields().datatype), file);
   header.shape = parse_dim(*view, header.masks, file);
-  header.data_offset = parse_vox_offset(*view, file);
+  header.data_offset = parse_vox_offset(*view, is_pair, file);
   return header;
 }
 

@@ -12,10 +12,8 @@
 #include "io/file/errors.h"
 #include "io/file/text_numbers.h"
 #include "io/names/header_names.h"
+#include "io/volume/array_series.h"
 #include "io/volume/checks.h"
-#include "io/volume/masks/open_masks.h"
-#include "io/volume/number_volume.h"
-#include "io/volume/raw_array.h"
 
 namespace mw::io {
 namespace {
@@ -42,37 +40,6 @@ std::string read_text(const ByteSource& source, std::uint64_t at, std::uint64_t 
   source.read_at(at, std::as_writable_bytes(std::span(out)));
   out.resize(std::min(out.find('\0'), out.size()));
   return out;
-}
-
-/// Returns one of the volumes that lie one behind the other.
-std::shared_ptr<const LabelVolume> part(const std::shared_ptr<const ByteSource>& source,
-                                        const VolumeInfo& info, const NiftiHeader& header,
-                                        std::int64_t i) {
-  return std::make_shared<RawArrayVolume>(
-      source, info,
-      ArrayLayout{
-          .offset = header.data_offset + static_cast<std::uint64_t>(i) * payload_bytes(info),
-          .order = header.order,
-          .scaling = header.scaling});
-}
-
-std::unique_ptr<LabelVolume> open_stack(const std::shared_ptr<const ByteSource>& source,
-                                        const VolumeInfo& info, const NiftiHeader& header) {
-  std::vector<std::shared_ptr<const LabelVolume>> parts;
-  for (std::int64_t i = 0; i < header.masks; ++i) parts.push_back(part(source, info, header, i));
-  return std::make_unique<NumberStack>(std::move(parts));
-}
-
-/// Merges masks that lie one behind the other to labels.
-std::unique_ptr<LabelVolume> open_masks(const std::shared_ptr<const ByteSource>& source,
-                                        const VolumeInfo& info, const NiftiHeader& header,
-                                        Overlap overlap) {
-  MaskMerger merger(info, overlap, source->name());
-  for (std::int64_t i = 0; i < header.masks; ++i) {
-    const std::shared_ptr<const LabelVolume> volume = part(source, info, header, i);
-    merger.add({.volume = volume.get(), .file = text(source->name(), ", volume ", i)});
-  }
-  return merger.finish();
 }
 
 void check_rotation(const NiftiHeader& header, std::string_view file) {
@@ -126,7 +93,9 @@ std::string note_of_forms(const NiftiHeader& header, std::string_view file) {
 
 LabelNames read_nifti_names(const ByteSource& source, const NiftiHeader& header) {
   const std::uint64_t first = header.version == 1 ? 348 : 540;
-  const std::uint64_t end = source.size_within(header.data_offset);
+  // Those of a pair are all that is behind the header.
+  const std::uint64_t end =
+      source.size_within(header.is_pair ? 2 * kMaxExtensionBytes : header.data_offset);
   if (end < first + 4) return {};
   std::array<std::byte, 4> flags{};
   source.read_at(first, flags);
@@ -147,9 +116,10 @@ LabelNames read_nifti_names(const ByteSource& source, const NiftiHeader& header)
 
 std::unique_ptr<LabelVolume> open_nifti(std::unique_ptr<ByteSource> source,
                                         const OpenOptions& options) {
-  const std::string& file = source->name();
+  NiftiFiles files = nifti_files(std::move(source));
+  const std::string file = files.header->name();
   const NiftiHeader header =
-      parse_nifti_header(read_prefix(*source, kNiftiHeaderBytes), file, options.form);
+      parse_nifti_header(read_prefix(*files.header, kNiftiHeaderBytes), file, options.form);
   VolumeInfo info{.shape = header.shape, .type = header.type, .format = "nifti"};
   if (options.frame != FrameChoice::kVoxel) check_rotation(header, file);
   info.space = placed(file, header.space, options);
@@ -160,17 +130,12 @@ std::unique_ptr<LabelVolume> open_nifti(std::unique_ptr<ByteSource> source,
       options.form == FormChoice::kFile && options.frame != FrameChoice::kVoxel;
   if (header.qform && tells_forms) info.note = note_of_forms(header, file);
   info.scaled = !header.scaling.is_identity();
-  info.names = read_nifti_names(*source, header);
-  const auto masks = static_cast<std::uint64_t>(header.masks);
-  check_payload(*source, info, header.data_offset, BytesBehind::kIgnored, masks);
-  if (masks > 1 && options.values != VoxelValues::kLabels) {
-    return open_stack(std::move(source), info, header);
-  }
-  if (masks > 1) return open_masks(std::move(source), info, header, options.overlap);
-  refuse_overlap_rule(file, options);
-  return std::make_unique<RawArrayVolume>(
-      std::move(source), std::move(info),
-      ArrayLayout{.offset = header.data_offset, .order = header.order, .scaling = header.scaling});
+  info.names = read_nifti_names(*files.header, header);
+  if (header.is_pair && files.image == nullptr) files.image = open_nifti_image(file);
+  return open_series(
+      std::move(header.is_pair ? files.image : files.header), std::move(info),
+      {.offset = header.data_offset, .order = header.order, .scaling = header.scaling},
+      header.masks, options);
 }
 
 }  // namespace mw::io

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The mwmesh authors
 // SPDX-License-Identifier: Apache-2.0
-// Opens a single-file NIfTI-1 or NIfTI-2 volume, with the names that it has for labels.
+// Opens a NIfTI-1 or NIfTI-2 volume in one file or two, with the names that it has for labels.
 // Format: https://nifti.nimh.nih.gov/nifti-1 and https://nifti.nimh.nih.gov/nifti-2
 #pragma once
 
@@ -24,6 +24,7 @@ inline constexpr std::size_t kNiftiHeaderBytes = 540;
 
 struct NiftiHeader {
   int version = 1;
+  bool is_pair = false;  ///< the voxels are in a file of their own, .img beside .hdr
   ByteOrder order = ByteOrder::kLittle;
   VoxelType type = VoxelType::kU8;
   Index3 shape;
@@ -56,9 +57,22 @@ struct NiftiHeader {
 /// ERRORS: mw::Error(kInput) when the file cannot be read.
 [[nodiscard]] LabelNames read_nifti_names(const ByteSource& source, const NiftiHeader& header);
 
-/// Several volumes in a file are masks (io/volume/masks/open_masks.h), or numbers where
-/// options.values asks for them.  Bytes behind the voxels are ignored.
-/// ERRORS: mw::Error(kInput) naming file and field.
+/// The files of a volume.
+struct NiftiFiles {
+  std::unique_ptr<ByteSource> header;
+  std::unique_ptr<ByteSource> image;  ///< null where it is not open yet, or not apart
+};
+
+/// Returns the file that was opened, and for an .img without a header in it the .hdr beside it.
+/// ERRORS: mw::Error(kInput) naming the .img where there is none.
+[[nodiscard]] NiftiFiles nifti_files(std::unique_ptr<ByteSource> source);
+
+/// Opens the .img, gzipped or not, beside a .hdr.  ERRORS: mw::Error(kInput) where there is none.
+[[nodiscard]] std::unique_ptr<ByteSource> open_nifti_image(const std::string& header);
+
+/// Of two files either may be opened.  Several volumes in a file are masks
+/// (io/volume/masks/open_masks.h), or numbers where options.values asks for them.  Bytes behind the
+/// voxels are ignored. ERRORS: mw::Error(kInput) naming file and field.
 [[nodiscard]] std::unique_ptr<LabelVolume> open_nifti(std::unique_ptr<ByteSource> source,
                                                       const OpenOptions& options);
 

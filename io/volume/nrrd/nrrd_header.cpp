@@ -63,6 +63,7 @@ FieldMap split_fields(std::string_view head, std::size_t& bytes, NrrdKeys& keys,
     }
     const std::string key = field_key(line.substr(0, colon));
     fields[key == "centerings" ? "centers" : key] = std::string(trim(line.substr(colon + 1)));
+    if (key == "datafile" && is_nrrd_list(fields[key])) break;  // all that follows is the list
   }
   if (at >= kMaxNrrdHeaderBytes) fail_input(file, "NRRD header", "its end was not found");
   bytes = at;
@@ -203,9 +204,13 @@ std::vector<std::int64_t> spatial_sizes(const FieldMap& fields, NrrdHeader& head
 /// The most axes of a NRRD file, by the format's definition.
 constexpr std::size_t kMaxNrrdAxes = 16;
 
+std::vector<std::int64_t> numbers_of_sizes(const FieldMap& fields, std::string_view file) {
+  return parse_numbers<std::int64_t>(required(fields, "sizes", file), "sizes", file);
+}
+
 /// Returns the shape, and finds layers.
 Index3 parse_sizes(const FieldMap& fields, NrrdHeader& header, std::string_view file) {
-  const auto all = parse_numbers<std::int64_t>(required(fields, "sizes", file), "sizes", file);
+  const std::vector<std::int64_t> all = numbers_of_sizes(fields, file);
   const auto rank =
       parse_numbers<std::int64_t>(required(fields, "dimension", file), "dimension", file);
   if (all.size() > kMaxNrrdAxes) {
@@ -238,14 +243,13 @@ ByteOrder parse_endian(const FieldMap& fields, VoxelType type, std::string_view 
   fail_input(file, "NRRD field 'endian'", text(value, " is neither little nor big"));
 }
 
-bool parse_encoding(const FieldMap& fields, std::string_view file) {
+NrrdEncoding parse_encoding(const FieldMap& fields, std::string_view file) {
   const std::string value = lower_case(required(fields, "encoding", file));
-  if (value == "gzip" || value == "gz") return true;
-  if (value == "raw") return false;
-  const bool is_text = value == "ascii" || value == "text" || value == "txt" || value == "hex";
-  fail_input(file, text("NRRD field 'encoding' = ", value),
-             is_text ? "voxels written as text are not read" : "unsupported",
-             "save as raw or gzip");
+  if (value == "gzip" || value == "gz") return NrrdEncoding::kGzip;
+  if (value == "raw") return NrrdEncoding::kRaw;
+  if (value == "ascii" || value == "text" || value == "txt") return NrrdEncoding::kText;
+  fail_input(file, text("NRRD field 'encoding' = ", value), "unsupported",
+             "save as raw, gzip or text");
 }
 
 void parse_skips(const FieldMap& fields, NrrdHeader& header, std::string_view file) {
@@ -254,23 +258,13 @@ void parse_skips(const FieldMap& fields, NrrdHeader& header, std::string_view fi
     if (found == fields.end()) continue;
     const auto skip = parse_numbers<std::int64_t>(found->second, key, file);
     const bool is_line = found->first == "lineskip";
-    const std::int64_t min = is_line || header.gzip ? 0 : -1;
+    const std::int64_t min = is_line || header.encoding != NrrdEncoding::kRaw ? 0 : -1;
     if (skip.size() != 1 || skip[0] < min || (is_line && skip[0] != 0)) {
       fail_input(file, text("NRRD field '", is_line ? "line skip" : "byte skip", "'"),
                  text(found->second, " is not supported"), "save the file without skips");
     }
     if (!is_line) header.byte_skip = skip[0];
   }
-}
-
-void parse_data_file(const FieldMap& fields, NrrdHeader& header, std::string_view file) {
-  const auto found = fields.find("datafile");
-  if (found == fields.end()) return;
-  if (found->second.starts_with("LIST") || found->second.find('%') != std::string::npos) {
-    fail_input(file, "NRRD field 'data file'", "voxels in many files are not supported",
-               "save as one file");
-  }
-  header.data_file = found->second;
 }
 
 Vector3 three_numbers(const std::string& value, std::string_view field, std::string_view file) {
@@ -446,10 +440,16 @@ NrrdHeader parse_nrrd_header(std::string_view head, std::string_view file) {
   header.type = parse_type(required(fields, "type", file), file);
   header.shape = parse_sizes(fields, header, file);
   check_layers(header, file);
-  header.gzip = parse_encoding(fields, file);  // text has no byte order
-  header.order = parse_endian(fields, header.type, file);
+  header.encoding = parse_encoding(fields, file);
+  // Text has no byte order, and becomes bytes with the least significant one first.
+  if (header.encoding != NrrdEncoding::kText) {
+    header.order = parse_endian(fields, header.type, file);
+  }
   parse_skips(fields, header, file);
-  parse_data_file(fields, header, file);
+  if (const auto found = fields.find("datafile"); found != fields.end()) {
+    header.data_files = nrrd_data_files(found->second, head.substr(header.bytes),
+                                        numbers_of_sizes(fields, file), file);
+  }
   header.space = parse_space(fields, header.shape, file);
   parse_unit(fields, header);
   return header;

@@ -7,8 +7,6 @@
 #include <set>
 
 #include "io/file/errors.h"
-#include "io/file/source/file_source.h"
-#include "io/file/source/inflated_source.h"
 #include "io/volume/checks.h"
 #include "io/volume/masks/open_masks.h"
 #include "io/volume/number_volume.h"
@@ -21,14 +19,6 @@ NrrdHeader read_header(const ByteSource& source) {
   std::string head(source.size_within(kMaxNrrdHeaderBytes), '\0');
   source.read_at(0, std::as_writable_bytes(std::span(head)));
   return parse_nrrd_header(head, source.name());
-}
-
-/// Returns the source that holds the voxels, still packed when the encoding is gzip.
-std::unique_ptr<ByteSource> data_source(std::unique_ptr<ByteSource> source,
-                                        const NrrdHeader& header, bool is_trusted) {
-  if (header.data_file.empty()) return source;
-  return std::make_unique<FileSource>(
-      named_beside(source->name(), "NRRD field 'data file'", header.data_file, is_trusted));
 }
 
 ArrayLayout layout_of(const NrrdHeader& header, const VolumeInfo& info, std::uint64_t offset,
@@ -150,21 +140,11 @@ std::unique_ptr<LabelVolume> open_nrrd(std::unique_ptr<ByteSource> source,
                   .format = "nrrd"};
   info.names = names_of(header.segments);
 
-  std::unique_ptr<ByteSource> data = data_source(std::move(source), header, options.trust_paths);
-  std::uint64_t offset = header.data_file.empty() ? header.bytes : 0;
-  if (header.gzip) {
-    data = std::make_unique<InflatedSource>(std::move(data), offset);
-    offset = 0;
-  }
   const bool is_stack = header.layers > 1 && options.values != VoxelValues::kLabels;
   if (header.layers > 1 && !is_stack) check_segments(header, file);
   const auto layers = static_cast<std::uint64_t>(header.layers);
   const std::uint64_t needed = saturating_product(payload_bytes(info), layers);
-  if (header.byte_skip > 0) offset += static_cast<std::uint64_t>(header.byte_skip);
-  if (header.byte_skip == -1) {
-    const std::uint64_t size = data->size();
-    if (size >= offset + needed) offset = size - needed;
-  }
+  auto [data, offset] = find_nrrd_voxels(std::move(source), header, needed, options.trust_paths);
   check_payload(*data, info, offset, BytesBehind::kIgnored, layers);
   if (is_stack) return open_numbers(std::move(data), info, offset, header);
   if (header.layers > 1) return open_layers(std::move(data), info, offset, header, options.overlap);

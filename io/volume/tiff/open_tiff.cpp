@@ -59,9 +59,10 @@ std::unique_ptr<LabelVolume> open_one_page(std::unique_ptr<ByteSource> source,
                                            std::int64_t slices) {
   const TiffStack::Lease lease(stack, 0);
   const std::uint64_t offset = plain_pixels((*lease).get());
-  if (offset == 0) {
+  if (offset == 0 || stack.first().has_bits) {
     fail_input(source->name(), "ImageJ images",
-               text("the stack claims ", slices, " slices, the file has one page that is packed"),
+               text("the stack claims ", slices,
+                    " slices, the file has one page that is packed, or of bits"),
                "save the stack again");
   }
   const Index3 shape =

@@ -27,7 +27,7 @@ void unpack(const TiffHandle& handle, const TiffPage& page, Index3 block, std::i
   const std::int64_t across = (page.width + page.block_width - 1) / page.block_width;
   const auto number = static_cast<std::uint32_t>(block.y * across + block.x);
   if (TIFFGetStrileByteCount(tiff, number) == 0 && TIFFGetStrileOffset(tiff, number) == 0) {
-    std::fill(out.begin(), out.end(), std::byte{0});
+    std::fill(out.begin(), out.end(), page.zero_is_white ? std::byte{0xff} : std::byte{0});
     return;
   }
   const std::uint64_t row_bytes =
@@ -38,6 +38,19 @@ void unpack(const TiffHandle& handle, const TiffPage& page, Index3 block, std::i
                                   : TIFFReadEncodedStrip(tiff, number, out.data(), needed);
   if (got == needed) return;
   handle.fail(text(page.tiled ? "tile " : "strip ", number), "cannot be unpacked");
+}
+
+/// Makes a byte of each bit: 1 where it is white.
+void expand_bits(const TiffPage& page, std::span<const std::byte> bits, std::span<std::byte> out) {
+  const auto width = static_cast<std::size_t>(page.block_width);
+  const std::size_t row_bytes = (width + 7) / 8;
+  for (std::size_t y = 0; y < static_cast<std::size_t>(page.block_height); ++y) {
+    for (std::size_t x = 0; x < width; ++x) {
+      const auto byte = std::to_integer<unsigned>(bits[y * row_bytes + x / 8]);
+      const bool is_set = (byte >> (7 - x % 8) & 1U) != 0;
+      out[y * width + x] = is_set != page.zero_is_white ? std::byte{1} : std::byte{0};
+    }
+  }
 }
 
 void copy_rows(const Pixels& from, const Pixels& to, std::size_t pixel) {
@@ -54,7 +67,7 @@ void copy_rows(const Pixels& from, const Pixels& to, std::size_t pixel) {
 Index3 TiffChunks::chunk_shape() const {
   const TiffPage& page = stack_->first();
   if (page.tiled) return {page.block_width, page.block_height, 1};
-  const auto strip = static_cast<std::int64_t>(page.block_bytes());
+  const auto strip = static_cast<std::int64_t>(page.block_pixel_bytes());
   const std::int64_t strips = std::max<std::int64_t>(1, (kMinChunkBytes + strip - 1) / strip);
   return {page.width, std::min(page.height, strips * page.block_height), 1};
 }
@@ -72,12 +85,16 @@ std::optional<Chunk> TiffChunks::load(Index3 chunk, const Box3& box, ChunkPlace 
   Chunk out{.strides = {1, flat.shape().x, 0}};
   out.bytes.resize(static_cast<std::size_t>(flat.voxels()) * pixel);
   std::vector<std::byte> unpacked(static_cast<std::size_t>(page.block_bytes()));
+  std::vector<std::byte> expanded(page.has_bits ? static_cast<std::size_t>(page.block_pixel_bytes())
+                                                : 0);
   const Index3 size{page.block_width, page.block_height, 1};
   for (std::int64_t y = flat.lo.y / size.y; y * size.y < flat.hi.y; ++y) {
     for (std::int64_t x = flat.lo.x / size.x; x * size.x < flat.hi.x; ++x) {
       const Index3 lo{x * size.x, y * size.y, 0};
       unpack(*lease, page, {x, y, 0}, std::min(size.y, page.height - lo.y), unpacked);
-      copy_rows({{lo, lo + size}, unpacked.data()}, {flat, out.bytes.data()}, pixel);
+      if (page.has_bits) expand_bits(page, unpacked, expanded);
+      std::byte* pixels = page.has_bits ? expanded.data() : unpacked.data();
+      copy_rows({{lo, lo + size}, pixels}, {flat, out.bytes.data()}, pixel);
     }
   }
   return out;

@@ -50,9 +50,20 @@ VoxelType type_of(const TiffHandle& handle, const std::string& where) {
       format == SAMPLEFORMAT_UINT || format == SAMPLEFORMAT_INT || format == SAMPLEFORMAT_VOID;
   if (!sized || (!floating && !integer)) {
     fail_input(handle.file(), where, text("samples of ", bits, " bits, format ", format),
-               "use integers of 8 to 64 bits, or whole numbers in floats of 32 or 64");
+               "use integers of 8 to 64 bits, bits, or whole numbers in floats of 32 or 64");
   }
   return floating ? float_type(bits / 8) : integer_type(bits / 8, format == SAMPLEFORMAT_INT);
+}
+
+/// Finds the type of pixels.  Bits become bytes where they are read.
+void find_type(const TiffHandle& handle, TiffPage& page, const std::string& where) {
+  page.has_bits = tag<std::uint16_t>(handle, TIFFTAG_BITSPERSAMPLE, 1) == 1;
+  if (!page.has_bits) {
+    page.type = type_of(handle, where);
+    return;
+  }
+  page.zero_is_white = tag<std::uint16_t>(handle, TIFFTAG_PHOTOMETRIC, PHOTOMETRIC_MINISBLACK) ==
+                       PHOTOMETRIC_MINISWHITE;
 }
 
 void find_blocks(const TiffHandle& handle, TiffPage& page) {
@@ -76,23 +87,29 @@ void check_blocks(const TiffHandle& handle, const TiffPage& page, const std::str
   }
   const auto file_bytes =
       static_cast<std::uint64_t>(TIFFGetSizeProc(handle.get())(TIFFClientdata(handle.get())));
-  if (page.block_bytes() > kMaxBlockBytes || page.block_bytes() / kMaxRatio > file_bytes) {
-    fail_input(handle.file(), where,
-               text("one strip or tile unpacks to ", page.block_bytes(), " bytes, the file has ",
-                    file_bytes),
-               "the file is damaged; else save in smaller strips or tiles");
+  const std::uint64_t block_bytes = page.block_pixel_bytes();
+  if (block_bytes > kMaxBlockBytes || page.block_bytes() / kMaxRatio > file_bytes) {
+    fail_input(
+        handle.file(), where,
+        text("one strip or tile unpacks to ", block_bytes, " bytes, the file has ", file_bytes),
+        "the file is damaged; else save in smaller strips or tiles");
   }
 }
 
 }  // namespace
 
 std::uint64_t TiffPage::block_bytes() const {
+  if (!has_bits) return block_pixel_bytes();
+  return static_cast<std::uint64_t>((block_width + 7) / 8 * block_height);
+}
+
+std::uint64_t TiffPage::block_pixel_bytes() const {
   return static_cast<std::uint64_t>(block_width * block_height) *
          static_cast<std::uint64_t>(byte_size(type));
 }
 
 std::string TiffPage::words() const {
-  return text(width, " x ", height, " pixels of ", name(type));
+  return text(width, " x ", height, " pixels of ", has_bits ? "1 bit" : name(type));
 }
 
 TiffPage read_tiff_page(const TiffHandle& handle, const std::string& where) {
@@ -106,7 +123,7 @@ TiffPage read_tiff_page(const TiffHandle& handle, const std::string& where) {
   page.width = shape.x;
   page.height = shape.y;
   refuse_no_labels(handle, where);
-  page.type = type_of(handle, where);
+  find_type(handle, page, where);
   find_blocks(handle, page);
   check_blocks(handle, page, where);
   return page;

@@ -87,7 +87,7 @@ void TiffStack::add_page(const TiffHandle& handle, const std::string& position) 
     fail_input(handle.file(), position, text(page.words(), ", the first slice is ", first_.words()),
                "save all slices of one size and type");
   }
-  largest_block_ = std::max(largest_block_, page.block_bytes());
+  largest_block_ = std::max(largest_block_, page.block_pixel_bytes());
   positions_.push_back(TIFFCurrentDirOffset(handle.get()));
 }
 

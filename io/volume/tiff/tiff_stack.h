@@ -61,13 +61,19 @@ struct TiffPage {
   std::int64_t block_height = 0;
   bool tiled = false;
   bool smaller_copy = false;  ///< a thumbnail, a level of a pyramid or a mask: no slice
+  /// Pixels are bits, eight in a byte, each row in bytes of its own.  White ones are label 1.
+  bool has_bits = false;
+  bool zero_is_white = false;  ///< of bits alone
 
   /// Returns the bytes that a block unpacks to; the last strip of a page is shorter.
   [[nodiscard]] std::uint64_t block_bytes() const;
+  /// Returns the bytes of its pixels, once bits have become bytes.
+  [[nodiscard]] std::uint64_t block_pixel_bytes() const;
   /// Returns the page in words, such as "5 x 4 pixels of u8".
   [[nodiscard]] std::string words() const;
   [[nodiscard]] bool is_like(const TiffPage& other) const {
-    return width == other.width && height == other.height && type == other.type;
+    return width == other.width && height == other.height && type == other.type &&
+           has_bits == other.has_bits;
   }
 };
 
@@ -98,7 +104,7 @@ class TiffStack {
   [[nodiscard]] std::int64_t slices() const { return static_cast<std::int64_t>(positions_.size()); }
   /// Returns the first page, which all others are like, except for their blocks.
   [[nodiscard]] const TiffPage& first() const { return first_; }
-  /// Returns the largest number of bytes of a block of any slice.
+  /// Returns the largest number of bytes of the pixels of a block of any slice.
   [[nodiscard]] std::uint64_t largest_block() const { return largest_block_; }
   /// Returns the ImageDescription of the first slice; empty when it has none.
   [[nodiscard]] const std::string& description() const { return description_; }

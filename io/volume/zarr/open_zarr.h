@@ -71,4 +71,13 @@ struct ZarrNode {
 /// no image.  ERRORS: mw::Error(kInput) when its metadata are damaged.
 [[nodiscard]] std::size_t count_zarr_scales(const Place& folder, const OpenOptions& options);
 
+/// Opens a store in a ZIP archive, at its top or in the only folder there, as open_zarr() does.
+/// ERRORS: also mw::Error(kInput) naming an archive that is damaged or holds no store.
+[[nodiscard]] std::unique_ptr<LabelVolume> open_zarr_zip(std::unique_ptr<ByteSource> archive,
+                                                         const OpenOptions& options);
+
+/// Returns what count_zarr_scales() does.  ERRORS: also those of open_zarr_zip().
+[[nodiscard]] std::size_t count_zarr_zip_scales(std::unique_ptr<ByteSource> archive,
+                                                const OpenOptions& options);
+
 }  // namespace mw::io

@@ -1,7 +1,8 @@
 #!/usr/bin/env python3
 # SPDX-FileCopyrightText: The mwmesh authors
 # SPDX-License-Identifier: Apache-2.0
-"""Meshes of NIfTI volumes lie where nibabel says: all axis orders and flips, rotations, both forms.
+"""Meshes of NIfTI volumes, and of FreeSurfer's, lie where nibabel says: all axis orders and flips,
+rotations, both forms.
 
 Every mesh is, vertex by vertex, the mesh of the bare array moved by nibabel's affine; its tets are
 positive in the world; and verify accepts it there and nowhere else.
@@ -69,10 +70,10 @@ class Places(unittest.TestCase):
         run("mesh", "array.npy", "--spacing", ",".join(map(str, SPACING)), "-o", "array.mesh")
         cls.vertices, cls.tets, cls.tet_labels = read_medit("array.mesh")
 
-    def check(self, image, verified=True):
-        nibabel.save(image, "turned.nii")
-        matrix = nibabel.load("turned.nii").affine
-        run("mesh", "turned.nii", "-o", "turned.mesh")
+    def check(self, image, verified=True, name="turned.nii"):
+        nibabel.save(image, name)
+        matrix = nibabel.load(name).affine
+        run("mesh", name, "-o", "turned.mesh")
         vertices, tets, labels = read_medit("turned.mesh")
         centres = self.vertices / SPACING - 0.5
         expected = centres @ matrix[:3, :3].T + matrix[:3, 3]
@@ -83,7 +84,7 @@ class Places(unittest.TestCase):
         edges = corners[:, 1:] - corners[:, :1]
         self.assertGreater(numpy.linalg.det(edges).min(), 0)
         if verified:
-            run("verify", "turned.nii", "turned.mesh", "--max-distance", "1.5", "--quality-floor", "0.2")
+            run("verify", name, "turned.mesh", "--max-distance", "1.5", "--quality-floor", "0.2")
         return matrix
 
     def test_all_orders_and_flips(self):
@@ -101,6 +102,24 @@ class Places(unittest.TestCase):
             rotation = turn(0, degrees[0]) @ turn(1, degrees[1]) @ turn(2, degrees[2])
             self.check(nibabel.Nifti1Image(self.labels, affine(rotation)))
             self.check(nibabel.Nifti2Image(self.labels, affine(-rotation)))
+
+    def test_freesurfer(self):
+        """The directions and the centre of the volume, also of one that turns and is mirrored."""
+        labels = self.labels.astype(numpy.int32)
+        for order in itertools.permutations(range(3)):
+            rotation = numpy.zeros((3, 3))
+            rotation[list(order), range(3)] = (-1, 1, -1)
+            self.check(nibabel.MGHImage(labels, affine(rotation)), name="turned.mgz")
+        for degrees in (23, -50, 180):
+            rotation = turn(0, degrees) @ turn(2, 40)
+            self.check(nibabel.MGHImage(labels, affine(rotation)), name="turned.mgh")
+            self.check(nibabel.MGHImage(labels, affine(-rotation)), name="turned.mgz")
+
+    def test_pairs(self):
+        for pair in (nibabel.Nifti1Pair, nibabel.Nifti2Pair):
+            rotation = turn(0, 23) @ turn(1, 140)
+            self.check(pair(self.labels, affine(rotation)), name="turned.img")
+            self.check(pair(self.labels, affine(-rotation)), name="turned.img")
 
     def test_qform_alone(self):
         for rotation in (turn(2, 23) @ turn(0, 50), -turn(1, 180), numpy.diag([-1, 1, 1])):

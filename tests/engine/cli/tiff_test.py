@@ -36,6 +36,23 @@ def lzw(plain):
     return int(bits, 2).to_bytes(len(bits) // 8, "big")
 
 
+def bilevel(strips, width, height, photometric, order, packing):
+    """A page of one strip for each of these, with all tags by hand."""
+    content, links = bytearray(b"II*\0" + bytes(4)), 4
+    for strip in strips:
+        at = len(content)
+        content += strip + bytes(len(strip) % 2)
+        content[links:links + 4] = struct.pack("<I", len(content))
+        tags = ((256, width), (257, height), (258, 1), (259, packing), (262, photometric),
+                (266, order), (273, at), (277, 1), (278, height), (279, len(strip)))
+        content += struct.pack("<H", len(tags))
+        for tag, value in tags:
+            content += struct.pack("<HHII", tag, 4, 1, value)
+        links = len(content)
+        content += bytes(4)
+    return bytes(content)
+
+
 def ome(pixels, more=""):
     return ('<?xml version="1.0"?><OME xmlns="http://www.openmicroscopy.org/Schemas/OME/2016-06">'
             '<Image ID="Image:0"><Pixels DimensionOrder="XYZCT" Type="uint8" SizeX="5" SizeY="4" '
@@ -74,6 +91,45 @@ class Tiff(Stores):
             with TiffFile("a.tif", mode="r+b") as file:
                 file.pages[page].tags["Compression"].overwrite(5)
         self.check("a.tif", labels)
+
+    def test_bits_are_1_where_they_are_white(self):
+        for i, width in enumerate((2, 7, 8, 9, 30)):
+            white = self.random.random((3, 11, width)) < 0.4
+            for photometric, bits in (("minisblack", white), ("miniswhite", ~white)):
+                for options in ({"rowsperstrip": 4}, {"rowsperstrip": 11}, {"tile": (16, 16)}):
+                    save("b.tif", bits, photometric=photometric, byteorder="<>"[i % 2],
+                         bigtiff=i > 2, **options)
+                    self.check_bits("b.tif", white)
+        # A strip that is left out is label 0, also where bits of 0 are white.
+        with TiffFile("b.tif", mode="r+b") as file:
+            for tag in ("TileOffsets", "TileByteCounts"):
+                file.pages[1].tags[tag].overwrite((0,) * len(file.pages[1].tags[tag].value))
+        white[1] = False
+        self.check_bits("b.tif", white)
+
+    def test_packed_bits_and_bits_in_the_other_order(self):
+        white = self.random.random((2, 6, 19)) < 0.4
+        rows = numpy.packbits(white, axis=-1)
+        for order, photometric in itertools.product((1, 2), (0, 1)):
+            stored = rows if photometric == 1 else ~rows
+            if order == 2:
+                stored = numpy.packbits(numpy.unpackbits(stored, axis=-1, bitorder="little"),
+                                        axis=-1).reshape(stored.shape)
+            packing, before = (32773, b"\x02") if order == 1 else (1, b"")
+            write("p.tif", bilevel([b"".join(before + row.tobytes() for row in page)
+                                    for page in stored], 19, 6, photometric, order, packing))
+            self.check_bits("p.tif", white)
+
+    def check_bits(self, path, white):
+        facts = self.facts(path)
+        self.expect(facts, shape=white.shape[::-1], type="u8", format="tiff")
+        rows = {row["label"]: row["voxels"] for row in facts["labels"]["per_label"]}
+        self.assertEqual(rows.get(1, 0), white.sum())
+        self.assertEqual(sum(rows.values()), white.size)
+        for _ in range(3):
+            z, y, x = (int(self.random.integers(n)) for n in white.shape)
+            voxel = self.facts(path, "--crop", f"{x},{y},{z},{x + 1},{y + 1},{z + 1}")
+            self.assertEqual(voxels(voxel), [[[int(white[z, y, x])]]])
 
     def test_floats_hold_whole_numbers(self):
         save("a.tif", numpy.array([[[3, 1.5]]], "f4"))

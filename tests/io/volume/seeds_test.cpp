@@ -84,7 +84,8 @@ TEST_P(Seeds, ManyThreadsReadOne) {
 INSTANTIATE_TEST_SUITE_P(All, Seeds,
                          testing::Values(Format{"tiff", ".tif"}, Format{"png", ".png"},
                                          Format{"zarr", ""}, Format{"n5", ""},
-                                         Format{"precomputed", ""}),
+                                         Format{"precomputed", ""}, Format{"mgh", ".mgh"},
+                                         Format{"vti", ".vti"}, Format{"zarr_zip", ".zip"}),
                          [](const auto& of) { return std::string(of.param.name); });
 
 }  // namespace
