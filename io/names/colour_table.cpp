@@ -101,9 +101,17 @@ std::optional<Row> parse_snap_line(std::string_view line) {
   return Row{.name = {*label, std::string(name), colour}};
 }
 
+/// Whether the last word is the class of a tissue, 1 to 9, behind the A of 0 that FreeSurfer 8 has
+/// in some rows of its table.
+bool ends_with_tissue(Words words) {
+  return words.size() == 7 && number_of(words[2]) && words[5] == "0" && words[6].size() == 1 &&
+         words[6][0] >= '1' && words[6][0] <= '9';
+}
+
 /// Parses ID NAME R G B A, ID NAME R G B, ID NAME CODE (of the AAL atlas) or ID NAME.
 std::optional<Row> parse_table_line(std::string_view line) {
-  const std::vector<std::string_view> words = words_of(line);
+  std::vector<std::string_view> words = words_of(line);
+  if (ends_with_tissue(words)) words.pop_back();
   const std::size_t count = words.size();
   const auto label = count < 2 ? std::nullopt : label_of(words[0]);
   if (!label) return std::nullopt;

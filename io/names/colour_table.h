@@ -43,7 +43,8 @@ struct ReadName {
 
 /// Whether a line is one of these:
 ///   IDX R G B A VIS MSH "NAME"   label descriptions of ITK-SNAP; A from 0 to 1
-///   ID NAME R G B A              colour tables of FreeSurfer and Slicer (.ctbl); A may be missing
+///   ID NAME R G B A              colour tables of FreeSurfer and Slicer (.ctbl); A may be missing,
+///                                and FreeSurfer 8 has the class of a tissue behind some
 ///   ID NAME CODE                 tables of the AAL atlas; CODE, a number, is skipped
 ///   ID NAME                      tables without colours
 /// Only with all four numbers may NAME have blanks in it.

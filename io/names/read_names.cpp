@@ -9,6 +9,7 @@
 #include "io/file/source/inflated_source.h"
 #include "io/names/colour_table.h"
 #include "io/names/csv_names.h"
+#include "io/names/json_names.h"
 
 namespace mw::io {
 namespace {
@@ -19,6 +20,11 @@ constexpr std::string_view kByteOrderMark = "\xEF\xBB\xBF";
 /// colour table, whose reader tells what is wrong with it.
 bool is_csv(std::string_view text) {
   return !is_colour_table_line(first_row(text)) && csv_separator(text) != '\0';
+}
+
+LabelNames names_of_table(std::string_view text, std::string_view file) {
+  if (is_json_object(text)) return parse_json_names(text, file);
+  return is_csv(text) ? parse_csv_names(text, file) : parse_colour_table(text, file);
 }
 
 }  // namespace
@@ -33,11 +39,11 @@ LabelNames parse_names(std::string_view text, std::string_view file, std::string
     if (note != nullptr) *note = io::text(file, ": is not in UTF-8, and is read as Latin-1");
     return parse_names(utf8_of_latin1(text), file);
   }
-  LabelNames names = is_csv(text) ? parse_csv_names(text, file) : parse_colour_table(text, file);
+  LabelNames names = names_of_table(text, file);
   if (!names.empty()) return names;
   fail_input(file, {}, "names no label",
-             "give an ITK-SNAP label description, a FreeSurfer or Slicer colour table, or CSV with "
-             "columns id and name");
+             "give an ITK-SNAP label description, a FreeSurfer or Slicer colour table, CSV with "
+             "columns id and name, or nnU-Net's dataset.json");
 }
 
 LabelNames read_names(const std::filesystem::path& path, std::string* note) {

@@ -15,8 +15,8 @@ namespace mw::io {
 inline constexpr std::uint64_t kMaxNamesBytes = 64 << 20;
 
 /// Reads label descriptions of ITK-SNAP and colour tables of FreeSurfer and Slicer
-/// (colour_table.h), or values separated by commas, semicolons or tabs (csv_names.h).  The first
-/// line that is no comment decides which.  The file may be gzipped.
+/// (colour_table.h), values separated by commas, semicolons or tabs (csv_names.h), or objects of
+/// JSON (json_names.h).  The first line that is no comment decides which.  The file may be gzipped.
 /// Text that is not in UTF-8 is read as Latin-1, which `note` then says.
 /// ERRORS: mw::Error(kInput) naming file and line; also for a file without labels, above
 /// kMaxNamesBytes, or not of text.

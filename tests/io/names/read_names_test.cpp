@@ -27,6 +27,37 @@ TEST(ReadNames, ItkSnap) {
                                        {2, "", Colour{0, 255, 0, 128}}}));
 }
 
+TEST(ReadNames, JsonOfEitherDirection) {
+  const LabelNames expected({{0, "background", {}}, {1, "liver", {}}, {12, "vessel, left", {}}});
+  for (const std::string text : {
+           R"({"channel_names": {"0": "CT"}, "labels": {"background": 0, "liver": 1,
+               "vessel, left": 12}, "numTraining": 3, "file_ending": ".nii.gz"})",
+           R"( {"modality": {"0": "CT"}, "labels": {"0": "background", "1": "liver",
+               "12": "vessel, left"}})",
+           R"({"labels": {"background": 0, "whole": [1, 12], "liver": [1], "vessel, left": "12"}})",
+           R"({"0": "background", "1": "liver", "12": "vessel, left"})",
+           R"({"total": {"0": "background", "1": "liver", "12": "vessel, left"}, "body": {}})",
+           "\xEF\xBB\xBF{\"background\": 0, \"liver\": 1, \"vessel, left\": 12}"}) {
+    expect_same_names(parse(text), expected);
+  }
+  expect_same_names(parse(R"({"a": -3, "b": 18446744073709551615})"),
+                    LabelNames({{static_cast<RawLabel>(-3), "a", {}}, {~RawLabel{0}, "b", {}}}));
+}
+
+TEST(ReadNames, JsonThatNamesNoLabelOrOneTwiceIsRefused) {
+  const std::vector<std::pair<std::string, std::string>> cases{
+      {"{", "table"},
+      {"{}", "names no label"},
+      {R"({"labels": {"whole": [1, 2]}, "other": {"a": 1}})", "names no label"},
+      {R"({"labels": {"a": 1, "b": 1}})", "'a' and 'b' are one label"},
+      {R"({"labels": {"1": "a", "2": "a"}})", "have one name"},
+      {R"({"total": {"1": "a"}, "body": {"1": "b"}})", "class_map"},
+      {R"({"1": {"2": {"3": 4.5}}})", "names no label"}};
+  for (const auto& [text, words] : cases) {
+    expect_error(ErrorKind::kInput, {"table", words}, [&] { static_cast<void>(parse(text)); });
+  }
+}
+
 TEST(ReadNames, Latin1IsToldAndRead) {
   for (const std::string table : {"id,name\n7,Gr\xF6\xDF"
                                   "e\n8,\xE9t\xE9\n",
@@ -60,6 +91,16 @@ TEST(ReadNames, FreeSurferIsOpaqueWhereAllOpacityIsZero) {
                     LabelNames({{0, "Unknown", Colour{0, 0, 0, 255}},
                                 {2, "Left-Cerebral-White-Matter", Colour{245, 245, 245, 255}},
                                 {17, "Left_Hippocampus", Colour{220, 216, 20, 255}}}));
+}
+
+TEST(ReadNames, FreeSurfer8HasClassesOfTissues) {
+  expect_same_names(parse("#No. Label Name: R G B A\n0 Unknown 0 0 0 0\n"
+                          "819 Left-HypoThal-noMB           0  80   0 0 2\n"
+                          "853 Mid-AntCom                  60  58 210 0 3\n7 Lobe 3 10 20 30 0\n"),
+                    LabelNames({{0, "Unknown", Colour{0, 0, 0, 255}},
+                                {7, "Lobe 3", Colour{10, 20, 30, 255}},
+                                {819, "Left-HypoThal-noMB", Colour{0, 80, 0, 255}},
+                                {853, "Mid-AntCom", Colour{60, 58, 210, 255}}}));
 }
 
 TEST(ReadNames, FreeSurferCountsTransparency) {
