@@ -16,6 +16,7 @@
 #include "io/file/errors.h"
 #include "io/file/text_numbers.h"
 #include "io/labels/label_table.h"
+#include "io/mesh/grouped/plain_names.h"
 #include "io/mesh/merged_vertices.h"
 #include "io/remote/wait_stop.h"
 #include "io/volume/volume_readers.h"
@@ -104,10 +105,12 @@ void tell_doubles(const io::MeshRecord& record, std::uint64_t merged, ChosenLabe
   add_words(kept.told, std::to_string(merged) + " doubled vertices are merged by position here");
 }
 
-/// Returns whether a file has a name as it is, or as the formats of Gmsh spell it: without quotes,
-/// and with the label behind it where another label has the same name.
+/// Returns whether a file has a name as it is, or as the formats of Gmsh spell it: without quotes
+/// or in plain letters, and with the label behind it where another label has the same name.
 bool is_name_in_file(std::string_view found, std::string name, const std::string& label) {
   if (found == name) return true;
+  const std::string plain = io::plain_name(name);
+  if (!plain.empty() && (found == plain || found == plain + "_" + label)) return true;
   std::replace(name.begin(), name.end(), '"', '\'');
   const std::string behind = " (" + label + ")";
   while (found.size() > name.size() && found.ends_with(behind)) {

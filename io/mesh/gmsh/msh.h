@@ -44,9 +44,10 @@ namespace mw::io {
 /// parts, forgetting their groups; createTopology(False) keeps them.
 void write_msh(MshFiles& files, GroupedMesh& mesh);
 
-/// Writes the groups, names, numbers and tables of write_msh() in version 2.2, as text, for
-/// programs that read no later one (GetFEM); Gmsh's own ending for it is .msh2.  Elements are
-/// triangles, then tets, then wedges.
+/// Writes the groups, numbers and tables of write_msh() in version 2.2, as text, for programs that
+/// read no later one (GetFEM, OpenFOAM's gmshToFoam); Gmsh's own ending for it is .msh2.  Names are
+/// PlainNames', as such programs take no blanks and marks: "Left_kidney", "FACE_liver_kidney";
+/// sides are x_min and so on.  Elements are triangles, then tets, then wedges.
 void write_msh2(MshFiles& files, GroupedMesh& mesh);
 
 }  // namespace mw::io

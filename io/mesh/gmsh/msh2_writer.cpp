@@ -75,7 +75,7 @@ void write_msh2(MshFiles& files, GroupedMesh& mesh) {
   out.add_line("2.2 0 8");
   out.end_section("MeshFormat");
   write_record(out, mesh);
-  write_physical_names(out, mesh, numbers, false);
+  write_physical_names(out, mesh, numbers, MshNames::kPlain);
   write_nodes(out, mesh);
   write_elements(out, mesh, numbers);
   write_element_data(out, mesh);

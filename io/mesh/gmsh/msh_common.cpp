@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <charconv>
 #include <limits>
+#include <optional>
 
 #include "io/file/byte_order.h"
 #include "io/file/errors.h"
@@ -41,8 +42,8 @@ std::string name_line(std::int32_t dimension, std::int64_t tag, const std::strin
   return text(dimension, " ", tag, " \"", name, "\"");
 }
 
-void write_wedge_names(MshEncoder& out, const GroupedMesh& mesh, const LabelNumbers& labels) {
-  const PlainNames names(mesh);
+void write_wedge_names(MshEncoder& out, const GroupedMesh& mesh, const LabelNumbers& labels,
+                       const PlainNames& names) {
   for (std::size_t g = 0; g < mesh.wedge_groups().size(); ++g) {
     out.add_line(
         name_line(kMshVolume, wedge_volume(labels, mesh, g), names.wedges(mesh.wedge_groups()[g])));
@@ -114,24 +115,31 @@ void write_record(MshEncoder& out, const GroupedMesh& mesh) {
 }
 
 void write_physical_names(MshEncoder& out, const GroupedMesh& mesh, const LabelNumbers& labels,
-                          bool has_masks) {
+                          MshNames style) {
+  const bool is_plain = style == MshNames::kPlain;
   const GroupNames names(mesh, without_quotes, kMaxNameBytesOfGmsh);
+  std::optional<PlainNames> plain;
+  if (is_plain || !mesh.wedge_groups().empty()) {
+    plain.emplace(mesh, NameRule{.max_bytes = kMaxNameBytesOfGmsh});
+  }
   const FacetGroups& groups = mesh.facet_groups();
-  const std::size_t masks = has_masks ? mask_groups(mesh).size() : 0;
+  const std::size_t masks = is_plain ? 0 : mask_groups(mesh).size();
   std::size_t count = mesh.table().size() + mesh.wedge_groups().size() + masks;
   for (std::size_t g = 0; g < groups.size(); ++g) count += begins_name(groups, g) ? 1U : 0U;
   out.begin_section("PhysicalNames");
   out.add_line(text(count));
   for (std::size_t g = 0; g < groups.size(); ++g) {
     if (!begins_name(groups, g)) continue;
-    std::string name = names.facets(groups[g]);
+    const bool has_marks = groups[g].side == Side::kInterface;  // "liver|kidney"
+    std::string name = is_plain && has_marks ? plain->facets(groups[g]) : names.facets(groups[g]);
     if (name.size() > kMaxNameBytesOfGmsh) name = plain_facet_name(mesh.table(), groups[g]);
     out.add_line(name_line(kMshSurface, physical_surface(labels, groups[g], g), name));
   }
   for (Label rank = 0; rank < mesh.table().size(); ++rank) {
-    out.add_line(name_line(kMshVolume, labels[rank], names.volume(rank)));
+    const std::string& name = is_plain ? plain->volume(rank) : names.volume(rank);
+    out.add_line(name_line(kMshVolume, labels[rank], name));
   }
-  if (!mesh.wedge_groups().empty()) write_wedge_names(out, mesh, labels);
+  if (plain) write_wedge_names(out, mesh, labels, *plain);
   for (std::size_t i = 0; i < masks; ++i) {
     out.add_line(name_line(kMshVolume, mask_volume(labels, mesh, i), names.mask(i)));
   }

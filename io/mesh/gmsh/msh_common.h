@@ -90,10 +90,15 @@ inline constexpr std::string_view kMshRecord = "mwmesh ";
 /// or masks, which could not be found again without it.
 void write_record(MshEncoder& out, const GroupedMesh& mesh);
 
-/// Writes the section of the names of all physical surfaces and volumes (see write_msh()), those of
-/// masks only where an element may have several.
+/// How a version of the format names its groups.
+enum class MshNames {
+  kForPeople,  ///< as GroupNames; those of masks, too, as an element may have several
+  kPlain,      ///< as PlainNames, for gmshToFoam and others that take no blanks and marks
+};
+
+/// Writes the section of the names of all physical surfaces and volumes (see write_msh()).
 void write_physical_names(MshEncoder& out, const GroupedMesh& mesh, const LabelNumbers& labels,
-                          bool has_masks);
+                          MshNames style);
 
 /// The files beside a .msh, and the numbers of materials in it.
 class MshTables {

@@ -239,7 +239,7 @@ void write_msh(MshFiles& files, GroupedMesh& mesh) {
   Contents contents{mesh, msh_numbers(mesh), NodeClasses(mesh)};
   write_format(out);
   write_record(out, mesh);
-  write_physical_names(out, mesh, contents.numbers, true);
+  write_physical_names(out, mesh, contents.numbers, MshNames::kForPeople);
   write_entities(out, contents);
   write_nodes(out, contents);
   write_elements(out, contents);

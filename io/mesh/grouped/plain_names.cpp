@@ -32,8 +32,17 @@ std::string in_capitals(std::string name) {
   return name;
 }
 
-/// Returns the name with '_' for each gap of characters that are not allowed; empty if none is.
-std::string plain_text(std::string_view name, const NameRule& rule) {
+/// Returns the name's beginning with "_NUMBER" behind it, or "_NUMBER_2" and so on.
+/// REQUIRES: this is not longer than max_bytes.
+std::string with_number(const std::string& name, const std::string& number, int count,
+                        std::size_t max_bytes) {
+  const std::string behind = text("_", number, count == 1 ? std::string() : text("_", count));
+  return name.substr(0, max_bytes - behind.size()) + behind;
+}
+
+}  // namespace
+
+std::string plain_name(std::string_view name, const NameRule& rule) {
   std::string out;
   bool gap = false;
   for (const char c : name) {
@@ -45,16 +54,6 @@ std::string plain_text(std::string_view name, const NameRule& rule) {
   }
   return out.empty() || is_letter(out.front()) ? out : "L_" + out;
 }
-
-/// Returns the name's beginning with "_NUMBER" behind it, or "_NUMBER_2" and so on.
-/// REQUIRES: this is not longer than max_bytes.
-std::string with_number(const std::string& name, const std::string& number, int count,
-                        std::size_t max_bytes) {
-  const std::string behind = text("_", number, count == 1 ? std::string() : text("_", count));
-  return name.substr(0, max_bytes - behind.size()) + behind;
-}
-
-}  // namespace
 
 std::string plain_volume_name(const LabelTable& table, Label rank) {
   return "LABEL_" + plain_digits(table, rank);
@@ -84,7 +83,7 @@ void PlainNames::name_volumes(Taken& taken) {
   const LabelTable& table = mesh_.table();
   std::map<std::string, std::size_t> uses;
   for (Label rank = 0; rank < table.size(); ++rank) {
-    volumes_.push_back(plain_text(mesh_.names().name(table.raw(rank)), rule_));
+    volumes_.push_back(plain_name(mesh_.names().name(table.raw(rank)), rule_));
     has_name_.push_back(!volumes_.back().empty());
     if (volumes_.back().empty()) volumes_.back() = plain_volume_name(table, rank);
     ++uses[in_capitals(volumes_.back())];
@@ -103,7 +102,7 @@ void PlainNames::name_volumes(Taken& taken) {
 void PlainNames::name_masks(Taken& taken) {
   for (const MaskGroup& mask : mask_groups(mesh_)) {
     const std::string number = std::to_string(masks_.size() + 1);
-    const std::string plain = plain_text(mask.name, rule_);
+    const std::string plain = plain_name(mask.name, rule_);
     const std::string wanted = "MASK_" + (plain.empty() ? number : plain);
     std::string name = wanted;
     for (int i = 1; name.size() > rule_.max_bytes || !taken.insert(in_capitals(name)).second; ++i) {

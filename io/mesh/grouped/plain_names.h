@@ -29,6 +29,10 @@ struct NameRule {
   std::string of_triangles{};           ///< the beginning of PlainNames::triangles(), if there are
 };
 
+/// Returns a name with '_' for each gap of characters that are not allowed, and "L_" in front of
+/// what begins with no letter; empty where no character is allowed.  Its length is not looked at.
+[[nodiscard]] std::string plain_name(std::string_view name, const NameRule& rule = {});
+
 /// Names for programs that allow only letters, digits, '_' and perhaps '-', a letter first, up to
 /// some length, and take small and capital letters for the same.
 /// A label has its name with '_' for what is not allowed ("Matrix (epoxy)" is "Matrix_epoxy") and
