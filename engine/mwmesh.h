@@ -474,6 +474,10 @@ class Mesh {
   void save(const std::filesystem::path& path, const Options& options = {}) const {
     detail::call(mw_mesh_write, handle(), detail::c_text(path), options.handle());
   }
+  /// Returns what `mwmesh mesh` prints last; of a mesh without a report what can be measured on it.
+  [[nodiscard]] std::string summary() const {
+    return detail::call(mw_mesh_summary, handle(), mw_mesh_text(handle(), "report")).get();
+  }
   [[nodiscard]] std::string digest() const { return detail::call(mw_mesh_digest, handle()).get(); }
   /// Returns a PNG.  ERRORS: kUsage; kInput when nothing is to be seen.
   [[nodiscard]] std::string picture(int width = 1200, int height = 900) const {

@@ -287,6 +287,11 @@ MW_PUBLIC mw_status mw_mesh_read_names(mw_mesh* mesh, const char* path, mw_error
  * there is none; "record", one line of JSON about the run that made the mesh, which files keep.
  * Returns NULL for another name. */
 MW_PUBLIC const char* mw_mesh_text(const mw_mesh* mesh, const char* name);
+/* Returns what `mwmesh mesh` prints last, with the options' names of the library: edges, shapes,
+ * labels and what to look at.  `report` is a text of mw_mesh_text(mesh, "report"); where it is NULL
+ * or "" the facts are measured on the mesh, and there are fewer.  The caller frees the text.
+ * ERRORS: MW_INPUT for a text that is no report. */
+MW_PUBLIC char* mw_mesh_summary(const mw_mesh* mesh, const char* report, mw_error** error);
 /* Returns other than 0 where each eight tets in turn are the straight parts of a curved tet, as
  * from mw_mesh_read().  Written with element=tet10-curved such a mesh has these curved tets again.
  */

@@ -17,12 +17,14 @@ MeshFigures measure(io::ScratchMesh& mesh, const FiguresTask& task,
     }
   });
   out.quality = quality.report();
-  out.shape = interface_shape(mesh, task.sort_bytes, between);
+  if (task.has_shape) out.shape = interface_shape(mesh, task.sort_bytes, between);
+  out.has_shape = task.has_shape;
   return out;
 }
 
 std::uint64_t bytes_to_measure(const FiguresTask& task) {
-  return 2 * std::uint64_t{task.sort_bytes} + (std::uint64_t{1} << 20U);
+  const std::uint64_t sorts = task.has_shape ? 2 * std::uint64_t{task.sort_bytes} : 0;
+  return sorts + (std::uint64_t{1} << 20U);
 }
 
 }  // namespace mw::engine

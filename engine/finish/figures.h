@@ -14,12 +14,14 @@
 namespace mw::engine {
 
 struct FiguresTask {
+  bool has_shape = true;  ///< whether interfaces are measured, too
   std::size_t sort_bytes = std::size_t{8} << 20U;
 };
 
 struct MeshFigures {
   audit::QualityReport quality;
   audit::ShapeReport shape;
+  bool has_shape = false;
 };
 
 /// Measures a mesh.  Calls between(), which may throw, often.

@@ -42,7 +42,7 @@ struct FinishFacts {
   std::optional<audit::AuditReport> certificate;
   std::optional<ConnectFacts> connected;
   std::optional<EdgeFigures> edges;
-  std::optional<std::vector<Int128>> volumes6;  ///< label_volumes6()
+  std::optional<LabelAmounts> amounts;
   std::optional<MeshFigures> figures;
 };
 

@@ -27,13 +27,16 @@ Int128 tet_volume6(const std::array<io::Position, 4>& corners, const VolumesTask
 
 }  // namespace
 
-std::vector<Int128> label_volumes6(io::ScratchMesh& mesh, const VolumesTask& task,
-                                   const std::function<void()>& between) {
-  std::vector<Int128> out(task.table.size());
+LabelAmounts label_amounts(io::ScratchMesh& mesh, const VolumesTask& task,
+                           const std::function<void()>& between) {
+  LabelAmounts out{std::vector<Int128>(task.table.size()),
+                   std::vector<std::uint64_t>(task.table.size())};
   mesh.each_tet_batch([&](const io::TetBatch& batch) {
     between();
     for (std::size_t t = 0; t < batch.tets.size(); ++t) {
-      out[task.table.dense(batch.labels[t])] += tet_volume6(mesh.corners(batch.tets[t]), task);
+      const Label label = task.table.dense(batch.labels[t]);
+      out.volumes6[label] += tet_volume6(mesh.corners(batch.tets[t]), task);
+      ++out.tets[label];
     }
   });
   return out;

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The mwmesh authors
 // SPDX-License-Identifier: Apache-2.0
-// Volumes of the labels of a finished mesh, in whole numbers.
+// Tets and volumes of the labels of a finished mesh, in whole numbers.
 #pragma once
 
 #include <cstdint>
@@ -22,11 +22,16 @@ struct VolumesTask {
   Index3 layers{1, 1, 1};       ///< into which each of its voxels was cut
 };
 
-/// Returns by dense label six times its volume in cubic units of the lattice.  Corners of tets
-/// count as the nearest points of the lattice, where those of the marches lie.  Calls between(),
-/// which may throw, often.
-/// Memory: 16 bytes a label.  ERRORS: those of ScratchMesh.
-[[nodiscard]] std::vector<Int128> label_volumes6(
+/// What a mesh has of each label, by dense label.
+struct LabelAmounts {
+  std::vector<Int128> volumes6;  ///< six times the volume in cubic units of the lattice
+  std::vector<std::uint64_t> tets;
+};
+
+/// Corners of tets count as the nearest points of the lattice, where those of the marches lie.
+/// Calls between(), which may throw, often.
+/// Memory: 24 bytes a label.  ERRORS: those of ScratchMesh.
+[[nodiscard]] LabelAmounts label_amounts(
     io::ScratchMesh& mesh, const VolumesTask& task, const std::function<void()>& between = [] {});
 
 }  // namespace mw::engine

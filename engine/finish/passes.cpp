@@ -64,7 +64,7 @@ constexpr std::array kPasses{
          .bytes = [](const FinishTask&) { return std::uint64_t{0}; },
          .apply =
              [](io::ScratchMesh& mesh, const FinishTask& task, FinishFacts& facts) {
-               facts.volumes6 = label_volumes6(mesh, *task.volumes, task.between);
+               facts.amounts = label_amounts(mesh, *task.volumes, task.between);
              }},
     Pass{.name = "figures",
          .is_asked = [](const FinishTask& task) { return task.figures.has_value(); },

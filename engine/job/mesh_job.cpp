@@ -433,6 +433,9 @@ class MeshRun {
   }
 
   void tell() {
+    run_.settings = asked_.settings;
+    run_.choice = job_.choice;
+    run_.has_scores = opened_.scores() != nullptr;
     run_.raised = sizes_.raised;
     run_.specks = input_.specks();
     run_.slices = input_.slices();
@@ -494,7 +497,9 @@ FinishTask looking_task(const MeshJob& job, const report::FinishedRun& run) {
     out.volumes.emplace(
         VolumesTask{.table = run.labels, .space = space, .layers = layers_of(space.spacing)});
   }
-  if (job.is_measured) out.figures.emplace(FiguresTask{.sort_bytes = sort_bytes});
+  if (job.is_measured || job.finds_quality) {
+    out.figures.emplace(FiguresTask{.has_shape = job.is_measured, .sort_bytes = sort_bytes});
+  }
   return out;
 }
 

@@ -44,9 +44,10 @@ struct MeshJob {
   bool ends_around_object = false;
   ConnectOptions connect;  ///< what is left out of the mesh, and doubled in it, when it is written
   bool finds_parts = false;  ///< whether parts and hinges are counted where the mesh stays as it is
-  bool finds_volumes = false;  ///< whether volumes of labels are measured
+  bool finds_volumes = false;  ///< whether tets and volumes of labels are measured
+  bool finds_quality = false;  ///< whether shapes of tets are measured
   Certify certify = Certify::kAuto;
-  bool is_measured = false;  ///< whether quality and shape are measured, too, for a report
+  bool is_measured = false;  ///< whether interfaces are measured, too, for a report
   Delta delta = Delta::kNo;
   std::filesystem::path folder;  ///< of temporary files
   /// Threads, memory, work folder, other processes and callbacks.  mesh() sets what is written and

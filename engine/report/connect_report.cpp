@@ -3,6 +3,7 @@
 // What hangs together in a mesh, as JSON and in words.
 #include "engine/report/connect_report.h"
 
+#include "engine/report/figures.h"
 #include "engine/report/mesh_facts.h"
 #include "io/file/errors.h"
 
@@ -69,38 +70,40 @@ Json connect_json(const engine::ConnectFacts& facts, bool labels_signed) {
             {"labels_that_do_not_meet", pairs_json(facts.apart, labels_signed)}}}};
 }
 
+std::string changes_text(const Json& parts) {
+  std::vector<std::string> out;
+  if (parts["found"].integer() != parts["written"].integer()) {
+    out.push_back(told("{written} of {found} that faces join are written", parts));
+  }
+  const Json& doubled = parts["doubled"];
+  if (doubled["copies"].integer() > 0) {
+    out.push_back(
+        told("{vertices} vertices doubled by {copies} copies, parts after that: "
+             "{parts_after}",
+             doubled));
+  }
+  const std::uint64_t wedges = doubled["wedges"].integer();
+  const std::uint64_t closed = doubled["facets_without_wedge"].integer();
+  const std::uint64_t held = doubled["facets_that_cannot_open"].integer();
+  if (wedges + closed > 0) out.push_back(io::text(wedges, " cohesive wedges"));
+  if (closed > 0) out.push_back(io::text("none on ", closed, " facets that cannot open"));
+  if (held > closed) {
+    const std::uint64_t all = doubled["facets"].integer() - wedges - closed;
+    out.push_back(io::text(held - closed, " of ", all, " facets of --split cannot open"));
+  }
+  return joined(out, ", ");
+}
+
 std::string connect_text(const engine::ConnectFacts& facts) {
-  std::string out;
-  const auto add = [&](const std::string& words) { out += (out.empty() ? "" : ", ") + words; };
-  if (facts.found != facts.parts) {
-    add(io::text(facts.parts, " of ", facts.found, " that faces join are written"));
-  } else if (facts.parts > 1) {
-    add(io::text(facts.parts, " joined by faces"));
-  }
+  std::vector<std::string> out;
   if (facts.parts > 1) {
-    add(io::text(facts.hanging, " hang on vertices or edges"));
-    add(io::text(facts.free, " are free"));
-    add(io::text(facts.small, " have fewer than ", engine::kSmallPartTets, " tets"));
+    out.push_back(io::text(facts.parts, " parts that faces join"));
+    out.push_back(io::text(facts.hanging, " hang on vertices or edges"));
+    out.push_back(io::text(facts.free, " are free"));
   }
-  if (facts.hinge_vertices + facts.hinge_edges > 0) {
-    add(io::text("hinges: ", facts.hinge_vertices, " vertices, ", facts.hinge_edges, " edges"));
-  }
-  if (facts.hanging > 0 || facts.hinge_vertices + facts.hinge_edges > 0) {
-    add("see --weld, --topology interfaces and --open-hinges");
-  }
-  if (facts.copies > 0) {
-    add(io::text(facts.doubled, " vertices doubled by ", facts.copies,
-                 " copies, parts after that: ", facts.parts_after));
-  }
-  if (facts.wedges + facts.closed > 0) {
-    add(io::text(facts.wedges, " cohesive wedges"));
-    if (facts.closed > 0) add(io::text("none on ", facts.closed, " facets that cannot open"));
-  }
-  if (facts.held > facts.closed) {
-    const std::uint64_t all = facts.facets - facts.wedges - facts.closed;
-    add(io::text(facts.held - facts.closed, " of ", all, " facets of --split cannot open"));
-  }
-  return out;
+  const std::string changes = changes_text(connect_json(facts, false));
+  if (!changes.empty()) out.push_back(changes);
+  return joined(out, ", ");
 }
 
 std::string pairs_text(const std::vector<engine::LabelPair>& pairs, bool labels_signed) {
@@ -110,12 +113,6 @@ std::string pairs_text(const std::vector<engine::LabelPair>& pairs, bool labels_
            label_text(other, labels_signed, {});
   }
   return out;
-}
-
-std::string stiff_text(const engine::ConnectFacts& facts) {
-  if (facts.stiff_labels == 0) return "";
-  return io::text(facts.stiff_labels, " of ", facts.labels,
-                  " labels have no vertex inside and are too stiff when they bend: see --across");
 }
 
 }  // namespace mw::report

@@ -14,12 +14,13 @@ namespace mw::report {
 /// Returns "parts" of a report.
 [[nodiscard]] io::Json connect_json(const engine::ConnectFacts& facts, bool labels_signed);
 
-/// Returns a line about parts, hinges and doubled vertices; empty where the mesh is one part and
-/// has none of these.
+/// Tells from "parts" of a report what options left out, doubled or put in between; empty where
+/// they did nothing.
+[[nodiscard]] std::string changes_text(const io::Json& parts);
+
+/// Returns that, and how many parts there are and hang; empty where the mesh is one part.
 [[nodiscard]] std::string connect_text(const engine::ConnectFacts& facts);
 
-/// Says how many labels have no vertex inside; empty where all have one.
-[[nodiscard]] std::string stiff_text(const engine::ConnectFacts& facts);
 /// Returns the pairs as an option has them, "1|2, 1|3"; empty where there are none.
 [[nodiscard]] std::string pairs_text(const std::vector<engine::LabelPair>& pairs,
                                      bool labels_signed);

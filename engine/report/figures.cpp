@@ -55,6 +55,15 @@ std::string short_number(double value) {
                       : with_commas(static_cast<std::uint64_t>(std::llround(value)));
 }
 
+std::string joined(const std::vector<std::string>& words, std::string_view last) {
+  std::string out;
+  for (std::size_t i = 0; i < words.size(); ++i) {
+    if (i > 0) out += i + 1 == words.size() ? last : ", ";
+    out += words[i];
+  }
+  return out;
+}
+
 namespace {
 
 /// Returns the fact of a name such as "output.tets"; null if it or what should hold it is null.

@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "io/json/json.h"
 
@@ -24,6 +25,8 @@ namespace mw::report {
 [[nodiscard]] std::string format_percent(double share, int digits);
 /// Returns a number as "41,247".
 [[nodiscard]] std::string with_commas(std::uint64_t number);
+/// Returns "a, b and c" for `last` = " and ".
+[[nodiscard]] std::string joined(const std::vector<std::string>& words, std::string_view last);
 /// Returns format_figure() with commas: "0.7381", "12.34", "1,040".
 [[nodiscard]] std::string short_number(double value);
 

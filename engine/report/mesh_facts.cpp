@@ -4,7 +4,6 @@
 #include "engine/report/mesh_facts.h"
 
 #include <cmath>
-#include <iostream>
 
 #include "engine/report/figures.h"
 
@@ -41,6 +40,7 @@ Json quality_json(const audit::QualityReport& quality) {
           {"dihedral_max_deg", quality.dihedral_max_deg},
           {"edge_min", quality.edge_min},
           {"edge_max", quality.edge_max},
+          {"edge_median", quality.edge_median},
           {"height_min", quality.height_min}};
 }
 
@@ -166,25 +166,25 @@ io::Json slices_json(const std::optional<io::SliceFacts>& slices) {
 
 io::Json welds_json(const std::optional<io::WeldFacts>& welds) {
   if (!welds) return nullptr;
-  return {{"voxels", welds->voxels}, {"rounds", welds->rounds}};
+  return {
+      {"voxels", welds->voxels}, {"rounds", welds->rounds}, {"labels_to_join", welds->has_solid}};
 }
 
-void print_steps(const std::optional<io::SpeckFacts>& specks,
-                 const std::optional<io::SliceFacts>& slices,
-                 const std::optional<io::WeldFacts>& welds) {
-  std::cout << told(
-      "specks      {components} components of {voxels} voxels took the labels around them, in "
-      "{rounds} rounds\n",
-      specks_json(specks));
-  std::cout << told("interpolated {slices} slices along {axis} became {layers} thin ones each\n",
-                    slices_json(slices));
-  if (welds && !welds->has_solid) {
-    std::cout
-        << "welded      nothing: --weld names all labels of the volume, and joins the others\n";
-  } else {
-    std::cout << told("welded      {voxels} voxels were filled, in {rounds} rounds\n",
-                      welds_json(welds));
+std::string steps_text(const Json& facts) {
+  const Json& welds = facts["welds"];
+  std::string out = told(
+      "specks      {specks.components} components of {specks.voxels} voxels took the labels "
+      "around them, in {specks.rounds} rounds\n",
+      facts);
+  out += told(
+      "interpolated {interpolated.slices} slices along {interpolated.axis} became "
+      "{interpolated.layers} thin ones each\n",
+      facts);
+  if (!welds.is_null() && !welds["labels_to_join"].boolean()) {
+    return out +
+           "welded      nothing: --weld names all labels of the volume, and joins the others\n";
   }
+  return out + told("welded      {voxels} voxels were filled, in {rounds} rounds\n", welds);
 }
 
 }  // namespace mw::report

@@ -92,10 +92,8 @@ void add_colour(io::Json& row, RawLabel label, const io::LabelNames& names);
 /// Returns "welds" of a report; null when nothing was to be welded.
 [[nodiscard]] io::Json welds_json(const std::optional<io::WeldFacts>& welds);
 
-/// Prints a line each about specks that were to be dropped, about labels between slices, and about
-/// what was to be welded.
-void print_steps(const std::optional<io::SpeckFacts>& specks,
-                 const std::optional<io::SliceFacts>& slices,
-                 const std::optional<io::WeldFacts>& welds);
+/// Returns a line each about specks that were to be dropped, about labels between slices, and about
+/// what was to be welded: "specks", "interpolated" and "welds" of a report.
+[[nodiscard]] std::string steps_text(const io::Json& facts);
 
 }  // namespace mw::report

@@ -7,6 +7,7 @@
 
 #include <algorithm>
 
+#include "engine/report/attention.h"
 #include "engine/report/connect_report.h"
 #include "engine/report/mesh_facts.h"
 #include "engine/report/verify_report.h"
@@ -26,6 +27,7 @@ Json input_json(const FinishedRun& run) {
           {"axes_xyz", info.space.axes},
           {"frame", io::name(info.space.frame)},
           {"unit", info.space.unit.empty() ? Json() : Json(info.space.unit)},
+          {"spacing_is_known", info.space.is_sized},
           {"labels", run.labels.size()},
           {"voxels", info.shape.product()}};
 }
@@ -58,6 +60,29 @@ Json output_json(const FinishedRun& run, const std::filesystem::path& path) {
           {"vertices", run.engine.vertices},
           {"tets", run.engine.tets},
           {"vertex_fraction", vertex_fraction(run.engine.vertices, run.volume.shape)}};
+}
+
+/// Returns how many labels are written, the first few, and the one with the fewest tets.
+Json labels_json(const FinishedRun& run) {
+  if (!run.amounts) return nullptr;
+  const auto row_of = [&](Label label) {
+    Json row = named_row_json(run.labels.raw(label), run.labels.is_signed(), run.volume.names);
+    row["tets"] = run.amounts->tets[label];
+    return row;
+  };
+  Json first = Json::array();
+  std::uint64_t written = 0;
+  std::optional<Label> fewest;
+  for (Label label = 0; label < run.labels.size(); ++label) {
+    const std::uint64_t tets = run.amounts->tets[label];
+    if (tets == 0) continue;
+    if (!fewest || tets < run.amounts->tets[*fewest]) fewest = label;
+    if (++written <= kMostFirstLabels) first.push_back(row_of(label));
+  }
+  return {{"written", written},
+          {"of", run.labels.size()},
+          {"first", std::move(first)},
+          {"fewest_tets", fewest ? row_of(*fewest) : Json()}};
 }
 
 Json performance_json(const FinishedRun& run) {
@@ -139,11 +164,16 @@ Json engine_json(const FinishedRun& run) {
   return out;
 }
 
+/// Returns the volumes, and what is known of interfaces.
 Json shape_json(const FinishedRun& run) {
-  if (!run.figures) return nullptr;
+  if (!run.amounts) return nullptr;
   audit::VolumeMeter volumes;
   for_each_volume(run, [&](const audit::VolumeRow& row) { volumes.add(row); });
-  Json out = volume_summary_json(volumes.summary(), run.labels);
+  const audit::VolumeSummary summary = volumes.summary();
+  Json out = volume_summary_json(summary, run.labels);
+  out["volume_error_worst"] =
+      summary.worst ? volume_row_json(*summary.worst, run.labels, run.volume.names) : Json();
+  if (!run.figures || !run.figures->has_shape) return out;
   out.update(interfaces_json(run.figures->shape));
   out["bend_histogram"] = run.figures->shape.bend_histogram;
   out["per_label"] = kRows;
@@ -252,7 +282,7 @@ void FinishedRun::take(const engine::FinishFacts& facts) {
   certificate = facts.certificate;
   connected = facts.connected;
   edges = facts.edges;
-  volumes6 = facts.volumes6;
+  amounts = facts.amounts;
   figures = facts.figures;
 }
 
@@ -267,7 +297,7 @@ void for_each_volume(const FinishedRun& run,
   const std::int64_t parts = engine.lattice.layers.product();
   for (Label label = 0; label < engine.label_voxels.size(); ++label) {
     const std::uint64_t voxels = engine.label_voxels[label] / static_cast<std::uint64_t>(parts);
-    if (voxels > 0) visit(audit::volume_row(label, voxels, (*run.volumes6)[label], parts));
+    if (voxels > 0) visit(audit::volume_row(label, voxels, run.amounts->volumes6[label], parts));
   }
 }
 
@@ -281,6 +311,7 @@ Json run_report(const FinishedRun& run, const std::filesystem::path& mesh, Json 
            {"samples", samples_json(run.samples)},
            {"lattice", lattice_json(run.engine.lattice)},
            {"output", output_json(run, mesh)},
+           {"labels", labels_json(run)},
            {"parts", run.connected ? connect_json(*run.connected, run.labels.is_signed()) : Json()},
            {"quality", run_quality_json(run)},
            {"shape", shape_json(run)},
@@ -290,7 +321,9 @@ Json run_report(const FinishedRun& run, const std::filesystem::path& mesh, Json 
            {"certificate", certificate_json(run)},
            {"performance", performance_json(run)},
            {"engine", engine_json(run)},
-           {"digest", run.digest.empty() ? Json() : Json(run.digest)}};
+           {"digest", run.digest.empty() ? Json() : Json(run.digest)},
+           {"attention", attention(run)},
+           {"suggestion", suggestion(run)}};
   if (run.delta) out["delta"] = *run.delta;
   return out;
 }
@@ -300,6 +333,7 @@ void append_run_report(const FinishedRun& run, const std::filesystem::path& mesh
   const auto for_each_row = [&](const TakeRow& take) {
     for_each_volume(run, [&](const audit::VolumeRow& row) {
       Json out = volume_row_json(row, run.labels, run.volume.names);
+      out["tets"] = run.amounts->tets[row.label];
       add_size(row.label, run, out);
       if (run.certificate) add_topology(row.label, *run.certificate, out);
       take(out);

@@ -46,7 +46,10 @@ struct RaisedSizes {
 struct FinishedRun {
   io::VolumeInfo volume;
   io::LabelTable labels;
-  engine::SizeSettings sizes;  ///< those that the run kept to, after scaling
+  engine::MeshSettings settings;  ///< as they were asked for, sizes in physical units
+  engine::LabelChoice choice;     ///< which labels are written
+  bool has_scores = false;        ///< whether labels come from probabilities or distances
+  engine::SizeSettings sizes;     ///< those that the run kept to, after scaling
   std::optional<CountFacts> count;
   RaisedSizes raised;
   std::optional<io::SpeckFacts> specks;
@@ -60,7 +63,7 @@ struct FinishedRun {
   std::string fingerprint;      ///< of the labels
   std::optional<audit::AuditReport> certificate;  ///< empty if none was made
   std::optional<engine::EdgeFigures> edges;       ///< empty if no size was asked for
-  std::optional<std::vector<Int128>> volumes6;    ///< by label; empty if not measured
+  std::optional<engine::LabelAmounts> amounts;    ///< empty if not measured
   std::optional<engine::MeshFigures> figures;     ///< empty if not measured
   std::optional<io::Json> delta;                  ///< delta_json() (engine/job/volume_delta.h)
   std::optional<engine::ConnectFacts> connected;  ///< empty if not counted
@@ -72,6 +75,9 @@ struct FinishedRun {
   void take(const engine::FinishFacts& facts);
 };
 
+/// The most labels that are listed beside their number.
+inline constexpr std::uint64_t kMostFirstLabels = 6;
+
 /// Returns the vertices of a mesh per corner of the volume's voxels.
 [[nodiscard]] double vertex_fraction(std::uint64_t vertices, Index3 shape);
 
@@ -80,12 +86,12 @@ struct FinishedRun {
 [[nodiscard]] io::Json run_report(const FinishedRun& run, const std::filesystem::path& mesh,
                                   io::Json settings);
 
-/// Calls visit on each label that was written, ascending.  REQUIRES: run.volumes6.
+/// Calls visit on each label that was written, ascending.  REQUIRES: run.amounts.
 void for_each_volume(const FinishedRun& run,
                      const std::function<void(const audit::VolumeRow&)>& visit);
 
 /// Appends the report.  Memory does not grow with labels.
-/// REQUIRES: run.volumes6 and run.figures.
+/// REQUIRES: run.amounts and run.figures, with the shape.
 void append_run_report(const FinishedRun& run, const std::filesystem::path& mesh, io::Json settings,
                        const AppendText& append);
 

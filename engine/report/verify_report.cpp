@@ -190,7 +190,8 @@ Json asked_json(const Bounds& bounds) {
 void print_verdict(const Verdict& verdict) {
   const auto& checks = verdict.audit.checks;
   if (!verdict.bounds.told.empty()) std::cout << told_text(verdict.bounds) << "\n";
-  print_steps(verdict.specks, verdict.slices, verdict.welds);
+  const Json facts = verdict_json(verdict);
+  std::cout << steps_text(facts);
   print_bounds(verdict.bounds);
   for (const audit::Check& check : checks) {
     std::string name = check.name;
@@ -208,7 +209,6 @@ void print_verdict(const Verdict& verdict) {
     }
     std::cout << "\n";
   }
-  const Json facts = verdict_json(verdict);
   if (verdict.looked_at()) print_measured(verdict, facts);
   if (verdict.audit.distance) print_distance(*verdict.audit.distance, verdict, facts);
   const auto failed = std::count_if(checks.begin(), checks.end(),

@@ -21,7 +21,7 @@ bool is_worse(const audit::VolumeRow& a, const audit::VolumeRow& b) {
 
 bool is_measured(const FinishedRun& run) {
   const bool is_whole = !run.connected || run.connected->parts == run.connected->found;
-  return run.volumes6 && is_whole && run.why_no_volumes != engine::kVolumesOfScores;
+  return run.amounts && is_whole && run.why_no_volumes != engine::kVolumesOfScores;
 }
 
 std::string error_text(double error) {

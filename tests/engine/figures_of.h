@@ -22,10 +22,10 @@ inline FiguresAndVolumes figures_of(const io::MeshData& mesh, const io::DenseVol
   io::ScratchMeshSink into(stored);
   io::write_mesh(mesh, into);
   const io::VolumeSpace& space = volume.info().space;
-  return {
-      measure(stored, {.sort_bytes = 1 << 16}),
-      label_volumes6(
-          stored, {.table = volume.table(), .space = space, .layers = layers_of(space.spacing)})};
+  return {measure(stored, {.sort_bytes = 1 << 16}),
+          label_amounts(
+              stored, {.table = volume.table(), .space = space, .layers = layers_of(space.spacing)})
+              .volumes6};
 }
 
 }  // namespace mw::engine::test

@@ -7,13 +7,14 @@
 #include "engine/cli/exit_code.h"
 #include "engine/cli/log.h"
 #include "engine/cli/mesh/mesh_paths.h"
-#include "engine/cli/mesh/mesh_summary.h"
+#include "engine/cli/mesh/mesh_warnings.h"
 #include "engine/cli/mesh/progress.h"
 #include "engine/cli/mesh/run_processes.h"
 #include "engine/cli/page/run_page.h"
 #include "engine/cli/requests.h"
 #include "engine/finish/passes.h"
 #include "engine/report/run_report.h"
+#include "engine/report/summary.h"
 #include "engine/settings/promises.h"
 #include "engine/settings/size_text.h"
 #include "engine/store/journal/run_folder.h"
@@ -66,7 +67,7 @@ struct MeshFiles {
   /// Returns where the mesh goes; the file with its name comes last.
   [[nodiscard]] std::vector<io::MeshSink*> all() {
     if (has_no_sink(shared)) return {sink.get()};
-    std::vector<io::MeshSink*> out{&tets};
+    std::vector<io::MeshSink*> out;
     if (digest) out.push_back(&*digest);
     if (grouped) out.push_back(&*grouped);
     out.push_back(sink.get());
@@ -75,7 +76,6 @@ struct MeshFiles {
 
   SharedOutput shared;
   std::unique_ptr<io::MeshSink> sink;
-  LabelTets tets;
   std::optional<io::AtomicFile> report;
   std::optional<io::AtomicFile> html;
   std::optional<io::AtomicFile> delta;
@@ -245,10 +245,6 @@ void tell_volume(const MeshRequest& request, const io::VolumeInfo& volume) {
         "three times in all; with --cache DIR each is fetched once, for later runs, too");
   }
   if (!run_processes().speaks()) return;
-  if (!volume.space.is_sized) {
-    std::cout << "spacing     1, as the file does not say how large voxels are; see --spacing"
-              << std::endl;
-  }
   if (!request.volume.open.crop || volume.offset == Index3{}) return;
   std::cout << "crop        " << io::box_text(*request.volume.open.crop)
             << " as the data set counts voxels, "
@@ -293,11 +289,14 @@ int mesh(MeshRequest& request, const OptionSet& options) {
   tell_resume(request, run.engine.store);
   if (run.engine.keep) tell_keep(*run.engine.keep);
   run.resources = meter.read();
-  print_summary(run, request, files.tets);
+  const io::Json facts = report::run_report(run, request.output, {});
+  std::cout << report::summary_text(facts);
   print_writers(files.shared);
-  std::cout << "file        " << request.output.string() << std::endl;
+  std::cout << std::flush;
   log_processes(run.engine);
   deliver_rest(request, run, files, options);
+  print_warnings(run);
+  std::cout << report::attention_text(facts);
   if (!std::cout.flush()) {
     throw Error(ErrorKind::kResource, "cannot write the summary to standard output; " +
                                           request.output.string() +

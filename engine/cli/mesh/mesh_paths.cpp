@@ -78,7 +78,7 @@ void settle_program(MeshRequest& request) {
   if (store.workdir.empty()) store.workdir = request.output.string() + ".work";
   job.folder = request.output.parent_path();
   job.is_measured = !request.report.empty() || !request.html.empty();
-  job.finds_parts = job.finds_volumes = true;
+  job.finds_parts = job.finds_volumes = job.finds_quality = true;
   job.run.owns_process = true;
   store.stays = job.is_measured || !request.trace.empty();
 }

@@ -273,6 +273,9 @@ class Mesh(_Handle):
     def set_record(self, record, in_parts):
         call("mesh_set_record", self, encoded(record, "record"), in_parts)
 
+    def summary(self, report):
+        return decoded(taken(call("mesh_summary", self, report)))
+
     def digest(self):
         return decoded(taken(call("mesh_digest", self)))
 

@@ -98,7 +98,7 @@ _FALLIBLE = {
     "mesh_set_record": (c_int, c_void_p, c_char_p, c_int),
     "mesh_find_label": (c_int, c_void_p, c_char_p, _LABEL),
     "mesh_write": (c_int, c_void_p, c_char_p, c_void_p),
-    "mesh_digest": (c_void_p, c_void_p),
+    "mesh_digest": (c_void_p, c_void_p), "mesh_summary": (c_void_p, c_void_p, c_char_p),
     "mesh_picture": (c_void_p, c_void_p, c_int, c_int, POINTER(c_size_t)),
     "verify": (c_void_p, c_void_p, c_void_p, c_void_p, _HOOKS, POINTER(c_int)),
 }

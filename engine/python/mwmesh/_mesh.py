@@ -2,7 +2,9 @@
 # SPDX-License-Identifier: Apache-2.0
 """A tetrahedral mesh of labels in memory."""
 
+import base64
 import collections
+import html
 import importlib
 import json
 import os
@@ -245,6 +247,11 @@ class Mesh:
     def __repr__(self):
         return (f"<mwmesh.Mesh: {len(self.points)} points, {len(self.tets)} tets, "
                 f"{len(self.label_list())} labels>")
+
+    def __str__(self):
+        """Returns what ``mwmesh mesh`` says of its mesh."""
+        report = json.dumps(self.report).encode() if self.report else None
+        return self._core.summary(report).rstrip("\n")
 
     @property
     def names(self):
@@ -504,6 +511,12 @@ class Mesh:
         """Returns the picture that a notebook shows, unless it would take long."""
         most = 2_000_000
         return self.picture(800, 600) if 0 < len(self.tets) <= most else None
+
+    def _repr_html_(self):
+        """Returns the picture and what print() says, which a notebook shows."""
+        png = self._repr_png_()
+        picture = f"<img src='data:image/png;base64,{base64.b64encode(png).decode()}'>" if png else ""
+        return f"{picture}<pre>{html.escape(str(self))}</pre>"
 
     def _wedge_cells(self):
         """Returns the rows of wedges, the tet under each, and its interface's number from 1 on."""

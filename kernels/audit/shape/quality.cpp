@@ -6,7 +6,6 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
-#include <limits>
 #include <numbers>
 
 #include "kernels/core/vector3.h"
@@ -55,14 +54,11 @@ double TetShape::least_height() const {
   return largest > 0 ? std::abs(dot(edges[0], normals[1])) / largest : 0;
 }
 
-/// Returns the squares of the shortest and the longest edge.
-std::array<double, 2> edge_squares(const std::array<Position, 4>& corners) {
-  std::array<double, 2> out{std::numeric_limits<double>::infinity(), 0.0};
+std::array<double, 6> edge_lengths(const std::array<Position, 4>& corners) {
+  std::array<double, 6> out{};
+  std::size_t count = 0;
   for (std::size_t i = 0; i < 4; ++i) {
-    for (std::size_t k = i + 1; k < 4; ++k) {
-      const Position edge = minus(corners[k], corners[i]);
-      out = {std::min(out[0], dot(edge, edge)), std::max(out[1], dot(edge, edge))};
-    }
+    for (std::size_t k = i + 1; k < 4; ++k) out[count++] = norm(minus(corners[k], corners[i]));
   }
   return out;
 }
@@ -120,6 +116,7 @@ void QualityMeter::add(const QualityMeter& other, std::uint64_t first) {
   take_worst(first + other.report_.worst_tet, other.report_.radius_ratio_min);
   tets_ += other.tets_;
   slivers_ += other.slivers_;
+  lengths_.add(other.lengths_);
   ratios_ += other.ratios_;
   largest_cosine_ = std::max(largest_cosine_, other.largest_cosine_);
   smallest_cosine_ = std::min(smallest_cosine_, other.smallest_cosine_);
@@ -133,8 +130,10 @@ void QualityMeter::add(const QualityMeter& other, std::uint64_t first) {
 void QualityMeter::add(std::uint64_t number, const std::array<Position, 4>& corners) {
   const TetShape tet(corners[0], corners[1], corners[2], corners[3]);
   const double ratio = tet.radius_ratio();
-  const auto [shortest, longest] = edge_squares(corners);
-  take_lengths(std::sqrt(shortest), std::sqrt(longest), tet.least_height());
+  const std::array<double, 6> edges = edge_lengths(corners);
+  const auto [shortest, longest] = std::minmax_element(edges.begin(), edges.end());
+  take_lengths(*shortest, *longest, tet.least_height());
+  for (const double length : edges) lengths_.add(length);
   take_worst(number, ratio);
   ++tets_;
   ratios_ += static_cast<Int128>(std::round(ratio * kUnits));
@@ -159,6 +158,7 @@ QualityReport QualityMeter::report() const {
   if (tets_ == 0) return report;
   const auto count = static_cast<double>(tets_);
   report.radius_ratio_mean = static_cast<double>(ratios_) / kUnits / count;
+  report.edge_median = lengths_.median();
   report.sliver_fraction = static_cast<double>(slivers_) / count;
   if (largest_cosine_ < -1) return report;
   report.dihedral_min_deg = degrees_of_cosine(largest_cosine_);

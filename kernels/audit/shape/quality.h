@@ -6,6 +6,7 @@
 #include <array>
 #include <cstdint>
 
+#include "kernels/audit/shape/length_bins.h"
 #include "kernels/audit/subject.h"
 #include "kernels/core/lattice.h"
 
@@ -27,6 +28,7 @@ struct QualityReport {
   double dihedral_max_deg = 0;
   double edge_min = 0;
   double edge_max = 0;
+  double edge_median = 0;  ///< an edge counts once for each tet that has it; within 0.1 %
   /// The least distance of a corner from the opposite face, by which explicit solvers step.
   double height_min = 0;
 };
@@ -54,6 +56,7 @@ class QualityMeter {
   void take_worst(std::uint64_t tet, double ratio);
   void take_lengths(double shortest, double longest, double height);
 
+  LengthBins lengths_;
   QualityReport report_;  ///< without the figures that need the number of tets
   std::uint64_t tets_ = 0;
   std::uint64_t slivers_ = 0;
@@ -64,7 +67,7 @@ class QualityMeter {
 
 /// Measures the tets that a tile owns, by their numbers in the whole mesh.  An empty mesh gives
 /// zeros.  Flat tets count as radius ratio 0; faces without area are left out of the dihedral
-/// angles.  REQUIRES: vertex rows in range, finite coordinates.  Cost: O(tets), no allocation.
+/// angles.  REQUIRES: vertex rows in range, finite coordinates.  Cost: O(tets).
 [[nodiscard]] QualityMeter tally_quality(const MeshTile& tile);
 
 }  // namespace mw::audit

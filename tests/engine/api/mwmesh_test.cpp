@@ -36,6 +36,7 @@ TEST_F(LibraryTest, MakesTheMeshOfTheProgram) {
     EXPECT_EQ(report[same], told[same]) << same;
   }
   EXPECT_EQ(report["settings"]["max_distance"], 1.2);
+  EXPECT_NE(made.summary().find("\nchecks      P1 topology, P2 fit"), std::string::npos);
   // And back: what the library writes, the program reads.
   made.save(folder() / "w.mesh");
   made.save(folder() / "w.vtkhdf");

@@ -255,22 +255,60 @@ TEST_F(UsageTest, ReplacesNothingButItsOwnBesideAMesh) {
   expect_done("mesh v.npy -o v.xdmf");
 }
 
+constexpr const char* kBackground = "\nnote        label 0, maybe the background, is meshed, too, ";
+
 TEST_F(UsageTest, SaysWhatWasMeshed) {
   expect_done("synth spheres --shape 20,20,20 --labels 2 --seed 1 -o v.npy");
   write("names.csv", "id,name\n0,air\n1,ball\n");
   const std::string all = run("mesh v.npy -o v.vtu --names names.csv").out;
-  EXPECT_NE(all.find("\nlabels      3: 0 \"air\", 1 \"ball\", 2\n"), all.npos) << all;
-  EXPECT_NE(all.find("\nbackground  label 0 is meshed, too, "), all.npos) << all;
+  EXPECT_NE(all.find("\nlabels      3: 0 \"air\", 1 \"ball\", 2; fewest tets: "), all.npos) << all;
+  EXPECT_NE(all.find(kBackground), all.npos) << all;
   const std::string two = run("mesh v.npy -o v.vtu --background 0").out;
-  EXPECT_NE(two.find("\nlabels      2 of 3: 1, 2\n"), two.npos) << two;
-  EXPECT_EQ(two.find("\nbackground "), two.npos) << two;
+  EXPECT_NE(two.find("\nlabels      2 of 3: 1, 2; fewest"), two.npos) << two;
+  EXPECT_EQ(two.find(kBackground), two.npos) << two;
   make_volume("many.npy");
   const std::string many = run("mesh many.npy -o v.vtu").out;
-  EXPECT_NE(many.find("\nlabels      9: 1, 2, 3, 4, 5, 6, ...\n"), many.npos) << many;
-  EXPECT_EQ(many.find("\nbackground "), many.npos) << many;
+  EXPECT_NE(many.find("\nlabels      9: 1, 2, 3, 4, 5, 6, ...; fewest"), many.npos) << many;
+  EXPECT_EQ(many.find(kBackground), many.npos) << many;
   expect_done("synth voronoi --shape 8,8,8 --labels 1 --seed 1 -o one.npy");
   const std::string one = run("mesh one.npy -o v.vtu").out;
-  EXPECT_NE(one.find("\nlabels      1: 1; the volume has no other"), one.npos) << one;
+  EXPECT_NE(one.find("\nlabels      1: 1\n"), one.npos) << one;
+  EXPECT_NE(one.find("\nnote        the volume has one label alone"), one.npos) << one;
+}
+
+/// The lines stand in the order of what one asks first, and what to look at comes last.
+TEST_F(UsageTest, SaysFirstWhatOneAsksFirst) {
+  expect_done("synth spheres --shape 40,40,40 --labels 2 --seed 1 -o v.npy");
+  const std::string out =
+      run("mesh v.npy -o v.vtu --spacing 2,2,2 --drop-specks 2 --report r.json").out;
+  std::vector<std::string> names;
+  for (const std::string& line : lines_of(out)) {
+    const std::string name = line.substr(0, line.find(' '));
+    if (names.empty() || names.back() != name) names.push_back(name);
+  }
+  const std::vector<std::string> expected{"tets",   "edges", "shape", "volumes", "labels", "specks",
+                                          "checks", "time",  "file",  "note",    "next"};
+  EXPECT_EQ(names, expected) << out;
+  const json r = report("r.json");
+  EXPECT_EQ(r["attention"].size(), 1U) << r["attention"];
+  EXPECT_NE(out.find("\nnote        " + r["attention"][0].get<std::string>() + "\n"), out.npos);
+  EXPECT_LT(r["quality"]["edge_min"], r["quality"]["edge_median"]);
+  EXPECT_LT(r["quality"]["edge_median"], r["quality"]["edge_max"]);
+}
+
+/// The number of tets that a size is said to give is near to what it does give.
+TEST_F(UsageTest, SuggestsASize) {
+  expect_done("synth spheres --shape 64,64,64 --labels 3 --seed 2 -o v.npy");
+  expect_done("mesh v.npy -o v.vtu --background 0 --report r.json");
+  const json next = report("r.json")["suggestion"];
+  ASSERT_FALSE(next.is_null());
+  const std::string size = std::to_string(next["size"].get<double>());
+  const std::string out =
+      run("mesh v.npy -o v.vtu --background 0 --report s.json --size " + size).out;
+  EXPECT_EQ(out.find("\nnext "), out.npos) << out;
+  const double tets = report("s.json")["output"]["tets"];
+  EXPECT_NEAR(next["tets"].get<double>() / tets, 1, 0.4);
+  EXPECT_TRUE(report("s.json")["suggestion"].is_null());
 }
 
 TEST_F(UsageTest, RefusesBadInput) {

@@ -9,6 +9,7 @@ import copy
 import csv
 import doctest
 import gc
+import html
 import inspect
 import io
 import json
@@ -837,6 +838,27 @@ class Seen(InFolder):
             with self.assertRaisesRegex(mwmesh.UsageError, "pixels|width"):
                 self.mesh.picture(**bad)
         self.assertIsNone(mwmesh.Mesh([], np.zeros((0, 4), int), [])._repr_png_())
+
+    def test_print_says_what_the_program_says(self):
+        labels = mwmesh.synth("spheres", (24, 24, 24), 3, 1)
+        np.save(self.path("v.npy"), labels)
+        said = self.program("mesh", "v.npy", "-o", "m.vtu")
+        made = mwmesh.mesh(self.path("v.npy"))
+        facts = ("tets ", "edges ", "shape ", "volumes ", "labels ", "checks ")
+        for text in (str(made), str(pickle.loads(pickle.dumps(made)))):
+            for line in said.splitlines():
+                if line.startswith(facts):
+                    self.assertIn(line, text)
+            self.assertIn(": background 0 leaves it out", text)
+        self.assertIn(html.escape(str(made)), made._repr_html_())
+        self.assertIn("data:image/png;base64,", made._repr_html_())
+        read = str(mwmesh.read(self.path("m.vtu"))).splitlines()
+        self.assertEqual([line.split()[0] for line in read], ["tets", "edges", "shape", "labels"])
+        self.assertEqual([line for line in said.splitlines() if line in read], read)
+        self.assertIn("tets        0", str(mwmesh.Mesh([], np.zeros((0, 4), int), [])))
+        made.report = {"output": 1}
+        with self.assertRaisesRegex(mwmesh.InputError, "report"):
+            str(made)
 
     @needs("vtkmodules")
     def test_pyvista_is_asked_for_what_is_not_around(self):

@@ -5,6 +5,7 @@
 #include <numbers>
 
 #include "kernels/audit/audit.h"
+#include "kernels/audit/shape/length_bins.h"
 #include "kernels/audit/shape/quality.h"
 #include "kernels/audit/shape/shape.h"
 #include "kernels/audit/shape/volumes.h"
@@ -206,6 +207,30 @@ TEST(Quality, LengthsAreThoseOfAllTets) {
     EXPECT_NEAR(report.edge_max, longest, 1e-12);
     EXPECT_NEAR(report.height_min, least, 1e-12);
   }
+}
+
+TEST(LengthBins, GiveTheMedianOfAllParts) {
+  std::mt19937 random(3);
+  std::uniform_real_distribution<double> power(-90, 90);
+  for (const std::size_t count : {1U, 2U, 7U, 1000U}) {
+    std::vector<double> lengths;
+    LengthBins whole, parts[2];
+    for (std::size_t i = 0; i < count; ++i) {
+      lengths.push_back(std::pow(2.0, power(random)));
+      whole.add(lengths.back());
+      parts[i % 2].add(lengths.back());
+    }
+    std::ranges::sort(lengths);
+    parts[1].add(parts[0]);
+    EXPECT_NEAR(whole.median() / lengths[(count - 1) / 2], 1, 1e-3);
+    EXPECT_EQ(parts[1].median(), whole.median());
+  }
+  LengthBins ends;
+  EXPECT_EQ(ends.median(), 0);
+  ends.add(std::numeric_limits<double>::infinity());
+  EXPECT_EQ(ends.median(), std::numeric_limits<double>::infinity());
+  ends.add(0);
+  EXPECT_EQ(ends.median(), 0);
 }
 
 TEST(Quality, IsMeasuredInPhysicalUnits) {
