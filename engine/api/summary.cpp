@@ -43,6 +43,7 @@ Json labels_of(const io::MeshData& mesh) {
   }
   return {{"written", tets.size()},
           {"of", tets.size()},
+          {"zero_is_nothing", false},
           {"first", std::move(first)},
           {"fewest_tets", std::move(fewest)}};
 }

@@ -353,8 +353,18 @@ class MeshRun {
     if (const io::LabelScores* const scores = opened_.scores()) {
       run_.fingerprint += io::text(", scores ", fingerprint(*scores));
     }
+    leave_out_zero();
     if (job_.labels_known) job_.labels_known(run_.labels.size());
     job_.run.store.memory_beside = std::min(input_.held_bytes(), job_.run.store.memory);
+  }
+
+  /// Leaves out label 0 where nobody said what is written, and the names that it is nothing.
+  void leave_out_zero() {
+    if (!job_.choice.any() && is_zero_nothing(run_.labels, run_.volume.names)) {
+      job_.choice.background = asked_.choice.background = 0;
+      run_.leaves_out_zero = true;
+    }
+    run_.choice = job_.choice;
   }
 
   /// Returns the memory of the marches.
@@ -434,7 +444,6 @@ class MeshRun {
 
   void tell() {
     run_.settings = asked_.settings;
-    run_.choice = job_.choice;
     run_.has_scores = opened_.scores() != nullptr;
     run_.raised = sizes_.raised;
     run_.specks = input_.specks();
@@ -450,7 +459,7 @@ class MeshRun {
 
   const engine::ResourceMeter meter_;
   const io::LabelVolume& opened_;
-  const MeshJob& asked_;
+  MeshJob asked_;
   MeshJob job_;  ///< with the settings of the marches
   CertificatePlan plan_;
   JobSizes sizes_;

@@ -3,12 +3,19 @@
 // Which labels a mesh holds, and a block without the others.
 #include "engine/output/label_selection.h"
 
+#include <algorithm>
+#include <array>
+#include <cctype>
 #include <string>
+#include <string_view>
 
 #include "io/file/errors.h"
 
 namespace mw::engine {
 namespace {
+
+/// What nnU-Net, ITK-SNAP and FreeSurfer call label 0, in small letters.
+constexpr std::array<std::string_view, 3> kNothing{"background", "clear label", "unknown"};
 
 void require_label(RawLabel label, const io::LabelTable& table, const char* option) {
   if (table.contains(label)) return;
@@ -46,8 +53,19 @@ void LabelSelection::apply(BlockMesh& block) const {
   }
 }
 
+bool is_zero_nothing(const io::LabelTable& table, const io::LabelNames& names) {
+  if (!table.contains(0) || table.size() < 2) return false;
+  std::string zero = names.name(0);
+  std::ranges::transform(zero, zero.begin(), [](unsigned char c) { return std::tolower(c); });
+  if (!zero.empty()) return std::ranges::find(kNothing, zero) != kNothing.end();
+  for (Label label = 0; label < table.size(); ++label) {
+    if (table.raw(label) != 0 && names.name(table.raw(label)).empty()) return false;
+  }
+  return true;
+}
+
 void check_choice(const LabelChoice& choice) {
-  if (choice.labels && choice.background) {
+  if (choice.labels && (choice.background || choice.keeps_zero)) {
     io::fail_usage("--labels and --background: give one of them, not both");
   }
 }

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "io/labels/label_table.h"
+#include "io/names/label_names.h"
 #include "kernels/mesh/block_mesh.h"
 
 namespace mw::engine {
@@ -33,11 +34,20 @@ class LabelSelection {
 struct LabelChoice {
   std::optional<std::vector<RawLabel>> labels;  ///< the only ones that are kept
   std::optional<RawLabel> background;           ///< the only one that is left out
+  bool keeps_zero = false;                      ///< also where names say that 0 is nothing
   const char* labels_option = "--labels";       ///< what errors about `labels` name
+
+  /// True if somebody said what is written.
+  [[nodiscard]] bool any() const { return labels || background || keeps_zero; }
 };
 
 /// ERRORS: mw::Error(kUsage) when both are given.
 void check_choice(const LabelChoice& choice);
+
+/// Returns whether the names say that label 0 is nothing: it is called background or the like, or
+/// it has no name and all other labels of the volume have one.  False where there is no other
+/// label.
+[[nodiscard]] bool is_zero_nothing(const io::LabelTable& table, const io::LabelNames& names);
 
 /// Returns which labels are kept; empty when all are.
 /// ERRORS: mw::Error(kUsage) for a label that the volume does not have, and when none is kept.

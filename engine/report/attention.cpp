@@ -34,8 +34,8 @@ std::string lone_label_text(const FinishedRun& run) {
 
 /// Tells of label 0 if nobody chose labels and it has the most tets: it is then the background.
 std::string background_text(const FinishedRun& run) {
-  const bool is_chosen = run.choice.labels || run.choice.background;
-  if (is_chosen || !run.amounts || run.labels.size() < 2 || !run.labels.contains(0)) return "";
+  if (run.choice.any() || !run.amounts || run.labels.size() < 2 || !run.labels.contains(0))
+    return "";
   const std::vector<std::uint64_t>& tets = run.amounts->tets;
   const std::uint64_t zero = tets[run.labels.dense(0)];
   if (zero < *std::max_element(tets.begin(), tets.end())) return "";

@@ -81,6 +81,7 @@ Json labels_json(const FinishedRun& run) {
   }
   return {{"written", written},
           {"of", run.labels.size()},
+          {"zero_is_nothing", run.leaves_out_zero},
           {"first", std::move(first)},
           {"fewest_tets", fewest ? row_of(*fewest) : Json()}};
 }

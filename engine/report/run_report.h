@@ -48,6 +48,7 @@ struct FinishedRun {
   io::LabelTable labels;
   engine::MeshSettings settings;  ///< as they were asked for, sizes in physical units
   engine::LabelChoice choice;     ///< which labels are written
+  bool leaves_out_zero = false;   ///< since names say that label 0 is nothing
   bool has_scores = false;        ///< whether labels come from probabilities or distances
   engine::SizeSettings sizes;     ///< those that the run kept to, after scaling
   std::optional<CountFacts> count;

@@ -54,7 +54,11 @@ std::string labels_text(const Json& report) {
   if (written > 1 && !fewest.is_null()) {
     out += "; fewest tets: " + with_commas(fewest["tets"].integer()) + " in " + text_of_row(fewest);
   }
-  return out + "\n";
+  out += "\n";
+  if (!labels["zero_is_nothing"].boolean()) return out;
+  return out +
+         "background  label 0 is left out, as the names say that it is nothing: --background "
+         "none keeps it\n";
 }
 
 /// Says how near edges are to the sizes asked of their labels, where that was measured.
@@ -183,7 +187,8 @@ std::string attention_text(const Json& report) {
   std::string out;
   for (const Json& line : report["attention"].elements())
     out += "note        " + line.text() + "\n";
-  return out + told("next        --size {size:g} gives about {tets:,} tets\n", report["suggestion"]);
+  return out +
+         told("next        --size {size:g} gives about {tets:,} tets\n", report["suggestion"]);
 }
 
 }  // namespace mw::report

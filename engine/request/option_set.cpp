@@ -98,7 +98,7 @@ void OptionSet::check_named(const Entry& entry) {
 
 bool OptionSet::waits_for_names(const Entry& entry) {
   const bool has_labels = entry.option.has_labels || entry.option.kind == ValueKind::kLabels;
-  return has_labels && engine::has_names(entry.text);
+  return has_labels && entry.text != entry.option.word && engine::has_names(entry.text);
 }
 
 void OptionSet::resolve_names(const std::function<io::LabelNames()>& names) {

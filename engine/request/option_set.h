@@ -62,6 +62,7 @@ struct Option {
   bool required = false;
   bool only_flag = false;   ///< neither a key nor a variable has it
   bool repeats = false;     ///< may be given several times: the texts are joined by ';'
+  std::string word;         ///< a text that is no name of a label, where names are taken
   bool has_labels = false;  ///< the value has labels in it, though its kind is not kLabels
   /// Looks at the text before names of labels become numbers.  ERRORS: mw::Error(kUsage).
   TextCheck check_named = nullptr;

@@ -46,6 +46,8 @@ Option preset_option() {
   return out;
 }
 
+constexpr const char* kKeepsZero = "none";
+
 int parse_threads(const std::string& text) {
   const std::int64_t threads = parse_integer(text);
   engine::check_threads(threads);
@@ -101,11 +103,16 @@ void add_choice_options(OptionSet& options, engine::LabelChoice& choice) {
                .assign = into(choice.labels, parse_labels)});
   options.add({.name = "background",
                .value = "L",
-               .help = "the label that is left out of the mesh, as 0",
+               .help = "the label that is left out, as 0; none [0 where names say it is nothing]",
                .group = kLabelGroup,
                .kind = ValueKind::kLabels,
                .calls = kMeshing | kVerifying,
-               .assign = into(choice.background, parse_label)});
+               .word = kKeepsZero,
+               .assign = [&choice](const std::string& text) {
+                 choice.keeps_zero = text == kKeepsZero;
+                 choice.background.reset();
+                 if (text != kKeepsZero) choice.background = parse_label(text);
+               }});
 }
 
 }  // namespace mw::request

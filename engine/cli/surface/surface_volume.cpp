@@ -41,6 +41,7 @@ bool are_of_voxels(const MeshRequest& request, const std::vector<RawLabel>& labe
 }
 
 void choose(MeshRequest& request, const std::vector<RawLabel>& labels) {
+  request.job.choice.keeps_zero = labels.empty();
   if (labels.empty()) return;
   if (are_of_voxels(request, labels)) {
     request.volume.open.object = labels;

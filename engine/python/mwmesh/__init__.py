@@ -139,6 +139,8 @@ def mesh(volume, *, progress=None, **arguments):
         edge or a corner alone.
     labels, background
         the labels that the mesh is to have, or the one that is left out; all of them are meshed.
+        Label 0 is left out where the names say that it is nothing (they call it "background", or
+        all other labels have a name), unless background is "none".
     parts, split, cohesive, open_hinges
         "all", "largest" or the least number of tets of a part, which is what faces join; pairs of
         labels, [(1, 2), ("Liver", "Lesion")], whose interfaces open because their points are

@@ -52,6 +52,10 @@ def _labels(of, value, name):
     return ",".join(labels)
 
 
+def _background(of, value, name):
+    return value if isinstance(value, str) and value == "none" else _label(of, value, name)
+
+
 def _object(_of, value, name):
     return _joined(whole_numbers(np.ravel(value), name).tolist())
 
@@ -141,7 +145,7 @@ _KINDS = {
     "shape": lambda of, value, name: _joined(whole(n, name) for n in three(value, name)),
 }
 _SPECIAL = {
-    "background": _label, "object": _object, "merge": _merge, "drop_specks": _specks, "weld": _labels, "size": _sizes,
+    "background": _background, "object": _object, "merge": _merge, "drop_specks": _specks, "weld": _labels, "size": _sizes,
     "split": _pairs, "cohesive": _pairs, "sample": _samples, "changed": _boxes,
     "deck": lambda of, value, name: value if isinstance(value, str) else (
         "static" if switch(value, name) else "none"),

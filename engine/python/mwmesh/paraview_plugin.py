@@ -27,7 +27,7 @@ ARGUMENTS = {
     "preset": ("String", "default", "draft, default or fine"),
     "size": ("Double", 0, "edges of about this length; 0: any"),
     "max_distance": ("Double", 0, "voxels at most from interfaces of input to mesh; 0: the preset's"),
-    "background": ("String", "", "the label that is left out, by number or name; empty: none"),
+    "background": ("String", "", "the label that is left out, by number or name, or none; empty: 0 where names say so"),
     "labels": ("String", "", "the labels that are meshed, as in 1, 2, Liver; empty: all"),
     "names": ("String", "", "a file of the names of labels, as 'mwmesh mesh --names' takes it"),
     "sample": ("String", "", "arrays whose means the tets get as values, as in CT, PET"),

@@ -204,6 +204,33 @@ TEST_F(NamesTest, StandForLabelsInOptions) {
   expect_failure(2, "mesh v.npy -o c.vtu --labels liver", "give labels names (--names)");
 }
 
+TEST_F(NamesTest, LeaveOutZeroWhereTheySayThatItIsNothing) {
+  expect_done("synth spheres --shape 20,20,20 --labels 2 --seed 1 -o b.npy");
+  const auto digest = [&](const std::string& options) {
+    expect_done("mesh b.npy -o m.vtu " + options);
+    expect_done("verify b.npy m.vtu");
+    return run("digest m.vtu").out;
+  };
+  const std::string all = digest(""), inner = digest("--background 0");
+  ASSERT_NE(all, inner);
+  EXPECT_EQ(digest("--background none"), all);
+  const std::vector<std::pair<std::string, bool>> cases{
+      {"1,liver\n2,spleen\n", true},  {"1,liver\n2,spleen\n7,far\n", true},
+      {"1,liver\n", false},           {"0,air\n1,liver\n2,spleen\n", false},
+      {"0,Background\n", true},       {"0,Clear Label\n1,liver\n", true},
+      {"0,UNKNOWN\n1,liver\n", true}, {"7,far\n", false}};
+  for (const auto& [rows, is_nothing] : cases) {
+    SCOPED_TRACE(rows);
+    write("b.csv", "id,name\n" + rows);
+    EXPECT_EQ(digest("--names b.csv"), is_nothing ? inner : all);
+    const std::string out = run("mesh b.npy -o m.vtu --names b.csv").out;
+    EXPECT_EQ(out.find("\nbackground  label 0 is left out") != out.npos, is_nothing) << out;
+    EXPECT_EQ(digest("--names b.csv --background none"), all);
+    EXPECT_EQ(digest("--names b.csv --labels 0,1,2"), all);
+  }
+  expect_failure(2, "mesh b.npy -o m.vtu --background none --labels 1", "not both");
+}
+
 /// A raw volume of random labels beside what a loop over its voxels finds.
 TEST_F(NamesTest, InfoListsLabelsOfAVolume) {
   constexpr int kX = 70, kY = 20, kZ = 19;
