@@ -309,8 +309,8 @@ MW_PUBLIC mw_status mw_mesh_write(const mw_mesh* mesh, const char* path, const m
 /* Returns "sha256:...", which is the same for every format, order of rows and machine; the caller
  * frees it. */
 MW_PUBLIC char* mw_mesh_digest(const mw_mesh* mesh, mw_error** error);
-/* Returns a PNG of all labels except the one around them, as `mwmesh picture` draws it, and its
- * number of bytes; the caller frees it.
+/* Returns a PNG of all labels except the one around them, with a legend, as `mwmesh picture` draws
+ * it, and its number of bytes; the caller frees it.
  * ERRORS: MW_USAGE for fewer than 16 or more than 8,192 pixels; MW_INPUT if there is nothing to
  * see. */
 MW_PUBLIC char* mw_mesh_picture(const mw_mesh* mesh, int width, int height, size_t* bytes,

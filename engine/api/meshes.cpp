@@ -105,9 +105,14 @@ std::string picture_of(const mw_mesh& mesh, int width, int height) {
   io::GroupedMesh& grouped = sink.mesh();
   std::vector<bool> shown(grouped.table().size(), true);
   if (const auto around = picture::surrounding_label(grouped)) shown[*around] = false;
+  picture::Legend legend = picture::legend_of(grouped, shown, grouped.names());
   picture::MeshScene scene(grouped, std::move(shown), grouped.names());
   std::string png;
-  picture::draw(scene, {.width = width, .height = height, .view = picture::default_view({})},
+  picture::draw(scene,
+                {.width = width,
+                 .height = height,
+                 .view = picture::default_view({}),
+                 .legend = std::move(legend)},
                 [&](std::span<const std::byte> bytes) {
                   png.append(reinterpret_cast<const char*>(bytes.data()), bytes.size());
                 });

@@ -31,6 +31,7 @@ struct PictureRequest {
   std::array<int, 2> pixels{1200, 900};         ///< width and height
   picture::Lines lines = picture::Lines::kAuto;
   bool transparent = false;
+  bool has_legend = true;
   bool force = false;  ///< whether it may replace a file of others
 };
 
@@ -85,7 +86,7 @@ picture::View parse_view(std::string_view text) {
 void add_subject(OptionSet& options, PictureRequest& request) {
   options.add({.name = "labels",
                .value = "LIST",
-               .help = "labels to draw, as 1,2 [all but the one around them]",
+               .help = "labels to draw, as 1,Liver [all but the one around them]",
                .group = kShownGroup,
                .kind = ValueKind::kLabels,
                .flags = "--labels,--label",
@@ -123,6 +124,13 @@ void add_style(OptionSet& options, PictureRequest& request) {
                .fallback = "auto",
                .choices = {"auto", "on", "off"},
                .assign = into(request.lines, parse_lines)});
+  options.add(
+      {.name = "legend",
+       .help = "the largest labels by name, a scale bar and directions, from 360x270 on",
+       .group = kOutputGroup,
+       .fallback = "on",
+       .choices = {"on", "off"},
+       .assign = [&request](const std::string& text) { request.has_legend = text == "on"; }});
   options.add({.name = "transparent",
                .help = "a transparent instead of a white background",
                .group = kOutputGroup,
@@ -202,10 +210,11 @@ std::uint64_t draw_mesh(const PictureRequest& request, const io::TakeBytes& take
   io::GroupedMesh& mesh = sink.mesh();
   io::LabelNames names = mesh.names();
   if (!request.names.empty()) names = names.merged_with(names_in(request.names));
-  picture::MeshScene scene(
-      mesh,
-      request.labels ? asked_labels(mesh.table(), *request.labels) : inner_labels(mesh, names),
-      names);
+  std::vector<bool> shown =
+      request.labels ? asked_labels(mesh.table(), *request.labels) : inner_labels(mesh, names);
+  std::optional<picture::Legend> legend;
+  if (request.has_legend) legend = picture::legend_of(mesh, shown, names);
+  picture::MeshScene scene(mesh, std::move(shown), names);
   const picture::View view = request.view.value_or(picture::default_view(request.cut));
   if (request.cut) scene.cut(cut_plane(mesh.box(), *request.cut, view));
   return draw(scene,
@@ -213,7 +222,8 @@ std::uint64_t draw_mesh(const PictureRequest& request, const io::TakeBytes& take
                .height = request.pixels[1],
                .view = view,
                .lines = request.lines,
-               .transparent = request.transparent},
+               .transparent = request.transparent,
+               .legend = std::move(legend)},
               take);
 }
 

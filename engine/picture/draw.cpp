@@ -53,10 +53,12 @@ double line_share(const Measured& measured, const PictureStyle& style) {
 
 class Painter {
  public:
-  Painter(const Measured& measured, const PictureStyle& style)
+  Painter(const Measured& measured, const PictureStyle& style, int width)
       : view_(style.view),
-        camera_(style.view, measured.extent, style.width, style.height),
+        camera_(style.view, measured.extent, width, style.height),
         line_share_(line_share(measured, style)) {}
+
+  [[nodiscard]] const Camera& camera() const { return camera_; }
 
   void paint(const SceneTriangle& triangle, Raster& raster) const {
     ScreenTriangle out{.lined = triangle.lined,
@@ -73,6 +75,11 @@ class Painter {
   double line_share_;
 };
 
+/// Returns the colour of letters, which can be read on any ground where that is transparent.
+Colour ink_of(const PictureStyle& style) {
+  return style.transparent ? Colour{128, 128, 128} : Colour{50, 50, 50};
+}
+
 int band_rows(const PictureStyle& style) {
   const std::int64_t row = style.width * kSamples * kSamples * kSampleBytes;
   return static_cast<int>(std::clamp<std::int64_t>(kBandBytes / row, 1, style.height));
@@ -88,7 +95,11 @@ void check_sides(std::int64_t width, std::int64_t height) {
 
 std::uint64_t draw(MeshScene& scene, const PictureStyle& style, const io::TakeBytes& take) {
   const Measured measured = measure(scene, style.view);
-  const Painter painter(measured, style);
+  std::optional<LegendColumn> column;
+  if (style.legend) column.emplace(*style.legend, style.width, style.height, style.letters);
+  const Painter painter(measured, style, column ? column->scene_width() : style.width);
+  const Overlay marks =
+      column ? column->marks(painter.camera(), style.view, ink_of(style)) : Overlay();
   io::PngWriter png(static_cast<std::uint32_t>(style.width),
                     static_cast<std::uint32_t>(style.height), style.transparent, take);
   std::vector<std::uint8_t> row(4 * static_cast<std::size_t>(style.width));
@@ -99,6 +110,7 @@ std::uint64_t draw(MeshScene& scene, const PictureStyle& style, const io::TakeBy
     scene.each([&](const SceneTriangle& triangle) { painter.paint(triangle, raster); });
     for (int y = 0; y < band.rows; ++y) {
       raster.read_row(y, row);
+      marks.blend(first + y, row);
       png.write_row(row);
     }
   }

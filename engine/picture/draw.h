@@ -6,6 +6,7 @@
 #include <functional>
 #include <optional>
 
+#include "engine/picture/legend.h"
 #include "io/mesh/grouped/grouped_mesh.h"
 #include "io/picture/png_writer.h"
 #include "kernels/picture/view.h"
@@ -15,8 +16,8 @@ namespace mw::picture {
 /// Returns the colour that the names give a label, else that of the palette.
 [[nodiscard]] Colour label_colour(RawLabel label, const io::LabelNames& names);
 
-/// Returns the label that surrounds the others: it has more than two thirds of the box's surface,
-/// and is not the only label.  Empty when no label does.
+/// Returns the label that surrounds the others: it fills more than two thirds of the box's sides,
+/// and is not the only label.  Empty when no label does, as in a mesh without its background.
 /// ERRORS: see GroupedMesh.  Cost: a pass over the facets on the box.
 [[nodiscard]] std::optional<Label> surrounding_label(io::GroupedMesh& mesh);
 
@@ -85,7 +86,9 @@ struct PictureStyle {
   int height = 900;
   View view;
   Lines lines = Lines::kAuto;
-  bool transparent = false;  ///< the background is transparent, else white
+  bool transparent = false;        ///< the background is transparent, else white
+  std::optional<Legend> legend{};  ///< drawn beside the scene where there is room
+  int letters = 0;                 ///< see LegendColumn
 };
 
 /// ERRORS: mw::Error(kUsage) unless both sides have 16 to 8,192 pixels.

@@ -3,7 +3,10 @@
 // Collects what is seen of a mesh.
 #include "engine/picture/draw.h"
 
+#include <Eigen/Geometry>
+
 #include <algorithm>
+#include <cmath>
 #include <limits>
 
 #include "io/file/errors.h"
@@ -14,6 +17,13 @@ namespace {
 
 Vec3 vec(const io::Position& p) {
   return {p[0], p[1], p[2]};
+}
+
+/// Returns the area of the box's six sides.
+double area_of(const io::MeshBox& box) {
+  const auto& [x, y, z] = box.edges;
+  return 2 *
+         (vec(x).cross(vec(y)).norm() + vec(y).cross(vec(z)).norm() + vec(z).cross(vec(x)).norm());
 }
 
 /// Visits a polygon as triangles around its first corner; its own sides are edges of the mesh.
@@ -36,20 +46,18 @@ Colour label_colour(RawLabel label, const io::LabelNames& names) {
 
 std::optional<Label> surrounding_label(io::GroupedMesh& mesh) {
   if (mesh.table().size() < 2) return std::nullopt;
-  std::vector<double> areas(mesh.table().size());
-  double total = 0;
+  std::vector<double> areas(mesh.table().size());  // twice those on the box
   for (const io::FacetGroup& group : mesh.facet_groups()) {
     if (group.side == io::Side::kInterface || group.side == io::Side::kOuter) continue;
     for (std::uint64_t number = group.facets.begin; number < group.facets.end; ++number) {
       const auto [a, b, c] = mesh.facet(number).rows;
-      const double area =
+      areas[group.first] +=
           normal_of({vec(mesh.node(a)), vec(mesh.node(b)), vec(mesh.node(c))}).norm();
-      areas[group.first] += area;
-      total += area;
     }
   }
+  const double all = 2 * area_of(mesh.box());
   for (Label rank = 0; rank < areas.size(); ++rank) {
-    if (3 * areas[rank] > 2 * total) return rank;
+    if (3 * areas[rank] > 2 * all && std::isfinite(areas[rank])) return rank;
   }
   return std::nullopt;
 }

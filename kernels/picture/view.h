@@ -44,6 +44,8 @@ class Camera {
 
   /// REQUIRES: a point in the extent.
   [[nodiscard]] ScreenPoint at(const Vec3& point) const;
+  /// Returns the length in pixels of what lies across the view; 0 for a single point.
+  [[nodiscard]] double pixels_a_unit() const { return scale_; }
 
  private:
   View view_;

@@ -201,13 +201,15 @@ std::string label_section(const PageLabels& labels, const ViewData& view) {
 
 /// Adds the scene as a figure.
 void add_picture(io::AtomicFile& file, picture::MeshScene& scene, const std::string& title,
-                 const picture::View& view) {
+                 picture::PictureStyle style) {
+  constexpr int kLetters = 2;  // the page shows pictures at half their size
+  style.transparent = true;
+  style.letters = kLetters;
   file.append("<figure class=\"card\"><figcaption><b>" + title +
               "</b></figcaption><img width=\"1200\" height=\"900\" alt=\"" + title +
               "\" src=\"data:image/png;base64,");
   Base64 text([&](std::string_view piece) { file.append(piece); });
-  draw(scene, {.view = view, .transparent = true},
-       [&](std::span<const std::byte> bytes) { text.add(bytes); });
+  draw(scene, style, [&](std::span<const std::byte> bytes) { text.add(bytes); });
   text.finish();
   file.append("\"></figure>\n");
 }
@@ -216,13 +218,14 @@ void add_picture(io::AtomicFile& file, picture::MeshScene& scene, const std::str
 void add_pictures(io::AtomicFile& file, const PageLabels& labels) {
   std::vector<bool> shown(labels.volumes.size(), true);
   if (labels.surrounding) shown[*labels.surrounding] = false;
+  const picture::Legend legend = picture::legend_of(labels.mesh, shown, labels.mesh.names());
   picture::MeshScene scene(labels.mesh, std::move(shown), labels.mesh.names());
   file.append("<section><h2>Pictures</h2><div class=\"pictures\">\n");
-  add_picture(file, scene, "Surfaces", picture::default_view({}));
+  add_picture(file, scene, "Surfaces", {.view = picture::default_view({}), .legend = legend});
   const picture::CutPosition middle = middle_cut(scene, labels.mesh.box(), 0);
   const picture::View view = picture::default_view(middle);
   scene.cut(cut_plane(labels.mesh.box(), middle, view));
-  add_picture(file, scene, "Cut across x", view);
+  add_picture(file, scene, "Cut across x", {.view = view, .legend = legend});
   file.append("</div></section>\n");
 }
 

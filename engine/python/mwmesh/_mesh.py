@@ -389,12 +389,17 @@ class Mesh:
         triangles = facets.triangles[here]
         return triangles if rank_a < rank_b else facets.others[here]
 
-    def _lie_on_box(self, triangles):
-        """Returns for each triangle whether it lies on a side of the box of the volume."""
+    def _box(self):
+        """Returns the box of the volume: its origin and three edges."""
         box = self._record().get("box")
         if box is None:  # as of meshes of others: that of the points
             low = self.points.min(axis=0)
             box = {"origin": low, **dict(zip("xyz", np.diag(self.points.max(axis=0) - low)))}
+        return box
+
+    def _lie_on_box(self, triangles):
+        """Returns for each triangle whether it lies on a side of the box of the volume."""
+        box = self._box()
         on_side = np.zeros(len(triangles), dtype=bool)
         for axis in "xyz":
             edge = np.array(box[axis])
@@ -475,9 +480,12 @@ class Mesh:
         """Returns the ranks of all labels except the one that has two thirds of the box's sides."""
         facets = self._facets()
         box = facets.other < 0
+        box[box] = self._lie_on_box(facets.triangles[box])
         sums = np.bincount(facets.label[box], _areas(self.points, facets.triangles[box]),
                            len(self.label_list()))
-        inner = 3 * sums <= 2 * sums.sum()
+        x, y, z = (np.array(self._box()[axis], float) for axis in "xyz")
+        sides = 2 * sum(np.linalg.norm(np.cross(a, b)) for a, b in ((x, y), (y, z), (z, x)))
+        inner = 3 * sums <= 2 * sides
         return np.flatnonzero(inner if inner.any() else ~inner)
 
     def plot(self, labels=None, **arguments):

@@ -144,6 +144,67 @@ class Picture(unittest.TestCase):
         self.assertNotIn("left out", out)
         self.assertGreater(count(read_png("b.png"), (186, 176, 172)), count(read_png("b.png"), ORANGE))
 
+    def test_a_body_without_its_background_is_shown(self):
+        """Also where it alone reaches the box, and is around another label."""
+        labels = numpy.zeros((20, 20, 20), numpy.uint8)
+        labels[4:, 4:16, 4:16] = 1
+        labels[10:14, 8:12, 8:12] = 2
+        numpy.save("b.npy", labels)
+        run("mesh", "b.npy", "-o", "b.vtu", "--background", "0")
+        out = draw("b.vtu", "b.png", "--cut", "y=0.5", "--pixels", "80x80")
+        self.assertNotIn("left out", out)
+        self.assertGreater(count(read_png("b.png"), BLUE), 1000)
+
+    def legend(self, name, *arguments):
+        """The picture of h.vtu with its legend, and the part of it right of the scene."""
+        run("picture", "h.vtu", "-o", name, "--view", "z", "--cut", "z=0.5", "--edges", "off",
+            "--pixels", "600x450", *arguments)
+        image = read_png(name)
+        seen = numpy.flatnonzero((image[225] != 255).any(axis=1))
+        return image, image[:, seen.max() + 2 :]
+
+    def test_the_legend_has_a_box_of_each_label_the_largest_first(self):
+        self.halves()
+        with open("names.csv", "w", encoding="utf-8") as file:
+            file.write("id,name\n1,left\n2,Größe\n")
+        image, side = self.legend("h.png", "--names", "names.csv")
+        self.assertEqual((count(side, BLUE), count(side, ORANGE)), (13 * 13, 13 * 13))
+        rows = [numpy.flatnonzero((side == numpy.array(c, numpy.uint8)).all(axis=2).any(axis=1))[0]
+                for c in (BLUE, ORANGE)]
+        self.assertLess(rows[0], rows[1])
+        # Letters stand behind the boxes: more of them where names are longer.
+        inks = [count(side[row : row + 15], (50, 50, 50)) for row in rows]
+        self.assertLess(30, inks[0])
+        self.assertLess(inks[0], inks[1])
+        self.assertEqual(count(self.legend("o.png", "--legend", "off")[1], BLUE), 0)
+        alone = self.legend("a.png", "--names", "names.csv", "--labels", "Größe")[1]
+        self.assertEqual((count(alone, BLUE), count(alone, ORANGE)), (0, 13 * 13))
+
+    def test_the_scale_bar_is_as_long_as_it_says(self):
+        self.halves()
+        image, side = self.legend("h.png")
+        scene = (image[225] != 255).any(axis=1).sum()  # 20 units
+        bar = (side[-12] == 50).all(axis=1).sum()
+        self.assertAlmostEqual(bar / (scene / 20), 5, delta=0.1)
+
+    def test_letters_say_the_directions(self):
+        """Which differ between RAS and LPS, and are x, y and z where the frame is not known."""
+        self.halves()
+        pictures = {}
+        for frame, space in (("own", ""), ("ras", "right-anterior-superior"),
+                             ("lps", "left-posterior-superior")):
+            with open("h.nrrd", "wb") as file:
+                file.write("\n".join((
+                    "NRRD0004", "type: uint8", "dimension: 3", "sizes: 20 20 20", "encoding: raw",
+                    *((f"space: {space}", "space directions: (1,0,0) (0,1,0) (0,0,1)")
+                      if space else ()), "", "")).encode() + numpy.load("h.npy").tobytes())
+            run("mesh", "h.nrrd", "-o", "h.vtu")
+            pictures[frame] = self.legend("h.png")[1]
+        for a, b in (("own", "ras"), ("ras", "lps"), ("own", "lps")):
+            different = (pictures[a] != pictures[b]).any(axis=2)
+            self.assertGreater(different.sum(), 5, (a, b))
+            self.assertTrue(numpy.flatnonzero(different.any(axis=1)).min() > 200)
+
     def test_names_give_colours(self):
         self.halves()
         with open("names.csv", "w", encoding="utf-8") as file:
@@ -174,6 +235,7 @@ class Picture(unittest.TestCase):
         before = set(os.listdir("."))
         for code, piece, *arguments in (
             (2, "--labels: the mesh has no label 7", "h.vtu", "-o", "p.png", "--labels", "7"),
+            (2, "on, off", "h.vtu", "-o", "p.png", "--legend", "left"),
             (2, "x=SHARE", "h.vtu", "-o", "p.png", "--cut", "w=0.5"),
             (2, "0 to 1", "h.vtu", "-o", "p.png", "--cut", "x=1.5"),
             (2, "AZIMUTH", "h.vtu", "-o", "p.png", "--view", "behind"),
