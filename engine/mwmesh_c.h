@@ -147,8 +147,8 @@ typedef struct mw_space {
 } mw_space;
 
 /* Fills *space with the space of an array whose indices of voxels `affine` (three rows of a 4 x 4
- * matrix) takes to the world; as in NIfTI, they stand for centres, while the affine of `mwmesh info
- * --json` takes corners, and is to get half of each of its first three columns added to the last.
+ * matrix) takes to the world; as in NIfTI, they stand for centres: it is what `mwmesh info` calls
+ * affine_of_centres.
  * Where all twelve are floats of 32 bits, they are what their shortest decimals say, as in files.
  * frame is "own", "ras" or "lps", or "voxel" to keep nothing but the edges of a voxel.  spacing, or
  * NULL, has these edges where a file states them beside the matrix; it counts for axes that lie

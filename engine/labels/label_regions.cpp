@@ -31,6 +31,10 @@ class RegionCount {
     }
   }
 
+  void add(const RegionCount& other) {
+    for (const auto& [label, region] : other.regions_) add(region);
+  }
+
   [[nodiscard]] std::vector<LabelRegion> regions() const {
     std::vector<LabelRegion> out;
     out.reserve(regions_.size());
@@ -44,19 +48,22 @@ class RegionCount {
       while (end < row.size() && row[end] == row[begin]) ++end;
       const auto x = first.x + static_cast<std::int64_t>(begin);
       const auto after = first.x + static_cast<std::int64_t>(end);
-      add_run(row[begin], {{x, first.y, first.z}, {after, first.y + 1, first.z + 1}});
+      add({.label = row[begin],
+           .voxels = end - begin,
+           .box = {{x, first.y, first.z}, {after, first.y + 1, first.z + 1}}});
     }
   }
 
-  void add_run(RawLabel label, const Box3& run) {
-    const auto [found, is_new] = regions_.try_emplace(label, LabelRegion{label, 0, run});
-    LabelRegion& region = found->second;
-    region.voxels += static_cast<std::uint64_t>(run.voxels());
+  void add(const LabelRegion& more) {
+    const auto [found, is_new] = regions_.try_emplace(more.label, more);
     if (is_new) return;
+    LabelRegion& region = found->second;
+    region.voxels += more.voxels;
     Index3& lo = region.box.lo;
     Index3& hi = region.box.hi;
-    lo = {std::min(lo.x, run.lo.x), std::min(lo.y, run.lo.y), std::min(lo.z, run.lo.z)};
-    hi = {std::max(hi.x, run.hi.x), std::max(hi.y, run.hi.y), std::max(hi.z, run.hi.z)};
+    const Box3& box = more.box;
+    lo = {std::min(lo.x, box.lo.x), std::min(lo.y, box.lo.y), std::min(lo.z, box.lo.z)};
+    hi = {std::max(hi.x, box.hi.x), std::max(hi.y, box.hi.y), std::max(hi.z, box.hi.z)};
   }
 
   std::unordered_map<RawLabel, LabelRegion> regions_;
@@ -111,17 +118,22 @@ class ContactCount {
 
 }  // namespace
 
-std::vector<LabelRegion> label_regions(const io::LabelVolume& volume) {
+std::vector<LabelRegion> label_regions(const io::LabelVolume& volume, int threads) {
   const ReadingTiles tiles(volume.info());
   RegionCount count;
   std::mutex counting;
-  const int threads = scanner_count(volume, 1, std::numeric_limits<std::uint64_t>::max());
-  tbb_for_each_index(threads, tiles.count(), [&](Index3 tile) {
+  // Of voxels that are no labels the error names the first.
+  const bool is_in_order = volume.info().scaled || io::is_float(volume.info().type);
+  const int readers =
+      scanner_count(volume, is_in_order ? 1 : threads, std::numeric_limits<std::uint64_t>::max());
+  tbb_for_each_index(readers, tiles.count(), [&](Index3 tile) {
     const Box3 box = tiles.box(tile);
     std::vector<RawLabel> labels(static_cast<std::size_t>(box.voxels()));
     volume.read(box, labels);
+    RegionCount here;
+    here.add(box, labels);
     const std::lock_guard turn(counting);
-    count.add(box, labels);
+    count.add(here);
   });
   std::vector<LabelRegion> out = count.regions();
   const RawLabel flip = has_signed_labels(volume.info()) ? RawLabel{1} << 63U : 0;

@@ -17,9 +17,11 @@ struct LabelRegion {
 };
 
 /// Returns the labels, ascending (as signed numbers where the volume's are), in one pass over it.
-/// Memory: a tile (ReadingTiles), or 8 where reading waits for a network, and some 150 bytes a
-/// label. ERRORS: what the volume throws.
-[[nodiscard]] std::vector<LabelRegion> label_regions(const io::LabelVolume& volume);
+/// `threads` threads read; their number does not change the result.
+/// Memory: a tile (ReadingTiles) a thread, or 8 where reading waits for a network, and some 150
+/// bytes a label and thread. ERRORS: what the volume throws.
+[[nodiscard]] std::vector<LabelRegion> label_regions(const io::LabelVolume& volume,
+                                                     int threads = 1);
 
 /// Two labels, first < second as unsigned numbers.
 struct LabelContact {

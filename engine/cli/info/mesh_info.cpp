@@ -27,7 +27,8 @@ VolumeSide look_at_volume(const VolumeRequest& request, bool with_areas) {
   shared.end();
   const io::VolumeInfo& info = input.volume().info();
   VolumeSide out{.voxels = {}, .unit = info.space.unit, .names = info.names, .areas = {}};
-  for (const engine::LabelRegion& region : engine::label_regions(input.volume())) {
+  for (const engine::LabelRegion& region :
+       engine::label_regions(input.volume(), engine::thread_count(0))) {
     out.voxels.emplace(region.label, region.voxels);
   }
   const auto& edge = info.space.spacing;

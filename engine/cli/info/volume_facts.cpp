@@ -11,7 +11,7 @@
 
 #include "engine/cli/info/info_text.h"
 #include "engine/labels/reading_tiles.h"
-#include "engine/report/figures.h"
+#include "engine/system/crew.h"
 #include "io/remote/address.h"
 #include "io/volume/open_volume.h"
 
@@ -22,12 +22,14 @@ using io::Json;
 
 constexpr std::size_t kMaxPrinted = 1000;
 
-/// Returns the rows of the matrix that takes corners of voxels, (i, j, k, 1), to the world.
-Json affine_json(const io::VolumeSpace& space) {
+/// Returns the rows of the matrix that takes places in voxels, (i, j, k, 1), to the world: of their
+/// first corners, or `inside` of a voxel behind these.
+Json affine_json(const io::VolumeSpace& space, double inside) {
   Json rows = Json::array();
   for (std::size_t k = 0; k < 3; ++k) {
-    rows.push_back({space.axes[0][k] * space.spacing[0], space.axes[1][k] * space.spacing[1],
-                    space.axes[2][k] * space.spacing[2], space.origin[k]});
+    const double x = space.axes[0][k] * space.spacing[0], y = space.axes[1][k] * space.spacing[1],
+                 z = space.axes[2][k] * space.spacing[2];
+    rows.push_back({x, y, z, space.origin[k] + inside * (x + y + z)});
   }
   rows.push_back({0.0, 0.0, 0.0, 1.0});
   return rows;
@@ -63,7 +65,8 @@ Json facts_of(const VolumeRequest& request, const io::VolumeInfo& info,
           {"origin_xyz", space.origin},
           {"unit", space.unit.empty() ? Json() : Json(space.unit)},
           {"frame", io::name(space.frame)},
-          {"affine", affine_json(space)},
+          {"affine", affine_json(space, 0)},
+          {"affine_of_centres", affine_json(space, 0.5)},
           {"voxels", info.shape.product()},
           {"labels", regions.empty() ? Json("not read: choose with --scale or --crop")
                                      : labels_json(regions, has_signed_labels(info))}};
@@ -103,6 +106,17 @@ bool reads_labels(const VolumeRequest& request) {
   return !io::is_remote_address(request.path.string()) || request.open.scale || request.open.crop;
 }
 
+/// Returns the columns of labels: volumes in cubes of the unit, and in millilitres of mm.
+Columns columns_of(const std::string& unit) {
+  Columns out{{"label"}, {.title = "name", .needs = "label"}, {"voxels"}};
+  out.push_back({.title = unit.empty() ? "volume" : unit + "3", .key = "volume"});
+  if (unit == "mm") out.push_back({.title = "mL", .key = "volume", .unit = 1000});
+  for (const std::string key : {"lo", "hi"}) {
+    for (std::size_t k = 0; k < 3; ++k) out.push_back({key + "_" + "xyz"[k], key, k});
+  }
+  return out;
+}
+
 }  // namespace
 
 VolumeFacts::VolumeFacts(const VolumeRequest& request) {
@@ -111,7 +125,8 @@ VolumeFacts::VolumeFacts(const VolumeRequest& request) {
   const io::PreparedInput input(shared, request.steps);
   shared.end();
   info_ = input.volume().info();
-  if (reads_labels(request)) regions_ = engine::label_regions(input.volume());
+  if (reads_labels(request))
+    regions_ = engine::label_regions(input.volume(), engine::thread_count(0));
   facts_ = facts_of(request, info_, regions_);
   if (info_.offset != Index3{}) facts_["boxes"] = boxes_json(info_);
   if (!info_.masks.empty()) facts_["masks"] = masks_json(info_, regions_);
@@ -129,31 +144,24 @@ Json VolumeFacts::label_row(std::size_t i) const {
   Json row = report::named_row_json(region.label, has_signed_labels(info_), info_.names);
   row["voxels"] = region.voxels;
   row.update(range_json({region.box.lo + first, region.box.hi + first}));
-  row["volume"] = volume_of(i);
+  auto volume = static_cast<double>(region.voxels);
+  for (const double edge : info_.space.spacing) volume *= edge;
+  row["volume"] = volume;
   report::add_colour(row, region.label, info_.names);
   return row;
 }
 
-double VolumeFacts::volume_of(std::size_t i) const {
-  auto volume = static_cast<double>(regions_[i].voxels);
-  for (const double edge : info_.space.spacing) volume *= edge;
-  return volume;
-}
-
-std::string VolumeFacts::volume_text(std::size_t i) const {
-  return report::format_volume(volume_of(i), info_.space.unit);
-}
-
 void print_volume(const VolumeFacts& volume) {
   Json facts = volume.json();
+  facts.erase("affine");  // people know the one of centres
   if (volume.labels() > 0) facts["labels"].erase("per_label");
   print_facts(facts);
   const std::size_t shown = std::min(volume.labels(), kMaxPrinted);
-  for (std::size_t i = 0; i < shown; ++i) {
-    Json row = volume.label_row(i);
-    row["volume"] = volume.volume_text(i);
-    print_row("labels.per_label", row);
-  }
+  if (shown == 0) return;
+  Json rows = Json::array();
+  for (std::size_t i = 0; i < shown; ++i) rows.push_back(volume.label_row(i));
+  std::cout << '\n';
+  print_columns(rows, columns_of(facts["unit"].is_null() ? "" : facts["unit"].text()));
   if (shown == volume.labels()) return;
   std::cout << volume.labels() - shown << " more labels; --json lists all\n";
 }

@@ -23,19 +23,14 @@ class VolumeFacts {
   /// Returns label, name, voxels, box (hi is one behind the last voxel), volume and colour of the
   /// i-th label, ascending.  REQUIRES: i < labels().
   [[nodiscard]] io::Json label_row(std::size_t i) const;
-  /// Returns the volume of the i-th label as text: "17.18 mL".
-  [[nodiscard]] std::string volume_text(std::size_t i) const;
 
  private:
-  /// Returns the volume of the i-th label in cubes of the unit.
-  [[nodiscard]] double volume_of(std::size_t i) const;
-
   io::VolumeInfo info_;
   std::vector<engine::LabelRegion> regions_;
   io::Json facts_;
 };
 
-/// Prints the facts as text on stdout, with one line for each of the first 1,000 labels.
+/// Prints the facts as text on stdout, with a table of the first 1,000 labels.
 void print_volume(const VolumeFacts& volume);
 /// Prints all facts as JSON on stdout, with the rows of labels.  Memory: one row at a time.
 void print_volume_json(const VolumeFacts& volume);

@@ -110,8 +110,7 @@ def mesh(volume, *, progress=None, **arguments):
         (x, y, z), or one number for all: edges of a voxel, and the first corner of the first voxel.
     affine
         a 4 x 4 matrix that takes the indices (x, y, z) of voxels, at their centres, to the world;
-        it replaces spacing and origin.  That of ``mwmesh info --json`` is about their first corners:
-        add half of each of its first three columns to the last one.
+        it replaces spacing and origin.  ``mwmesh info`` calls it affine_of_centres.
     axes
         how arrays are indexed: "zyx" (as in .npy, HDF5, Zarr, TIFF), or "xyz" (as in NIfTI; the
         default with an affine and for nibabel images).

@@ -80,6 +80,8 @@ class Formats(unittest.TestCase):
         for name in ("a.nii", "a.nii.gz"):
             nibabel.save(image, name)
             self.check(name)
+            told = json.loads(run("info", name, "--json"))["affine_of_centres"]
+            numpy.testing.assert_allclose(told, nibabel.load(name).affine, atol=1e-6)
         nibabel.save(nibabel.Nifti2Image(self.labels.transpose(2, 1, 0)[..., None], affine), "b.nii")
         self.check("b.nii")
 

@@ -274,9 +274,15 @@ TEST_F(NamesTest, InfoListsLabelsOfAVolume) {
   EXPECT_EQ(facts["unit"], nullptr);
   EXPECT_EQ(facts["affine"], json::parse("[[1.0,0.0,0.0,0.0],[0.0,2.0,0.0,0.0],[0.0,0.0,3.0,0.0],"
                                          "[0.0,0.0,0.0,1.0]]"));
+  EXPECT_EQ(facts["affine_of_centres"],
+            json::parse("[[1.0,0.0,0.0,0.5],[0.0,2.0,0.0,1.0],[0.0,0.0,3.0,1.5],"
+                        "[0.0,0.0,0.0,1.0]]"));
   const std::string text = run(volume).out;
-  EXPECT_NE(text.find("labels.per_label label 1, name \"liver, <left>\", voxels "), text.npos)
-      << text;
+  EXPECT_NE(text.find("\nlabel  name "), text.npos) << text;
+  EXPECT_NE(text.find("  volume  lo_x  lo_y  lo_z  hi_x  hi_y  hi_z\n"), text.npos) << text;
+  EXPECT_NE(text.find("\n    1  liver, <left>  "), text.npos) << text;
+  EXPECT_NE(text.find("\naffine_of_centres [1,0,0,0.5] "), text.npos) << text;
+  EXPECT_EQ(text.find("\naffine "), text.npos) << text;
   EXPECT_EQ(text.find("more labels"), text.npos);
 }
 
@@ -288,8 +294,8 @@ TEST_F(NamesTest, InfoListsAThousandLabelsAsText) {
   write("v.raw", bytes);
   const std::string volume = "info v.raw --shape 11,10,10 --dtype u16 ";
   const std::string text = run(volume).out;
-  EXPECT_NE(text.find("label 999,"), text.npos);
-  EXPECT_EQ(text.find("label 1000,"), text.npos);
+  EXPECT_NE(text.find("\n  999  "), text.npos);
+  EXPECT_EQ(text.find("\n 1000  "), text.npos);
   EXPECT_NE(text.find("\n100 more labels; --json lists all\n"), text.npos) << text.substr(0, 500);
   EXPECT_EQ(json::parse(run(volume + "--json").out)["labels"]["per_label"].size(), 1100U);
 }
