@@ -10,6 +10,7 @@
 #include <optional>
 #include <vector>
 
+#include "engine/labels/label_regions.h"
 #include "engine/labels/prepared_labels.h"
 #include "engine/labels/voxel_lattice.h"
 #include "engine/output/label_selection.h"
@@ -26,6 +27,9 @@ namespace {
 constexpr int kMaxTrials = 6;
 /// A trial with this error is near enough: counts that are asked for are met within 10 %.
 constexpr double kNearEnough = 0.05;
+/// From a trial with this error the next factor is near enough without a mesh: from the first one,
+/// whose slope is taken to be the usual one, and from later ones.
+constexpr double kNearForOne = 0.16, kNearForMore = 0.3;
 constexpr std::int64_t kCube = 64;
 constexpr std::int64_t kHalo = 16;
 constexpr std::int64_t kLeastCubes = 4;
@@ -39,6 +43,23 @@ constexpr double kLargestSize = 64.0;
 SizeRules base_rules(const SizeRules& rules) {
   SizeRules out = rules;
   if (!out.any()) out.others = 1.0;
+  return out;
+}
+
+/// Returns how many cubes of its size the labels that are written have, as if each were filled with
+/// them; 0 where no label has a size.
+double cubes_of_size(const PilotTask& task, const SizeRules& rules) {
+  const io::LabelTable& table = task.labels.table();
+  const LabelSelection kept(wanted_labels(task.job.choice, table), table);
+  const auto& spacing = task.labels.info().space.spacing;
+  double out = 0;
+  for (const LabelRegion& region :
+       label_regions(task.labels.raw(), thread_count(task.job.run.threads))) {
+    const std::optional<double> size = rules.of_label(region.label);
+    if (!size || !kept.keeps(table.dense(region.label))) continue;
+    out += static_cast<double>(region.voxels) * spacing[0] * spacing[1] * spacing[2] /
+           (*size * *size * *size);
+  }
   return out;
 }
 
@@ -155,23 +176,30 @@ class Pilot {
     range_ = {std::log(kRoundedUp * diagonal / SizeRules::kContracted / least),
               std::log(kLargestSize * voxel / least)};
     const Index3 shape = lattice.info().shape;
-    first_ = std::log(std::cbrt(static_cast<double>(shape.product()) * spacing[0] * spacing[1] *
-                                spacing[2] / (kTetVolume * asked())) /
-                      least);
+    const double cubes = cubes_of_size(task, rules);
+    first_ = cubes > 0 ? std::log(std::cbrt(SizeRules::kTetsACube * cubes / asked()))
+                       : std::log(std::cbrt(static_cast<double>(shape.product()) * spacing[0] *
+                                            spacing[1] * spacing[2] / (kTetVolume * asked())) /
+                                  least);
     cubes_ = find_cubes(lattice);
   }
 
   report::CountFacts search() {
     double at = std::clamp(first_, range_[0], range_[1]);
-    for (int i = 0; i < kMaxTrials; ++i) {
+    bool is_told = false;  // by trials elsewhere
+    for (int i = 0; i < kMaxTrials && !is_told; ++i) {
       trials_.push_back({at, tets_at(std::exp(at))});
-      if (std::abs(error_of(trials_.back())) <= kNearEnough || is_at_end(trials_.back())) break;
+      const double error = std::abs(error_of(trials_.back()));
+      if (error <= kNearEnough || is_at_end(trials_.back())) break;
       at = std::clamp(next(), range_[0], range_[1]);
+      is_told = error <= (i == 0 ? kNearForOne : kNearForMore);
     }
     const Trial best =
-        *std::min_element(trials_.begin(), trials_.end(), [&](const Trial& a, const Trial& b) {
-          return std::abs(error_of(a)) < std::abs(error_of(b));
-        });
+        is_told ? Trial{at, asked()}
+                : *std::min_element(trials_.begin(), trials_.end(),
+                                    [&](const Trial& a, const Trial& b) {
+                                      return std::abs(error_of(a)) < std::abs(error_of(b));
+                                    });
     return {.asked = static_cast<std::uint64_t>(task_.job.settings.sizes.count),
             .scale = std::exp(best.at),
             .expected = static_cast<std::uint64_t>(best.tets + 0.5),

@@ -27,7 +27,8 @@ struct PilotTask {
 /// Finds the factor on all sizes with which the mesh that is written has about SizeSettings::count
 /// tets.  Where no size is given, all labels have size 1.
 ///
-/// It meshes at up to six factors, each found by a secant through the logarithms of two counts.  A
+/// It meshes at up to six factors, the first by the volume of labels, the others each by a secant
+/// through the logarithms of two counts, until a count is so near that the secant tells the rest. A
 /// volume of up to max_whole voxels is meshed whole, which tells the count exactly.  In a larger
 /// one some cubes of 64 voxels are meshed, with 16 voxels around them whose tets are not counted.
 /// Cubes are drawn evenly along the volume, without any random number, with a chance that grows

@@ -146,11 +146,11 @@ Json suggestion(const FinishedRun& run) {
   const bool is_asked = sizes.limits_edges() || sizes.count > 0;
   const bool has_sizes = run.settings.periodic == 0 && !run.has_scores;
   if (is_asked || !has_sizes || !run.figures || !run.amounts) return nullptr;
-  // Tets per cube of the size in a label of one size, and the sizes that are worth a hint.
-  constexpr double kTetsACube = 11, kShorter = 0.6, kLeastVoxels = 1.5, kMore = 1.5;
+  // The sizes that are worth a hint: shorter than edges are, and not cutting tets.
+  constexpr double kShorter = 0.6, kLeastVoxels = 1.5, kMore = 1.5;
   const double size = round_length_below(kShorter * run.figures->quality.edge_median);
   if (size < kLeastVoxels * engine::voxel_edge(run.volume)) return nullptr;
-  const double tets = kTetsACube * volume_of(run) / (size * size * size);
+  const double tets = engine::SizeRules::kTetsACube * volume_of(run) / (size * size * size);
   if (tets < kMore * static_cast<double>(run.engine.tets) || tets > 1e8) return nullptr;
   const double digit = std::pow(10.0, std::floor(std::log10(tets)));
   return {{"size", size}, {"tets", static_cast<std::uint64_t>(std::round(tets / digit) * digit)}};

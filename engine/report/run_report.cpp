@@ -198,9 +198,15 @@ Json count_json(const FinishedRun& run) {
              {"seconds", count.seconds},
              {"expected", count.expected}};
   }
-  return {{"asked", count.asked},     {"got", run.engine.tets},
-          {"scale", count.scale},     {"is_least", count.is_least},
-          {"is_most", count.is_most}, {"labels_without_size", count.labels_without_size},
+  const engine::SizeRules& rules = run.sizes.rules;
+  const bool is_one = rules.labels.empty() && rules.interfaces.empty() && rules.image.empty();
+  return {{"asked", count.asked},
+          {"got", run.engine.tets},
+          {"size", is_one && rules.others ? Json(*rules.others) : Json()},
+          {"scale", count.scale},
+          {"is_least", count.is_least},
+          {"is_most", count.is_most},
+          {"labels_without_size", count.labels_without_size},
           {"pilot", std::move(pilot)}};
 }
 

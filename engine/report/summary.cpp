@@ -87,11 +87,23 @@ std::string halvings_text(const Json& report) {
          told("; none has a radius ratio below {radius_ratio_floor:g}", report["quality"]) + "\n";
 }
 
-std::string count_text(const Json& size) {
-  return told("count       {count.asked:,} tets were asked, sizes are scaled by {count.scale:g}",
-              size) +
-         told(" after {count.pilot.meshes} pilot meshes in {count.pilot.seconds:g} s", size) +
-         (size["count"].is_null() ? "" : "\n");
+/// Says what size of edges was found, or by what sizes were multiplied, and what that took.
+std::string count_text(const Json& size, const Json& unit) {
+  const Json& count = size["count"];
+  if (count.is_null()) return "";
+  std::string out = told("count       {asked:,} tets were asked: ", count);
+  if (count["size"].is_null()) {
+    out += told("sizes are multiplied by {scale:g}", count);
+  } else {
+    out += told("edges of about {size:g}", count) + (unit.is_null() ? "" : " " + unit.text()) +
+           told(" (--size {size:g})", count);
+  }
+  const Json& pilot = count["pilot"];
+  if (pilot.is_null()) return out + "\n";
+  return out +
+         (pilot["meshes"].integer() == 1 ? ", found by 1 pilot mesh"
+                                         : told(", found by {meshes} pilot meshes", pilot)) +
+         told(" in {seconds:g} s\n", pilot);
 }
 
 std::string sample_text(const Json& sample) {
@@ -117,7 +129,8 @@ std::string options_text(const Json& report) {
   }
   out += steps_text(report);
   if (!report["size"].is_null()) {
-    out += count_text(report["size"]) + halvings_text(report) + sizes_text(report["size"]);
+    out += count_text(report["size"], report["input"]["unit"]) + halvings_text(report) +
+           sizes_text(report["size"]);
   }
   if (report["samples"].is_null()) return out;
   for (const Json& sample : report["samples"].elements()) out += sample_text(sample);

@@ -68,6 +68,8 @@ struct InterfaceSize {
 struct SizeRules {
   static constexpr double kContracted = 1.25;
   static constexpr double kLongest = kContracted * SizeField::kStretch;
+  /// Tets in a cube whose edges are as long as the size, where one size fills a label.
+  static constexpr double kTetsACube = 11;
 
   std::vector<LabelSize> labels;          ///< each label once, ascending
   std::optional<double> others;           ///< for all labels that are not listed

@@ -16,6 +16,7 @@
 #include "engine/report/run_report.h"
 #include "engine/report/summary.h"
 #include "engine/settings/promises.h"
+#include "engine/settings/setting_table.h"
 #include "engine/settings/size_text.h"
 #include "engine/store/journal/run_folder.h"
 #include "engine/system/crew.h"
@@ -252,6 +253,18 @@ void tell_volume(const MeshRequest& request, const io::VolumeInfo& volume) {
             << std::endl;
 }
 
+/// Names what a preset sets, without what something stronger has set otherwise.
+void tell_preset(const OptionSet& options) {
+  const engine::Preset* const preset = engine::find_preset(options.text("preset"));
+  if (preset == nullptr || preset->values.empty() || !run_processes().speaks()) return;
+  std::string set;
+  for (const auto& [name, value] : preset->values) {
+    if (options.text(name) == value) set += " --" + name + " " + value;
+  }
+  std::cout << "preset      " << preset->name << " sets"
+            << (set.empty() ? " nothing that is not set otherwise" : set) << std::endl;
+}
+
 /// Returns what the user gave that has the effect of a flag, such as "--preset draft" for
 /// "--surface voxel"; the flag itself where nothing implies it.
 std::string giver_of(const std::string& flag, const OptionSet& options) {
@@ -274,6 +287,7 @@ int mesh(MeshRequest& request, const OptionSet& options) {
   if (!why.empty()) {
     log_warning(giver_of(why, options) + ": the volumes of labels are not promised (P8)");
   }
+  tell_preset(options);
   const engine::ResourceMeter meter;
   MeshFiles files(request, open_shared_output(request, is_certified));
   log_info("reading " + request.volume.path.string());

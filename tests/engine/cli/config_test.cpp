@@ -67,6 +67,16 @@ TEST_F(ConfigTest, PresetsAreRowsOfValues) {
   write("c.toml", "preset = \"draft\"\nsurface = \"smooth\"\n");
   EXPECT_EQ(line("surface", "--config c.toml"), "surface = \"smooth\"");
   EXPECT_EQ(line("max_distance", "--config c.toml"), "max_distance = \"none\"");
+  expect_done("synth voronoi --shape 8,8,8 --labels 2 --seed 1 -o v.npy");
+  const auto said = [&](const std::string& preset) {
+    return run("mesh v.npy -o v.vtu " + preset).out;
+  };
+  EXPECT_NE(said("--preset fine").find("preset      fine sets --size *|*=4.2vox --gradation 1\n"),
+            std::string::npos);
+  EXPECT_NE(
+      said("--preset draft --max-distance 2").find("preset      draft sets --surface voxel\n"),
+      std::string::npos);
+  EXPECT_EQ(said("").find("preset"), std::string::npos);
   expect_failure(2, "mesh --preset best", "--preset best: expected one of draft, default, fine");
 }
 
