@@ -3,8 +3,8 @@
 # SPDX-License-Identifier: Apache-2.0
 """The pictures of README.md: `--surface voxel` and `--surface smooth` of a ball and of a brain.
 
-Usage: xvfb-run -a bench/pictures/pictures.py [ball] [organ] [cut] [plate] [junction]
-Writes bench/pictures/*.png; without names the first three, which README.md and bench/README.md show.
+Usage: xvfb-run -a bench/pictures/pictures.py [ball] [organ] [cut] [cell] [plate] [junction]
+Writes bench/pictures/*.png; without names the first four, which README.md and bench/README.md show.
 The others are weak spots, for a comparison before and after a change: a plate of one voxel, which has
 dents, and a grain of a polycrystal, whose edges have knots of small triangles.
 MW_PROGRAM is the program (default: build/release/mwmesh).
@@ -35,6 +35,7 @@ LARGE = 1000  # voxels of a label whose volume is promised
 BALL_RADIUS = 20  # voxels
 PLATE_EDGE = 24  # voxels
 GRAINS_EDGE, GRAINS = 56, 16  # voxels, and how many
+CELL_EDGE, CELL_GRAINS = 48, 12
 # Of the right half of the brain: caudate, thalamus, hippocampus, amygdala.
 ORGAN = (72, 78, 38, 42)
 CUT_CORNER, CUT_SHAPE = (92, 88, 46), (64, 48, 56)  # voxels x, y, z: around the right basal ganglia
@@ -98,6 +99,18 @@ def draw_junction(png, folder):
     scene.draw(png, halves, colours([middle]), ((1, 0.6, 0.5), 1.5))
 
 
+def draw_cell(png, folder):
+    """A polycrystal that repeats itself, and eight of it in a cube."""
+    numpy.save(folder / "volume.npy", volumes.cell(CELL_EDGE, CELL_GRAINS))
+    file, report = mesh(folder / "volume.npy", "smooth", folder / "cell", "--periodic", "xyz")
+    halves = [
+        ([scene.whole(file)], f"--periodic xyz\n{report['output']['tets']:,} tets"),
+        ([scene.tiled(file, CELL_EDGE)], "2 x 2 x 2 of it\nfaces are flat, and match node for node"),
+    ]
+    view = ((-1, -0.8, 0.6), 1.0)
+    scene.draw(png, halves, colours(range(1, CELL_GRAINS + 1)), view, one_camera=False)
+
+
 def colours(labels):
     """By label; more labels than colours share them."""
     return {label: COLOURS[i % len(COLOURS)] for i, label in enumerate(labels)}
@@ -109,10 +122,11 @@ def mesh_both(volume, folder):
     return [mesh(folder / "volume.npy", surface, folder / surface) for surface in SURFACES]
 
 
-def mesh(volume, surface, stem):
+def mesh(volume, surface, stem, *options):
     program = os.environ.get("MW_PROGRAM", HERE.parent.parent / "build" / "release" / "mwmesh")
     file, report = stem.with_suffix(".vtu"), stem.with_suffix(".json")
-    command = [program, "mesh", volume, "--surface", surface, "-o", file, "--report", report]
+    command = [program, "mesh", volume, "--surface", surface, "-o", file, "--report", report,
+               *options]
     subprocess.run(command, check=True, stdout=subprocess.DEVNULL)
     return file, json.loads(report.read_text())
 
@@ -135,9 +149,9 @@ def large(row):
     return row["voxels"] >= LARGE
 
 
-SHOWN = ["ball", "organ", "cut"]
-PICTURES = {"ball": draw_ball, "organ": draw_organ, "cut": draw_cut, "plate": draw_plate,
-            "junction": draw_junction}
+SHOWN = ["ball", "organ", "cut", "cell"]
+PICTURES = {"ball": draw_ball, "organ": draw_organ, "cut": draw_cut, "cell": draw_cell,
+            "plate": draw_plate, "junction": draw_junction}
 
 
 if __name__ == "__main__":

@@ -7,8 +7,10 @@ import vtkmodules.vtkRenderingFreeType  # these two only register themselves
 import vtkmodules.vtkRenderingOpenGL2
 from vtkmodules.vtkCommonCore import vtkLookupTable
 from vtkmodules.vtkCommonDataModel import vtkDataObject, vtkPlane
-from vtkmodules.vtkFiltersCore import vtkThreshold
+from vtkmodules.vtkCommonTransforms import vtkTransform
+from vtkmodules.vtkFiltersCore import vtkAppendFilter, vtkThreshold
 from vtkmodules.vtkFiltersExtraction import vtkExtractGeometry
+from vtkmodules.vtkFiltersGeneral import vtkTransformFilter
 from vtkmodules.vtkFiltersGeometry import vtkGeometryFilter
 from vtkmodules.vtkIOXML import vtkXMLUnstructuredGridReader
 from vtkmodules.vtkRenderingCore import (
@@ -53,9 +55,31 @@ def behind(path, origin, normal):
     return _outside(half)
 
 
-def draw(path, halves, colours, view):
+def whole(path):
+    """A whole mesh, from outside."""
+    return _outside_of(_read(path))
+
+
+def tiled(path, edge):
+    """Eight copies of a mesh side by side, as one mesh: common nodes are one, so that faces between
+    copies are inside and not seen."""
+    cells = vtkAppendFilter()
+    cells.MergePointsOn()
+    for copy in range(8):
+        moved = vtkTransform()
+        moved.Translate(*(edge * (copy >> axis & 1) for axis in range(3)))
+        one = vtkTransformFilter()
+        one.SetTransform(moved)
+        one.SetInputData(_read(path))
+        one.Update()
+        cells.AddInputData(one.GetOutput())
+    cells.Update()
+    return _outside_of(cells.GetOutput())
+
+
+def draw(path, halves, colours, view, one_camera=True):
     """`halves`: two pairs of surfaces and a caption.  `colours`: by label.  `view`: from where to
-    look, z being up, and how much to zoom."""
+    look, z being up, and how much to zoom; each half by itself unless there is one camera."""
     window = vtkRenderWindow()
     window.SetOffScreenRendering(True)
     window.SetMultiSamples(0)
@@ -69,7 +93,7 @@ def draw(path, halves, colours, view):
         for one in surfaces:
             renderer.AddActor(_actor(one, colours))
         _light(renderer)
-        if camera is None:
+        if camera is None or not one_camera:
             camera = _camera(renderer, *view)
         renderer.SetActiveCamera(camera)
         renderer.ResetCameraClippingRange()
@@ -82,6 +106,13 @@ def _read(path):
     reader.SetFileName(str(path))
     reader.Update()
     return reader.GetOutput()
+
+
+def _outside_of(grid):
+    triangles = vtkGeometryFilter()
+    triangles.SetInputData(grid)
+    triangles.Update()
+    return triangles.GetOutput()
 
 
 def _outside(cells):

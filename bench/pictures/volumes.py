@@ -34,6 +34,17 @@ def grains(edge, count):
     return (numpy.argmin(distances, axis=0) + 1).astype(numpy.uint8)
 
 
+def cell(edge, count):
+    """Labels from 1 on: which of some random points, or of their copies, is nearest on a torus."""
+    points = numpy.random.default_rng(5).uniform(0, edge, (count, 3))
+    centres = numpy.moveaxis(numpy.indices((edge,) * 3) + 0.5, 0, -1)
+    distances = []
+    for point in points:
+        apart = abs(centres - point)
+        distances.append((numpy.minimum(apart, edge - apart) ** 2).sum(axis=-1))
+    return (numpy.argmin(distances, axis=0) + 1).astype(numpy.uint8)
+
+
 def atlas():
     """The AAL brain atlas of Debian's mricron-data: 8 bits and voxels of 1 mm."""
     listed = subprocess.run(["dpkg", "-L", "mricron-data"], capture_output=True, text=True)

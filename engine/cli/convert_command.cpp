@@ -56,7 +56,7 @@ std::unique_ptr<io::MeshSink> open_output(const ConvertJob& job, io::Element ele
   if (in_pieces && job.pieces == 0) {
     io::fail_usage(job.to.string() + ": a mesh in pieces; say how many with --pieces N");
   }
-  if (job.extras.encoding == io::Encoding::kText || job.extras.materials || job.extras.deck ||
+  if (job.extras.encoding == io::Encoding::kText || job.extras.materials || job.extras.deck != io::Deck::kNone ||
       element != io::Element::kTet4 || !job.extras.pairs.empty()) {
     io::fail_usage(job.to.string() +
                    ": pieces are written with tet4 only, in one way, without "
@@ -194,10 +194,10 @@ void add_output_options(OptionSet& options, ConvertJob& job) {
                .group = kOutputGroup,
                .assign = into(job.extras.materials, engine::parse_materials)});
   options.add({.name = "deck",
-               .help = "static: a job for CalculiX or FEBio that pulls the mesh",
+               .help = "a job: static pulls; periodic, conduction: unit loads of --periodic xyz",
                .group = kOutputGroup,
                .fallback = "none",
-               .choices = {"none", "static"},
+               .choices = kDecks,
                .assign = into(job.extras.deck, parse_deck)});
   options.add({.name = "pairs",
                .value = "FILE",

@@ -71,7 +71,7 @@ std::vector<double> RunForecast::work_of_parts() const {
 }
 
 Box3 RunForecast::output_box(Index3 block) const {
-  return layout_.grid(layout_.marches() - 1).block_box(block);
+  return layout_.output_grid().block_box(block);
 }
 
 double RunForecast::now() const {

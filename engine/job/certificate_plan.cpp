@@ -95,7 +95,7 @@ CertificatePlan beside_others(const CertificatePlan& plan, const MeshJob& job,
 CertificateTask certificate_task(const CertificatePlan& plan, const MeshJob& job,
                                  const io::DenseVolume& volume, const io::MeshPromises& promises) {
   CertificateTask out{.volume = volume,
-                      .check = {.options = audit_options(promises, volume.info().space),
+                      .check = {.options = audit_options(promises, volume.info()),
                                 .threads = plan.threads,
                                 .readers = plan.readers,
                                 .memory_bytes = kShared / 2,

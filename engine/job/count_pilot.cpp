@@ -165,7 +165,7 @@ class Pilot {
  public:
   explicit Pilot(const PilotTask& task) : task_(task) {
     const MeshSettings& settings = task.job.settings;
-    const VoxelLattice lattice(task.labels);
+    const VoxelLattice lattice(task.labels, settings.periodic);
     const auto& spacing = lattice.info().space.spacing;
     const double voxel = *std::min_element(spacing.begin(), spacing.end());
     const double diagonal = std::hypot(spacing[0], spacing[1], spacing[2]);
@@ -272,6 +272,7 @@ class Pilot {
       const Index3 shape = task_.labels.info().shape;
       return static_cast<double>(mesh(task_.labels, settings, scale, std::nullopt, shape).tets);
     }
+    settings.periodic = 0;  // a part of a cell does not repeat itself
     if (!settings.inner_quality) settings.inner_quality = inner_quality_;
     double sum = 0;
     for (const Cube& cube : cubes_) {

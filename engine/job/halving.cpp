@@ -61,7 +61,7 @@ CutTask cut_task(int times, const MeshJob& job, const io::VolumeInfo& volume) {
     // Each of the cuts may use its part of what the marches left.
     const double left = *asked.max_distance - *before_halvings(asked, times).max_distance;
     const auto& spacing = volume.space.spacing;
-    const auto voxel = layered_spacing(spacing, layers_of(spacing));
+    const auto voxel = layered_spacing(spacing, layers_of(spacing, volume.shape, asked.periodic));
     out.curves->most_move = left / times * *std::min_element(voxel.begin(), voxel.end());
   }
   return out;

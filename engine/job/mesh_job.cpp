@@ -504,7 +504,9 @@ FinishTask looking_task(const MeshJob& job, const report::FinishedRun& run) {
   if (job.finds_volumes) {
     const io::VolumeSpace& space = run.volume.space;
     out.volumes.emplace(
-        VolumesTask{.table = run.labels, .space = space, .layers = layers_of(space.spacing)});
+        VolumesTask{.table = run.labels,
+                    .space = space,
+                    .layers = layers_of(space.spacing, run.volume.shape, job.settings.periodic)});
   }
   if (job.is_measured || job.finds_quality) {
     out.figures.emplace(FiguresTask{.has_shape = job.is_measured, .sort_bytes = sort_bytes});

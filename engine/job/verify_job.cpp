@@ -204,7 +204,7 @@ report::Verdict verify(const VerifyJob& job, const std::function<void(io::MeshSi
   tell_doubles(record, merged.merged(), kept);
   verdict.bounds = bounds_of(job.asked, record, kept);
   const int threads = thread_count(job.threads);
-  VerifyTask task{.options = audit_options(verdict.bounds.promises, info.space),
+  VerifyTask task{.options = audit_options(verdict.bounds.promises, info),
                   .threads = threads,
                   .readers = readers_of_thread(threads, reader_bytes(volume), job.memory / 8),
                   .memory_bytes = job.memory / 2,
@@ -240,14 +240,14 @@ audit::KeptLabels kept_labels(const LabelChoice& choice, const io::LabelTable& t
   return empty_if_all(std::move(kept));
 }
 
-audit::AuditOptions audit_options(const io::MeshPromises& promises, const io::VolumeSpace& space) {
+audit::AuditOptions audit_options(const io::MeshPromises& promises, const io::VolumeInfo& volume) {
   audit::AuditOptions options;
   options.radius_ratio_floor = floor_of(promises);
   options.count_junctions = promises.interfaces;
   options.max_distance = promises.max_distance;
   options.periodic = promises.periodic;
   options.halvings = promises.halvings;
-  options.layers = layers_of(space.spacing);
+  options.layers = layers_of(volume.space.spacing, volume.shape, promises.periodic);
   return options;
 }
 

@@ -45,6 +45,6 @@ struct VerifyJob {
 
 /// Returns what to check of a mesh that was made with these promises.
 [[nodiscard]] audit::AuditOptions audit_options(const io::MeshPromises& promises,
-                                                const io::VolumeSpace& space);
+                                                const io::VolumeInfo& volume);
 
 }  // namespace mw::engine

@@ -29,10 +29,8 @@ Box3 wider(const Box3& bricks, const Box3& all) {
 }  // namespace
 
 bool is_coarsened(const MeshSettings& settings) {
-  // Coarsening keeps the topology of labels, not that of interfaces.  Samples on the faces of a
-  // cell that repeats itself may go to a copy of it, where they are lost.
-  return settings.start == StartMesh::kCoarse && settings.topology == KeptTopology::kLabels &&
-         settings.periodic == 0;
+  // Coarsening keeps the topology of labels, not that of interfaces.
+  return settings.start == StartMesh::kCoarse && settings.topology == KeptTopology::kLabels;
 }
 
 bool wants_source(const MeshSettings& settings, bool has_scores) {

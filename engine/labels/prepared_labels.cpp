@@ -169,7 +169,9 @@ void PreparedLabels::find_sizes(const SizeSettings& sizes, const SizeImage* imag
     limit_thin_parts(sizes, threads);
     sizes_.allow_no_stretch();
   }
+  if (margin_ != Index3{}) sizes_.repeat_cell(cell(), margin_);
   sizes_.spread();
+  if (margin_ != Index3{}) around_cell_ = sizes_.around_cell(cell(), margin_);
 }
 
 /// Limits the voxels on both sides of the interfaces' faces.
@@ -196,8 +198,9 @@ void PreparedLabels::limit_by_image(const SizeImage& image, int threads) {
   const Metric metric(volume_.info().space.spacing);
   const double least = metric.voxel().norm();
   tbb_for_each_index(threads, original_.bricks(), [&](Index3 brick) {
-    const Box3 box = original_.box_of(brick);
-    const std::vector<double> sizes = image.read(box, original_.shape());
+    const Box3 box = intersection(original_.box_of(brick), {margin_, margin_ + cell()});
+    if (is_empty(box)) return;
+    const std::vector<double> sizes = image.read({box.lo - margin_, box.hi - margin_}, cell());
     std::size_t i = 0;
     for_each_index(box, [&](Index3 v) {
       const double limit = limit_of(sizes[i++], volume_);
@@ -211,6 +214,7 @@ void PreparedLabels::limit_by_image(const SizeImage& image, int threads) {
 void PreparedLabels::limit_thin_parts(const SizeSettings& sizes, int threads) {
   const std::vector<bool> wanted = labels_with_sizes(volume_.table(), sizes.rules);
   const Metric metric(volume_.info().space.spacing);
+  const Box3 inner{margin_, margin_ + cell()};
   const double least = metric.voxel().norm();
   const Index3 bricks = original_.bricks();
   std::mutex adding_up;
@@ -223,7 +227,7 @@ void PreparedLabels::limit_thin_parts(const SizeSettings& sizes, int threads) {
     const LabelBox labels = read_labels(original_, grown(voxels, kThinHalo));
     ThinParts parts;
     for_each_thin_voxel(labels, voxels, metric, [&](Index3 v, double thickness) {
-      if (!wanted[labels.at(v)]) return;
+      if (!wanted[labels.at(v)] || !inner.contains(v)) return;
       const double limit = thickness / sizes.across;
       parts.add(thickness, limit < least);
       sizes_.limit_voxel(v, rung_from(least, limit));
@@ -271,13 +275,25 @@ void PreparedLabels::read_tile(const io::DenseVolume& volume, const Box3& tile) 
 }
 
 SourceSurface PreparedLabels::source(const Box3& box) const {
-  return source_->read(clipped(box, original_.shape()));
+  if (margin_ == Index3{}) return source_->read(clipped(box, original_.shape()));
+  return {box,
+          [&](auto visit) {
+            each_copy(box, cell(), repeats(), [&](const Box3& part, Index3 by) {
+              const Index3 to_volume = margin_ - by;
+              const Box3 here{part.lo + to_volume, part.hi + to_volume};
+              SourceSurface::Part faces = source_->read(here).part(here);
+              faces.box = part;
+              visit(faces);
+            });
+          },
+          source_->form()};
 }
 
 void PreparedLabels::find_source(int threads) {
-  tbb_for_each_index(threads, tiles_of(original_.bricks()), [&](Index3 t) {
-    const Index3 lo = scaled(t, kBricksPerTile);
-    find_source_in(clipped({lo, lo + scaled({1, 1, 1}, kBricksPerTile)}, original_.bricks()));
+  const Box3 bricks = bricks_of_cell();
+  tbb_for_each_index(threads, tiles_of(bricks.shape()), [&](Index3 t) {
+    const Index3 lo = bricks.lo + scaled(t, kBricksPerTile);
+    find_source_in(intersection({lo, lo + scaled({1, 1, 1}, kBricksPerTile)}, bricks));
   });
 }
 
@@ -299,11 +315,28 @@ void PreparedLabels::find_source_in(const Box3& bricks) {
 }
 
 void PreparedLabels::coarsen_tiles(double max_distance, int threads) {
-  const Box3& bricks = coarse_->held();
+  const Box3 inner = bricks_of_cell();
+  const Box3 bricks = intersection(inner, coarse_->held());
   tbb_for_each_index(threads, tiles_of(bricks.shape()), [&](Index3 t) {
     const Index3 lo = bricks.lo + scaled(t, kBricksPerTile);
     coarsen_tile(intersection({lo, lo + scaled({1, 1, 1}, kBricksPerTile)}, bricks), max_distance);
   });
+  if (margin_ == Index3{}) return;
+  tbb_for_each_index(threads, coarse_->bricks(), [&](Index3 brick) {
+    if (!inner.contains(brick)) repeat_coarse(brick);
+  });
+}
+
+/// Writes a brick of copies around the cell.
+void PreparedLabels::repeat_coarse(Index3 brick) {
+  const Box3 box = coarse_->box_of(brick);
+  const LabelBox labels =
+      repeated_labels({box.lo - margin_, box.hi - margin_}, cell(), repeats(), [&](const Box3& in) {
+        LabelBox out = read_labels(*coarse_, {in.lo + margin_, in.hi + margin_});
+        out.box = in;
+        return out;
+      });
+  coarse_->write(brick, labels.labels);
 }
 
 void PreparedLabels::coarsen_tile(const Box3& bricks, double max_distance) {
@@ -318,9 +351,16 @@ void PreparedLabels::coarsen_tile(const Box3& bricks, double max_distance) {
   }
   const Box3 tile =
       clipped({scaled(bricks.lo, kBrick), scaled(bricks.hi, kBrick)}, original_.shape());
-  const LabelBox before = read_labels(original_, grown(tile, kCoarsenHalo));
+  LabelBox before = read_labels(original_, grown(tile, kCoarsenHalo));
+  if (margin_ != Index3{}) {
+    const Box3 box = before.box;
+    before.box = {box.lo - margin_, box.hi - margin_};
+    give_sides(before, cell());
+    before.box = box;
+  }
   LabelBox after = before;
-  coarsen(before, after, tile, original_.shape(), max_distance, sizes());
+  coarsen(before, after, tile, original_.shape(), max_distance, start_sizes());
+  for (Label& label : after.labels) label = without_side(label);
   for_each_index(bricks, [&](Index3 brick) {
     cut_brick(after, original_.box_of(brick), one);
     coarse_->write(brick, one);
@@ -353,7 +393,7 @@ void PreparedLabels::find_levels(const Box3& cubes, int threads) {
     }
     const Box3 box{scaled(cube, kBrick), scaled(cube + Index3{1, 1, 1}, kBrick)};
     const LabelBox labels = read_labels(shapes(), grown(box, LevelMap::kHalo));
-    levels_.set_eighths(cube, LevelMap::allowed_eighths(labels, volume, cube, sizes()));
+    levels_.set_eighths(cube, LevelMap::allowed_eighths(labels, volume, cube, start_sizes()));
   });
   levels_.find_cubes([&](Index3 cube) { return is_whole(cube) && may_be_large(cube); });
 }

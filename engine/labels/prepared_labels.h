@@ -67,7 +67,7 @@ class PreparedLabels {
   [[nodiscard]] bool has_source() const { return source_.has_value(); }
   /// True if the source surface lies where the scores of labels are equal.  REQUIRES: has_source().
   [[nodiscard]] bool has_crossings() const { return source_->form().along_axis; }
-  /// Returns the source surface in the part of the box that is in the volume.
+  /// Returns the source surface in the part of the box that is in the volume or in copies of it.
   /// REQUIRES: has_source().
   [[nodiscard]] SourceSurface source(const Box3& box) const;
   /// Returns the bricks that windows need; labels of others are read when they are asked for.
@@ -88,7 +88,12 @@ class PreparedLabels {
   /// Returns what was counted while the labels were prepared.  REQUIRES: all labels are prepared.
   [[nodiscard]] const LabelCounts& counts() const { return *counts_; }
   /// Returns the limits on edges; null when there are none.
-  [[nodiscard]] const SizeField* sizes() const { return sizes_.limits() ? &sizes_ : nullptr; }
+  [[nodiscard]] const SizeField* sizes() const {
+    return !sizes_.limits() ? nullptr : around_cell_ ? &*around_cell_ : &sizes_;
+  }
+  /// Returns these limits for the places of start meshes, which are those of the volume with its
+  /// margin.
+  [[nodiscard]] const SizeField* start_sizes() const { return sizes_.limits() ? &sizes_ : nullptr; }
   /// Returns what SizeSettings::across found.
   [[nodiscard]] const ThinParts& thin_parts() const { return thin_parts_; }
   /// Returns the labels whose tets should have an inner vertex; null when there are none.
@@ -109,6 +114,16 @@ class PreparedLabels {
   void find_source_in(const Box3& bricks);
   void coarsen_tiles(double max_distance, int threads);
   void coarsen_tile(const Box3& tile, double max_distance);
+  void repeat_coarse(Index3 brick);
+  /// Returns the shape of the volume without its margin.
+  [[nodiscard]] Index3 cell() const { return original_.shape() - margin_ - margin_; }
+  [[nodiscard]] std::array<bool, 3> repeats() const {
+    return {margin_.x > 0, margin_.y > 0, margin_.z > 0};
+  }
+  /// Returns the bricks that hold a part of the cell.
+  [[nodiscard]] Box3 bricks_of_cell() const {
+    return bricks_over({margin_, original_.shape() - margin_});
+  }
   void find_levels(const Box3& cubes, int threads);
   /// True if the cube has one label and sizes allow the largest cell in it.
   [[nodiscard]] bool may_be_large(Index3 cube) const;
@@ -124,6 +139,7 @@ class PreparedLabels {
   std::optional<SourceBricks> source_;
   LevelMap levels_;
   SizeField sizes_;
+  std::optional<SizeField> around_cell_;  ///< set where there is a margin
   ThinParts thin_parts_;
   std::optional<InnerDemand> inner_;
 };

@@ -7,7 +7,6 @@
 #include <cmath>
 #include <limits>
 
-#include "engine/labels/periodic_labels.h"
 #include "io/file/errors.h"
 #include "kernels/core/assert.h"
 #include "kernels/core/face_sample.h"
@@ -139,19 +138,18 @@ std::string many_layers_text(const io::VolumeInfo& volume) {
                   "if this one is wrong");
 }
 
-VoxelLattice::VoxelLattice(const io::DenseVolume& volume)
+VoxelLattice::VoxelLattice(const io::DenseVolume& volume, unsigned periodic)
     : volume_(volume),
-      layers_(layers_of(volume.info().space.spacing)),
+      layers_(layers_of(volume.info().space.spacing, volume.info().shape, periodic)),
       layered_(volume.raw(), layers_),
       labels_(layered_, volume.table()) {}
 
 void check(const io::VolumeInfo& volume, const MeshSettings& settings) {
   check(settings);
-  check_shape(volume.shape, layers_of(volume.space.spacing));
+  check_shape(volume.shape, layers_of(volume.space.spacing, volume.shape, settings.periodic));
   check_coordinates(volume);
   check_floor(volume, settings);
   check_sizes(volume, settings);
-  check_periodic(layered_shape(volume.shape, layers_of(volume.space.spacing)), settings);
 }
 
 void check(const io::LabelTable& labels, const MeshSettings& settings) {

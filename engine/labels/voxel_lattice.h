@@ -28,7 +28,8 @@ namespace mw::engine {
 /// A volume and the lattice that it is meshed on.  The volume must outlive it.
 class VoxelLattice {
  public:
-  explicit VoxelLattice(const io::DenseVolume& volume);
+  /// periodic: MeshSettings::periodic.
+  explicit VoxelLattice(const io::DenseVolume& volume, unsigned periodic = 0);
   VoxelLattice(const VoxelLattice&) = delete;
   VoxelLattice& operator=(const VoxelLattice&) = delete;
 
@@ -46,7 +47,7 @@ class VoxelLattice {
 };
 
 /// Checks before any work that a volume fits the settings of a run.
-/// ERRORS: those of check(settings) and check_periodic(); kInput when the lattice has too many
+/// ERRORS: those of check(settings); kInput when the lattice has too many
 ///         voxels along an axis or coordinates are too large or too small for it;
 ///         kUsage when the quality floor cannot be kept at this spacing, with the floor that can,
 ///         or when a size is below least_size().

@@ -171,10 +171,10 @@ void add_format_options(OptionSet& options, MeshRequest& request) {
                .listed = Listed::kInHelpAll,
                .assign = into(request.extras.materials, engine::parse_materials)});
   options.add({.name = "deck",
-               .help = "static: a job for CalculiX or FEBio that pulls the mesh",
+               .help = "a job: static pulls; periodic, conduction: unit loads of --periodic xyz",
                .group = kOutputGroup,
                .fallback = "none",
-               .choices = {"none", "static"},
+               .choices = kDecks,
                .calls = kWriting,
                .listed = Listed::kInHelpAll,
                .assign = into(request.extras.deck, parse_deck)});

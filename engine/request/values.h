@@ -3,6 +3,7 @@
 // Converts values of options from text and back, and between their forms: text, TOML, JSON.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <filesystem>
@@ -40,9 +41,12 @@ using io::parse_element;
   return parse_switch(text) ? io::Encoding::kText : io::Encoding::kUsual;
 }
 
-/// Reads --deck: "none" or "static".
-[[nodiscard]] inline bool parse_deck(std::string_view text) {
-  return text == "static";
+/// The values of --deck in the order of io::Deck.
+inline const std::vector<std::string> kDecks{"none", "static", "periodic", "conduction"};
+
+/// REQUIRES: one of kDecks.
+[[nodiscard]] inline io::Deck parse_deck(std::string_view text) {
+  return static_cast<io::Deck>(std::find(kDecks.begin(), kDecks.end(), text) - kDecks.begin());
 }
 
 /// Returns an Option::assign for a value that lives elsewhere and outlives the options.

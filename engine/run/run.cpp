@@ -30,7 +30,9 @@ class FinishedBlocks : public FinalBlocks {
       : store_(store),
         progress_(run.hooks.progress),
         forecast_(forecast),
-        windows_(run.layout.windows()) {}
+        windows_(run.layout.windows()),
+        grid_(run.layout.output_grid()),
+        last_(run.layout.grid(run.layout.marches() - 1)) {}
 
   [[nodiscard]] BlockMesh load(Index3 block) override {
     if (progress_) {
@@ -38,7 +40,8 @@ class FinishedBlocks : public FinalBlocks {
       progress_({.done = windows_, .total = windows_, .seconds_left = forecast_.seconds_left()});
       forecast_.reading(block);
     }
-    return store_.load(block);
+    const Index3 stored = last_.in_grid(block);
+    return in_other_grid(store_.load(stored), {last_, stored}, {grid_, block});
   }
 
  private:
@@ -47,6 +50,8 @@ class FinishedBlocks : public FinalBlocks {
   const OnProgress& progress_;
   RunForecast& forecast_;
   std::uint64_t windows_;
+  const WindowGrid& grid_;
+  const WindowGrid& last_;
 };
 
 /// The labels that windows are made from, and what is counted in the whole volume.
@@ -75,7 +80,7 @@ void prepare(RunContext& run, ReadyLabels& out) {
     out.copies.emplace(labels.raw(), periodic_margin(run.settings));
     out.plan.counts = counts_of_part(labels, readers.threads, SequencePart{});
     out.prepared.emplace(io::DenseVolume(*out.copies, labels.table()), run.settings,
-                         readers.threads, folder);
+                         readers.threads, folder, run.hooks.sizes);
   } else if (need == nullptr) {
     out.prepared.emplace(labels, run.settings, readers.threads, folder, run.hooks.sizes);
   } else {
@@ -85,11 +90,21 @@ void prepare(RunContext& run, ReadyLabels& out) {
   watch.lap(run.report.prepare_seconds);
 }
 
+/// Returns how many of the last marches polish: of a volume that repeats itself the last two, as
+/// each of them keeps what lies around the place where its grid begins.
+std::uint32_t polishing_marches(const RunLayout& layout) {
+  return layout.grid(layout.marches() - 1).first() == Index3{} ? 1 : 2;
+}
+
 VisitPlan plan_of(RunContext& run, std::uint32_t march) {
   VisitPlan plan;
   if (run.hooks.threads > 1) plan.seeding = tbb_for;
-  if (march + 1 < run.layout.marches()) return plan;
+  const std::uint32_t last = polishing_marches(run.layout);
+  if (march + last < run.layout.marches()) return plan;
   plan.last = run.layout.order(march);
+  plan.turn = run.layout.marches() - 1 - march;
+  plan.turns = last;
+  if (last > 1 && plan.turn == 0) plan.before = run.layout.grid(march - 1);
   if (!run.workers) return plan;
   plan.triangulate = [&workers = *run.workers](const Plc& plc) { return workers.triangulate(plc); };
   return plan;
@@ -157,7 +172,7 @@ void write(RunContext& run, const LabelCounts& labels, RunForecast& forecast) {
   if (!run.part->await_output()) return;
   Stopwatch watch;
   const std::uint32_t last = run.layout.marches() - 1;
-  const WindowGrid& grid = run.layout.grid(last);
+  const WindowGrid& grid = run.layout.output_grid();
   const BlockStore& stored = run.store.march(last);
   const OutputRoom room = reserve_output(run, stored, grid);
   return_free_memory_above(0);

@@ -37,14 +37,36 @@ RunHooks settled(RunHooks hooks, const MeshSettings& settings, Index3 layers) {
   return hooks;
 }
 
+/// Returns a grid that begins after a share of the blocks along periodic axes.
+WindowGrid grid_from(Index3 shape, int window, const MeshSettings& settings, int thirds) {
+  const WindowGrid grid(shape, window);
+  const auto first = [&](unsigned axis, std::int64_t blocks) {
+    return (settings.periodic >> axis & 1U) != 0 ? thirds * blocks / 3 : 0;
+  };
+  const Index3 blocks = grid.blocks();
+  return {shape, window, {first(0, blocks.x), first(1, blocks.y), first(2, blocks.z)}};
+}
+
 /// Returns one grid for each march.  A vertex near a block plane is free in half as many windows,
 /// so it stays denser there; the next march has other planes and heals that.
+///
+/// Where the volume repeats itself, all marches but the last keep the planes where it ends.  The
+/// last one is done twice, over grids that begin at a third and at two thirds of the volume, so
+/// that windows lie across these planes.  Each of the two heals what the other keeps: where it
+/// begins.
 std::vector<WindowGrid> march_grids(Index3 shape, const MeshSettings& settings) {
   std::vector<WindowGrid> grids;
+  const int most = std::min(kMaxWindow, largest_window(shape, settings));
   int window = settings.window;
-  for (int i = 0; i < settings.marches && window <= kMaxWindow; ++i, window *= 2) {
+  while (window > most) window = window / 4 * 2;
+  for (int i = 0; i < settings.marches && window <= most; ++i, window *= 2) {
     grids.emplace_back(shape, window);
   }
+  if (settings.periodic == 0) return grids;
+  const auto last = static_cast<int>(2 * grids.back().block_edge());
+  if (grids.size() > 1) grids.pop_back();
+  grids.push_back(grid_from(shape, last, settings, 1));
+  grids.push_back(grid_from(shape, last, settings, 2));
   return grids;
 }
 
@@ -135,7 +157,7 @@ RunReport begun_report(const RunContext& run) {
 
 std::uint64_t standing_bytes(const io::DenseVolume& volume, const MeshSettings& settings,
                              const RunHooks& hooks) {
-  const VoxelLattice lattice(volume);
+  const VoxelLattice lattice(volume, settings.periodic);
   const RunLayout layout(march_grids(lattice.info().shape, settings), settings.order);
   const Processes& processes = hooks.processes == nullptr ? one_process() : *hooks.processes;
   return always_bytes(lattice.labels(), thread_count(hooks.threads)) +
@@ -194,7 +216,7 @@ RunContext::RunContext(const io::DenseVolume& volume, const MeshSettings& wanted
                        io::MeshSink& output, const RunHooks& asked)
     : settings(checked(volume, wanted)),
       sink(output),
-      lattice(volume),
+      lattice(volume, settings.periodic),
       hooks(settled(asked, settings, lattice.layers())),
       layout(march_grids(lattice.info().shape, settings), settings.order),
       budget(hooks.store.memory, hooks.processes->count_here(), hooks.store.memory_beside),

@@ -347,12 +347,8 @@ const std::vector<SettingRule>& setting_rules() {
        .told = "--optimizer tetgen keeps no sizes or inner vertices: leave out --size, "
                "--count, --across and --inner-vertices, or set --optimizer local"},
       {.is_kept =
-           [](const Settings& s) {
-             const bool is_sized = s.sizes.limits_edges() || s.sizes.count > 0;
-             return s.periodic == 0 || (!is_sized && s.optimizer != Optimizer::kTetgen);
-           },
-       .told = "--periodic: works without --size, --count, --across, --preset fine and --optimizer "
-               "tetgen"}};
+           [](const Settings& s) { return s.periodic == 0 || s.optimizer != Optimizer::kTetgen; },
+       .told = "--periodic: works without --optimizer tetgen"}};
   return rules;
 }
 

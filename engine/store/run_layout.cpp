@@ -24,7 +24,11 @@ std::uint32_t march_of(const std::vector<std::uint64_t>& firsts, std::uint64_t n
 }  // namespace
 
 RunLayout::RunLayout(std::vector<WindowGrid> grids, Order order)
-    : grids_(std::move(grids)), order_(order), first_slot_{0}, first_window_{0} {
+    : grids_(std::move(grids)),
+      output_grid_(grids_.back().volume(), static_cast<int>(2 * grids_.back().block_edge())),
+      order_(order),
+      first_slot_{0},
+      first_window_{0} {
   for (const WindowGrid& grid : grids_) {
     first_slot_.push_back(first_slot_.back() + count(grid.blocks()));
     first_window_.push_back(first_window_.back() + count(grid.windows()));
@@ -60,13 +64,24 @@ std::vector<BlockKey> RunLayout::blocks_of(const WindowKey& key) const {
 
 std::vector<BlockKey> RunLayout::parts(const BlockKey& key) const {
   MW_ASSERT(key.march > 0);
-  const Box3 before{{0, 0, 0}, grids_[key.march - 1].blocks()};
+  const WindowGrid& before = grids_[key.march - 1];
+  const std::int64_t times = grids_[key.march].block_edge() / before.block_edge();
+  const Index3 block = grids_[key.march].in_volume(key.block);
+  const Index3 lo{times * block.x, times * block.y, times * block.z};
   std::vector<BlockKey> out;
-  for_each_index(Index3{2, 2, 2}, [&](Index3 i) {
-    const Index3 part{2 * key.block.x + i.x, 2 * key.block.y + i.y, 2 * key.block.z + i.z};
-    if (before.contains(part)) out.push_back({key.march - 1, part});
-  });
+  for_each_index(intersection({lo, lo + Index3{times, times, times}}, {{0, 0, 0}, before.blocks()}),
+                 [&](Index3 part) {
+                   out.push_back({key.march - 1, before.in_grid(part)});
+                 });
   return out;
+}
+
+BlockKey RunLayout::whole(const BlockKey& key) const {
+  MW_ASSERT(key.march + 1 < marches());
+  const WindowGrid& next = grids_[key.march + 1];
+  const std::int64_t times = next.block_edge() / grids_[key.march].block_edge();
+  const Index3 block = grids_[key.march].in_volume(key.block);
+  return {key.march + 1, next.in_grid({block.x / times, block.y / times, block.z / times})};
 }
 
 /// Windows are one block apart, two blocks wide.
@@ -94,8 +109,9 @@ std::optional<std::uint64_t> RunLayout::next_window(const BlockKey& key,
 
 std::uint64_t RunLayout::next_use(const BlockKey& key, const DoneWindows& done) const {
   if (const auto window = next_window(key, done)) return *window;
-  if (key.march + 1 == marches()) return windows() + raster(key.block, grids_.back().blocks());
-  return next_use({key.march + 1, {key.block.x / 2, key.block.y / 2, key.block.z / 2}}, done);
+  if (key.march + 1 == marches())
+    return windows() + raster(grids_.back().in_volume(key.block), grids_.back().blocks());
+  return next_use(whole(key), done);
 }
 
 /// The first window over the block whose rank is `rank` or more.
@@ -128,7 +144,7 @@ std::optional<WindowKey> BlockRoute::next_user(const BlockVersion& version) cons
   const std::uint64_t rank = layout_.order(block.march).rank(version.from.window);
   if (const auto next = after(block, rank + 1)) return next;
   if (block.march + 1 == layout_.marches()) return std::nullopt;
-  return after({block.march + 1, {block.block.x / 2, block.block.y / 2, block.block.z / 2}}, 0);
+  return after(layout_.whole(block), 0);
 }
 
 BlockVersion BlockRoute::last_version(const BlockKey& block) const {

@@ -5,10 +5,12 @@
 #pragma once
 
 #include <optional>
+#include <utility>
 #include <vector>
 
 #include "engine/settings/settings.h"
 #include "engine/store/codec/block_codec.h"
+#include "engine/window/other_grid.h"
 #include "engine/window/window_grid.h"
 #include "engine/window/window_order.h"
 
@@ -49,15 +51,18 @@ class DoneWindows {
 
 /// Numbers ("slots") of all blocks and windows of a run, march by march, x fastest.
 ///
-/// A block of a later march takes the place of up to 2 x 2 x 2 blocks of the march before, its
-/// parts: march i has blocks of 2^i times the first one's edge.
+/// A block of a later march takes the place of blocks of the march before, its parts: of one, or,
+/// where blocks have twice the edge, of up to 2 x 2 x 2.  Grids may begin at different blocks of a
+/// volume that repeats itself.
 class RunLayout {
  public:
-  /// REQUIRES: at least one grid, each with blocks of twice the edge of the one before.
+  /// REQUIRES: at least one grid, each with blocks of the edge of the one before or twice that.
   explicit RunLayout(std::vector<WindowGrid> grids, Order order = Order::kRaster);
 
   [[nodiscard]] const WindowGrid& grid(std::uint32_t march) const { return grids_[march]; }
   [[nodiscard]] std::uint32_t marches() const { return static_cast<std::uint32_t>(grids_.size()); }
+  /// Returns the grid of the last march as it begins at the volume's corner.
+  [[nodiscard]] const WindowGrid& output_grid() const { return output_grid_; }
   [[nodiscard]] std::uint64_t slots() const { return first_slot_.back(); }
   [[nodiscard]] std::uint64_t windows() const { return first_window_.back(); }
 
@@ -70,6 +75,14 @@ class RunLayout {
   [[nodiscard]] std::vector<BlockKey> blocks_of(const WindowKey& key) const;
   /// Returns the blocks of the march before that make up a block.  REQUIRES: key.march > 0.
   [[nodiscard]] std::vector<BlockKey> parts(const BlockKey& key) const;
+  /// Returns the block of the next march that a block becomes a part of.
+  /// REQUIRES: key.march + 1 < marches().
+  [[nodiscard]] BlockKey whole(const BlockKey& key) const;
+  /// Returns the content of a block as it is in a block of a later march, which it is a part of.
+  [[nodiscard]] BlockMesh moved(BlockMesh content, const BlockKey& from, const BlockKey& to) const {
+    return in_other_grid(std::move(content), {grid(from.march), from.block},
+                         {grid(to.march), to.block});
+  }
 
   /// The march's windows in their sequence.
   [[nodiscard]] WindowOrder order(std::uint32_t march) const { return {grids_[march], order_}; }
@@ -85,6 +98,7 @@ class RunLayout {
                                                          const DoneWindows& done) const;
 
   std::vector<WindowGrid> grids_;
+  WindowGrid output_grid_;
   Order order_;
   std::vector<std::uint64_t> first_slot_;    ///< the first of each march, then the number of all
   std::vector<std::uint64_t> first_window_;  ///< the first of each march, then the number of all

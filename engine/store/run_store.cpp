@@ -163,11 +163,14 @@ BlockMesh RunStore::read(const Source& source) const {
   return mesh;
 }
 
-std::optional<BlockMesh> RunStore::assemble(const std::vector<Source>& sources) const {
+std::optional<BlockMesh> RunStore::assemble(const BlockKey& key,
+                                            const std::vector<Source>& sources) const {
   if (sources.empty()) return std::nullopt;
-  if (sources.size() == 1) return read(sources.front());
+  if (sources.size() == 1 && sources.front().key == key) return read(sources.front());
   std::vector<BlockMesh> parts;
-  for (const Source& source : sources) parts.push_back(read(source));
+  for (const Source& source : sources) {
+    parts.push_back(layout_.moved(read(source), source.key, key));
+  }
   return merge_blocks(std::move(parts));
 }
 
@@ -178,7 +181,8 @@ std::vector<std::optional<BlockMesh>> RunStore::take(const WindowKey& key) const
     for (const BlockKey& block : layout_.blocks_of(key)) find(block, sources.emplace_back());
   }
   std::vector<std::optional<BlockMesh>> out;
-  for (const auto& of_block : sources) out.push_back(assemble(of_block));
+  const std::vector<BlockKey> blocks = layout_.blocks_of(key);
+  for (std::size_t i = 0; i < blocks.size(); ++i) out.push_back(assemble(blocks[i], sources[i]));
   return out;
 }
 
@@ -189,7 +193,7 @@ BlockMesh RunStore::load(const BlockKey& key) const {
     find(key, sources);
   }
   MW_ASSERT(!sources.empty());
-  return assemble(sources).value();
+  return assemble(key, sources).value();
 }
 
 bool RunStore::is_done(const WindowKey& key) const {

@@ -139,7 +139,8 @@ class RunStore {
   /// Finds where the block or its parts are.  REQUIRES: the store is locked.
   void find(const BlockKey& key, std::vector<Source>& out) const;
   [[nodiscard]] BlockMesh read(const Source& source) const;
-  [[nodiscard]] std::optional<BlockMesh> assemble(const std::vector<Source>& sources) const;
+  [[nodiscard]] std::optional<BlockMesh> assemble(const BlockKey& key,
+                                                  const std::vector<Source>& sources) const;
   /// Encodes a block, whose memory comes out of `room` if it fits there.
   [[nodiscard]] BlockPin encode(const BlockKey& key, const BlockMesh& mesh,
                                 MemoryBudget::Reservation& room);

@@ -76,6 +76,8 @@ MeshTiles::MeshTiles(const io::VolumeInfo& volume, const io::LabelTable& table,
 
 void MeshTiles::begin(const io::MeshHeader& header) {
   header_ = header;
+  const std::optional<io::MeshPromises>& promises = header.record.promises;
+  layers_ = layers_of(volume_.space.spacing, volume_.shape, promises ? promises->periodic : 0);
   if (header.in_parts) curved_.emplace();
 }
 

@@ -48,7 +48,8 @@ class MeshTiles : public io::MeshSink {
     std::int64_t edge = TileGrid::kEdge;  ///< of tiles
   };
 
-  /// volume and table outlive this.
+  /// volume and table outlive this.  begin() tells whether the volume repeats itself, which its
+  /// lattice depends on.
   MeshTiles(const io::VolumeInfo& volume, const io::LabelTable& table, const Place& junction);
 
   void begin(const io::MeshHeader& header) override;

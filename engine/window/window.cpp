@@ -102,7 +102,7 @@ Point lattice_corner(Index3 volume) {
   return {lattice(volume.x), lattice(volume.y), lattice(volume.z)};
 }
 
-WindowContent gather(std::vector<BlockMesh> blocks, Index3 volume, BoxPlanes kept) {
+WindowContent gather(std::vector<BlockMesh> blocks, Index3 volume, PlaneRoles roles) {
   BlockMesh merged = merge_blocks(std::move(blocks));
   for (const BlockTet& t : merged.tets) check_extent(t, merged.vertices);
   CarriedSamples samples;
@@ -111,7 +111,7 @@ WindowContent gather(std::vector<BlockMesh> blocks, Index3 volume, BoxPlanes kep
   const bool one_label =
       std::all_of(merged.tets.begin(), merged.tets.end(),
                   [&](const BlockTet& t) { return t.label == merged.tets[0].label; });
-  return {TetMesh(merged.vertices, merged.tets, lattice_corner(volume), kept), std::move(samples),
+  return {TetMesh(merged.vertices, merged.tets, lattice_corner(volume), roles), std::move(samples),
           one_label};
 }
 
@@ -119,7 +119,8 @@ std::vector<BlockMesh> scatter(const WindowContent& content, const WindowGrid& g
                                Index3 window) {
   const TetMesh& mesh = content.mesh;
   const std::vector<Index3> blocks = grid.blocks_of(window);
-  const std::vector<BlockTet> tets = mesh.sorted_tets();
+  std::vector<BlockTet> tets = mesh.sorted_tets();
+  for (BlockTet& t : tets) t.label = without_side(t.label);
   std::vector<std::uint8_t> owners;
   owners.reserve(tets.size());
   for (const BlockTet& t : tets) owners.push_back(owner_index(mesh, t, grid, window, blocks));

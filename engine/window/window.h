@@ -21,9 +21,9 @@ struct WindowContent {
 /// The far corner of a volume, in lattice units.
 [[nodiscard]] Point lattice_corner(Index3 volume);
 
-/// Merges blocks into the content of a window, as merge_blocks() does.  For kept see TetMesh.
+/// Merges blocks into the content of a window, as merge_blocks() does.
 [[nodiscard]] WindowContent gather(std::vector<BlockMesh> blocks, Index3 volume,
-                                   BoxPlanes kept = 0);
+                                   PlaneRoles roles = {});
 
 /// Deals the tets of a window to the owner blocks of their barycentres; samples go with the tet on
 /// the side of their triangle's smaller label.  Returns canonical blocks in the order of

@@ -18,18 +18,44 @@ std::int64_t windows_along(std::int64_t blocks) {
 
 }  // namespace
 
-WindowGrid::WindowGrid(Index3 volume, int window)
+WindowGrid::WindowGrid(Index3 volume, int window, Index3 first)
     : volume_(volume),
       block_edge_(window / 2),
+      first_(first),
       blocks_{ceil_div(volume.x, block_edge_), ceil_div(volume.y, block_edge_),
               ceil_div(volume.z, block_edge_)},
       windows_{windows_along(blocks_.x), windows_along(blocks_.y), windows_along(blocks_.z)} {}
 
+Index3 WindowGrid::in_volume(Index3 block) const {
+  const auto along = [](std::int64_t b, std::int64_t first, std::int64_t blocks) {
+    return (b + first) % blocks;
+  };
+  return {along(block.x, first_.x, blocks_.x), along(block.y, first_.y, blocks_.y),
+          along(block.z, first_.z, blocks_.z)};
+}
+
+Index3 WindowGrid::in_grid(Index3 block) const {
+  const auto along = [](std::int64_t b, std::int64_t first, std::int64_t blocks) {
+    return (b - first + blocks) % blocks;
+  };
+  return {along(block.x, first_.x, blocks_.x), along(block.y, first_.y, blocks_.y),
+          along(block.z, first_.z, blocks_.z)};
+}
+
+Index3 WindowGrid::beyond(Index3 block) const {
+  const auto along = [](std::int64_t b, std::int64_t first, std::int64_t blocks,
+                        std::int64_t volume) { return b + first < blocks ? 0 : volume; };
+  return {along(block.x, first_.x, blocks_.x, volume_.x),
+          along(block.y, first_.y, blocks_.y, volume_.y),
+          along(block.z, first_.z, blocks_.z, volume_.z)};
+}
+
 Box3 WindowGrid::block_box(Index3 block) const {
-  const Index3 lo{block.x * block_edge_, block.y * block_edge_, block.z * block_edge_};
-  return {lo,
-          {std::min(lo.x + block_edge_, volume_.x), std::min(lo.y + block_edge_, volume_.y),
-           std::min(lo.z + block_edge_, volume_.z)}};
+  const Index3 b = in_volume(block), copy = beyond(block);
+  const Index3 lo{b.x * block_edge_, b.y * block_edge_, b.z * block_edge_};
+  const Index3 hi{std::min(lo.x + block_edge_, volume_.x), std::min(lo.y + block_edge_, volume_.y),
+                  std::min(lo.z + block_edge_, volume_.z)};
+  return {lo + copy, hi + copy};
 }
 
 Box3 WindowGrid::window_box(Index3 window) const {
@@ -50,12 +76,17 @@ std::vector<Index3> WindowGrid::blocks_of(Index3 window) const {
 }
 
 Index3 WindowGrid::owner(Index3 window, const std::array<std::int64_t, 3>& sum) const {
-  const std::int64_t unit = 4 * block_edge_ * kUnitsPerVoxel;
-  const auto along = [&](std::int64_t s, std::int64_t w, std::int64_t blocks) {
-    return std::clamp(s / unit, w, std::min(w + 1, blocks - 1));
+  const std::int64_t voxel = 4 * kUnitsPerVoxel, unit = voxel * block_edge_;
+  const auto along = [&](std::int64_t s, std::int64_t w, std::int64_t first, std::int64_t blocks,
+                         std::int64_t volume) {
+    const std::int64_t end = voxel * volume;
+    const bool is_beyond = first > 0 && s >= end;
+    const std::int64_t block = is_beyond ? (s - end) / unit + blocks : s / unit;
+    return std::clamp(block - first, w, std::min(w + 1, blocks - 1));
   };
-  return {along(sum[0], window.x, blocks_.x), along(sum[1], window.y, blocks_.y),
-          along(sum[2], window.z, blocks_.z)};
+  return {along(sum[0], window.x, first_.x, blocks_.x, volume_.x),
+          along(sum[1], window.y, first_.y, blocks_.y, volume_.y),
+          along(sum[2], window.z, first_.z, blocks_.z, volume_.z)};
 }
 
 std::vector<Index3> WindowGrid::predecessors(Index3 w) const {

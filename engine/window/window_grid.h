@@ -15,16 +15,29 @@ namespace mw::engine {
 ///
 /// Blocks at the far sides may be short.  An axis of a single block has a single window.  The order
 /// of windows is x fastest, then y, then z.
+///
+/// A volume that repeats itself along an axis may be covered from another block on: blocks from
+/// `first` to the last one, then those before `first`, which are in places of the next copy of the
+/// volume.  Windows then lie across the end of the volume, and none across the plane where the grid
+/// begins.
 class WindowGrid {
  public:
-  /// REQUIRES: every axis of volume >= 1; window even and >= 2.
-  WindowGrid(Index3 volume, int window);
+  /// REQUIRES: every axis of volume >= 1; window even and >= 2; first is a block.
+  WindowGrid(Index3 volume, int window, Index3 first = {0, 0, 0});
 
   [[nodiscard]] Index3 volume() const { return volume_; }
+  [[nodiscard]] Index3 first() const { return first_; }
+  [[nodiscard]] std::int64_t block_edge() const { return block_edge_; }
   [[nodiscard]] Index3 blocks() const { return blocks_; }
   [[nodiscard]] Index3 windows() const { return windows_; }
 
-  /// Voxels of a block, cut off at the volume.
+  /// The block's index where the grid begins at the volume's corner, and back.
+  [[nodiscard]] Index3 in_volume(Index3 block) const;
+  [[nodiscard]] Index3 in_grid(Index3 block) const;
+  /// How many voxels a block's places are beyond those in the volume.
+  [[nodiscard]] Index3 beyond(Index3 block) const;
+
+  /// Voxels of a block, cut off at the end of the volume.
   [[nodiscard]] Box3 block_box(Index3 block) const;
   /// Voxels of the window's blocks.
   [[nodiscard]] Box3 window_box(Index3 window) const;
@@ -45,6 +58,7 @@ class WindowGrid {
  private:
   Index3 volume_;
   std::int64_t block_edge_;
+  Index3 first_;
   Index3 blocks_;
   Index3 windows_;
 };

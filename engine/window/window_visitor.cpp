@@ -59,6 +59,19 @@ std::optional<SurfaceWeights> surface_weights(const MeshSettings& settings,
   return weights;
 }
 
+/// Returns the largest level of cells that blocks of the grid are made of.
+int largest_level(const WindowGrid& grid, const MeshSettings& settings) {
+  MeshSettings of_grid = settings;
+  of_grid.window = std::min(settings.window, static_cast<int>(2 * grid.block_edge()));
+  return periodic_level(grid.volume(), settings, largest_cell_level(of_grid));
+}
+
+/// Returns where the volume is among its copies; nothing where there are none.
+std::optional<Box3> cell_of(Index3 volume, Index3 margin) {
+  if (margin == Index3{}) return std::nullopt;
+  return Box3{margin, margin + volume};
+}
+
 Box3 moved(const Box3& box, Index3 by) {
   return {box.lo + by, box.hi + by};
 }
@@ -73,15 +86,16 @@ WindowVisitor::WindowVisitor(const PreparedLabels& labels, const Metric& metric,
       grid_(grid),
       store_(store),
       metric_(metric),
-      kept_(periodic_planes(settings)),
-      start_{.max_level = periodic_level(grid.volume(), settings, largest_cell_level(settings)),
+      roles_(periodic_planes(settings, grid.first())),
+      start_{.max_level = largest_level(grid, settings),
              .coarse = labels.is_coarse(),
              .with_samples = settings.max_distance.has_value(),
              .max_distance = settings.max_distance.value_or(kMaxCoarseDistance),
              .weights = {},
              .metric = metric,
              .quality_floor = settings.quality_floor,
-             .sizes = labels.sizes()},
+             .sizes = labels.start_sizes(),
+             .cell = cell_of(grid.volume(), labels.margin())},
       simplify_(simplify_options(settings)),
       optimise_{.sweeps = settings.optimizer == Optimizer::kNone ? 0 : 1,
                 .quality_floor = settings.quality_floor,
@@ -89,6 +103,9 @@ WindowVisitor::WindowVisitor(const PreparedLabels& labels, const Metric& metric,
                 .moves_fitted = false,
                 .demands = {.sizes = labels.sizes()}},
       codt_{.iterations = settings.odt_iterations, .quality_floor = settings.quality_floor},
+      before_(plan.before),
+      turn_(plan.turn),
+      turns_(plan.turns),
       triangulate_(std::move(plan.triangulate)),
       max_distance_(settings.max_distance),
       target_reduction_(settings.target_reduction) {
@@ -124,6 +141,13 @@ VisitStats& VisitStats::operator+=(const VisitStats& other) {
   return *this;
 }
 
+/// Returns whether a grid begins within a window, along an axis where volumes repeat themselves.
+bool WindowVisitor::holds_begin(Index3 window, const WindowGrid& grid) const {
+  const Index3 first = grid.first(), upper = grid_.in_volume(window + Index3{1, 1, 1});
+  return (first.x > 0 && upper.x == first.x) || (first.y > 0 && upper.y == first.y) ||
+         (first.z > 0 && upper.z == first.z);
+}
+
 VisitStats WindowVisitor::visit(Index3 window) const {
   VisitStats stats{.windows = 1};
   Stopwatch watch;
@@ -134,7 +158,11 @@ VisitStats WindowVisitor::visit(Index3 window) const {
     content.push_back(stored[i] ? std::move(*stored[i]) : start(blocks[i]));
   }
   watch.lap(stats.start_seconds);
-  WindowContent window_content = gather(std::move(content), grid_.volume(), kept_);
+  if (before_ && !holds_begin(window, *before_)) {
+    store_.commit(window, std::move(content));
+    return stats;
+  }
+  WindowContent window_content = gather(std::move(content), grid_.volume(), roles_);
   watch.lap(stats.exchange_seconds);
   work_on(window, window_content, stats);
   watch.restart();
@@ -143,14 +171,22 @@ VisitStats WindowVisitor::visit(Index3 window) const {
   return stats;
 }
 
+LabelBox WindowVisitor::labels_around(const TetMesh& mesh) const {
+  const Box3 around = voxels_around(mesh, LabelReach::search_reach(*max_distance_));
+  const Index3 first = grid_.first();
+  const std::array<bool, 3> repeats{first.x > 0, first.y > 0, first.z > 0};
+  LabelBox out = repeated_labels(around, grid_.volume(), repeats,
+                                 [this](const Box3& box) { return labels_.original(box); });
+  if (roles_.inner != 0) give_sides(out, grid_.volume());
+  return out;
+}
+
 void WindowVisitor::work_on(Index3 window, WindowContent& content, VisitStats& stats) const {
   LabelBox labels;
   SourceSurface source;
   std::optional<DistanceGuard> guard;
   if (max_distance_ && !content.one_label) {
-    const std::int64_t halo = LabelReach::search_reach(*max_distance_);
-    const Box3 volume{{0, 0, 0}, grid_.volume()};
-    labels = labels_.original(intersection(voxels_around(content.mesh, halo), volume));
+    labels = labels_around(content.mesh);
     guard.emplace(labels, *max_distance_, content.samples);
     if (labels_.has_source()) {
       source = labels_.source(labels.box);
@@ -205,8 +241,8 @@ std::vector<LatticeBox> WindowVisitor::later_boxes(Index3 window) const {
 }
 
 SteinerIds WindowVisitor::ids_of(Index3 window) const {
-  return steiner_ids(raster(window, grid_.windows()),
-                     static_cast<std::uint64_t>(grid_.windows().product()));
+  return steiner_ids(raster(window, grid_.windows()) * turns_ + turn_,
+                     static_cast<std::uint64_t>(grid_.windows().product()) * turns_);
 }
 
 void WindowVisitor::add_inner(Index3 window, WindowContent& content, VisitStats& stats) const {

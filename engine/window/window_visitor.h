@@ -57,6 +57,10 @@ struct VisitPlan {
   /// its windows tells which vertices an earlier window has seen, which wait for changes, and which
   /// no later window will see: only these get more than one sweep.
   std::optional<WindowOrder> last = std::nullopt;
+  /// Set where a march only heals what the one before kept, where its grid began.
+  std::optional<WindowGrid> before = std::nullopt;
+  /// Which one of several marches is this that make vertices?  Ids are apart by it.
+  std::uint64_t turn = 0, turns = 1;
   /// Optional: adds constrained ODT with this triangulation, which many threads may call at once.
   /// Local optimisation stays around it when there is a quality floor: tets of a Delaunay
   /// triangulation are often below one, so patches that are good already come through, and one
@@ -94,6 +98,9 @@ class WindowVisitor {
   /// last march with smooth surfaces.
   [[nodiscard]] std::vector<LatticeBox> earlier_boxes(Index3 window) const;
   [[nodiscard]] std::vector<LatticeBox> later_boxes(Index3 window) const;
+  [[nodiscard]] bool holds_begin(Index3 window, const WindowGrid& grid) const;
+  /// Returns the labels that a distance guard needs around a mesh.
+  [[nodiscard]] LabelBox labels_around(const TetMesh& mesh) const;
   void work_on(Index3 window, WindowContent& content, VisitStats& stats) const;
   void reconnect(Index3 window, WindowContent& content, VisitStats& stats) const;
   void add_inner(Index3 window, WindowContent& content, VisitStats& stats) const;
@@ -107,11 +114,13 @@ class WindowVisitor {
   const WindowGrid& grid_;
   BlockStore& store_;
   Metric metric_;
-  BoxPlanes kept_;
+  PlaneRoles roles_;
   StartOptions start_;
   SimplifyOptions simplify_;
   OptimiseOptions optimise_;
   CodtOptions codt_;
+  std::optional<WindowGrid> before_;
+  std::uint64_t turn_, turns_;  ///< see VisitPlan
   Triangulate triangulate_;
   std::optional<WindowOrder> order_;  ///< set in the last march with smooth surfaces
   std::optional<double> max_distance_;

@@ -17,12 +17,18 @@ enum class Encoding : std::uint8_t {
   kText,
 };
 
+/// A job that a solver runs as it is, with placeholders for materials.
+enum class Deck : std::uint8_t {
+  kNone,
+  kStatic,      ///< one end of the mesh is held, the other pulled (grouped/facet_nodes.h)
+  kPeriodic,    ///< six unit strains of a cell that repeats itself (abaqus/periodic_job.h)
+  kConduction,  ///< three unit gradients of temperature of such a cell
+};
+
 struct MeshExtras {
   Encoding encoding = Encoding::kUsual;
   std::optional<MaterialRule> materials{};
-  /// A job that the solver runs as it is: placeholders for materials, and one static step that
-  /// holds one end of the mesh and pulls the other (grouped/deck_ends.h).
-  bool deck = false;
+  Deck deck = Deck::kNone;
   /// The mesh is known to have wedges between the sides of interfaces (MeshRecord::cohesive) before
   /// it comes, so that MeshSink::buffer_bytes() counts what they take.
   bool wedges = false;

@@ -55,7 +55,8 @@ struct MeshFormat {
   WedgePlace wedges = WedgePlace::kNowhere;
   bool has_text = false;  ///< numbers are written in two ways
   bool takes_materials = false;
-  bool takes_deck = false;
+  bool takes_deck = false;       ///< Deck::kStatic
+  bool takes_cell_deck = false;  ///< those of a cell that repeats itself
 
   [[nodiscard]] bool is_read() const { return read != nullptr || stream != nullptr; }
   [[nodiscard]] bool is_written() const { return open != nullptr; }
@@ -138,7 +139,8 @@ const std::array kFormats{
                .open = &open_grouped<InpWriter, &InpWriter::write>,
                .wedges = WedgePlace::kSix,
                .takes_materials = true,
-               .takes_deck = true},
+               .takes_deck = true,
+               .takes_cell_deck = true},
     MeshFormat{.extension = ".xdmf",
                .open = &open_grouped<XdmfWriter, &XdmfWriter::write>,
                .beside = {".h5", ".cells.xdmf", ".facets.csv", ".xdmf.labels.csv"},
@@ -281,7 +283,7 @@ class FileSink : public MeshSink {
   void settle(const MeshHeader& header) {
     if (!header.record.cohesive.any()) return;
     require_place_for_wedges(file_.path, file_.element);
-    if (file_.extras.deck) refuse_wedges_in_deck(file_.path);
+    if (file_.extras.deck != Deck::kNone) refuse_wedges_in_deck(file_.path);
     if (file_.extras.wedges) return;
     below_[0].reset();
     below_[0] = file_.open(true);
@@ -397,11 +399,14 @@ std::unique_ptr<MeshSink> open_mesh_sink(const std::filesystem::path& path, Elem
     fail_usage(path.string(), ": has no place for materials; ",
                extensions_where(&MeshFormat::takes_materials), " have");
   }
-  if (extras.deck && !format.takes_deck) {
-    fail_usage(path.string(), ": no job is written in ", format.extension, "; --deck is for ",
-               extensions_where(&MeshFormat::takes_deck));
+  const bool has_deck = extras.deck != Deck::kNone;
+  const auto takes =
+      extras.deck == Deck::kStatic ? &MeshFormat::takes_deck : &MeshFormat::takes_cell_deck;
+  if (has_deck && !(format.*takes)) {
+    fail_usage(path.string(), ": no such job is written in ", format.extension,
+               "; this --deck is for ", extensions_where(takes));
   }
-  if (extras.deck && extras.wedges) refuse_wedges_in_deck(path);
+  if (has_deck && extras.wedges) refuse_wedges_in_deck(path);
   const OpenFile open = [&format, path, element, extras](bool has_wedges) {
     MeshExtras taken = extras;
     taken.wedges = has_wedges;

@@ -20,6 +20,31 @@ using Label = std::uint32_t;
 /// Everything outside the volume's box counts as one more label.
 inline constexpr Label kExterior = 0xffffffffU;
 
+/// Within a window, tets beyond a plane that its mesh goes through (PlaneRoles::inner) bear their
+/// label and a bit for each such plane, so that whatever keeps two labels apart keeps the plane.
+/// Labels of volumes are below kFirstSide.
+inline constexpr Label kFirstSide = Label{1} << 29U;
+
+/// Returns the bit of tets beyond the plane across an axis: 0 for x, 1 for y, 2 for z.
+[[nodiscard]] constexpr Label side_beyond(unsigned axis) {
+  return kFirstSide << axis;
+}
+
+/// Returns the label that a tet's voxels have; kExterior becomes a label that no voxel has.
+[[nodiscard]] constexpr Label without_side(Label label) {
+  return label & (kFirstSide - 1);
+}
+
+/// Returns the side that a label is on: the bits of planes that it is beyond.
+[[nodiscard]] constexpr Label side_of(Label sided) {
+  return sided & ~(kFirstSide - 1);
+}
+
+/// Returns another label on the side that a label is on.
+[[nodiscard]] constexpr Label on_side_of(Label sided, Label label) {
+  return side_of(sided) | without_side(label);
+}
+
 /// Two labels that meet, low < high.
 struct LabelPair {
   Label low = 0;

@@ -83,6 +83,19 @@ inline constexpr std::int64_t kMaxLayers = std::int64_t{1} << 20;
   return {along(spacing[0]), along(spacing[1]), along(spacing[2])};
 }
 
+/// Returns the layers of the voxels of a volume that repeats itself along some axes (bit 0 = x).
+/// The start mesh repeats itself after an even number of voxels.  So where another number would be
+/// left along one of these axes, all layers are halved.
+[[nodiscard]] inline Index3 layers_of(const std::array<double, 3>& spacing, Index3 shape,
+                                      unsigned periodic) {
+  const Index3 layers = layers_of(spacing);
+  const bool is_odd = ((periodic & 1U) != 0 && shape.x * layers.x % 2 != 0) ||
+                      ((periodic & 2U) != 0 && shape.y * layers.y % 2 != 0) ||
+                      ((periodic & 4U) != 0 && shape.z * layers.z % 2 != 0);
+  const std::int64_t parts = is_odd ? 2 : 1;
+  return {parts * layers.x, parts * layers.y, parts * layers.z};
+}
+
 /// Voxels of the lattice along each axis.
 [[nodiscard]] inline Index3 layered_shape(Index3 shape, Index3 layers) {
   return {shape.x * layers.x, shape.y * layers.y, shape.z * layers.z};

@@ -21,7 +21,7 @@ DistanceGuard::DistanceGuard(const LabelBox& labels, double max_distance, Carrie
       samples_(samples) {}
 
 double DistanceGuard::sign_of(FaceSamples samples, Label low) const {
-  return labels_.at(lower_voxel(samples)) == low ? 1.0 : -1.0;
+  return without_side(labels_.at(lower_voxel(samples))) == low ? 1.0 : -1.0;
 }
 
 DistanceGuard::Piece DistanceGuard::piece(FaceSamples samples, Label low) const {
@@ -89,6 +89,8 @@ void DistanceGuard::add_changed(const TetMesh& mesh, LocalVertex v, LocalVertex 
                                                    in_voxels(mesh.position(third))}),
                         .low = t.low,
                         .high = t.high,
+                        .side = t.side,
+                        .in_inner_plane = t.in_inner_plane,
                         .vanishes = vanishes,
                         .stays = same_position && !vanishes});
     ring_.push_back(t.a);
@@ -131,24 +133,30 @@ bool DistanceGuard::allows_flip(const TetMesh& mesh, std::span<const TriangleKey
                                 Label other) {
   changed_.clear();
   mesh_ = nullptr;
-  const auto [low, high] = std::minmax(towards, other);
+  const auto [low, high] = std::minmax({without_side(towards), without_side(other)});
+  const Label side = side_of(towards);
+  const bool in_plane = side != side_of(other);
   for (const TriangleKey& key : old) {
     changed_.push_back({.before = key,
                         .after = key,
                         .shape = DistanceTriangle({Vec3::Zero(), Vec3::Zero(), Vec3::Zero()}),
                         .low = low,
                         .high = high,
+                        .side = side,
+                        .in_inner_plane = in_plane,
                         .vanishes = true});
   }
   const auto at = [&mesh](LocalVertex v) { return in_voxels(mesh.position(v)); };
   for (auto [first, second, third] : fresh) {
     const TriangleKey key = triangle_key(first, second, third);
-    if (towards != high) std::swap(first, second);
+    if (without_side(towards) != high) std::swap(first, second);
     changed_.push_back({.before = key,
                         .after = key,
                         .shape = DistanceTriangle({at(first), at(second), at(third)}),
                         .low = low,
-                        .high = high});
+                        .high = high,
+                        .side = side,
+                        .in_inner_plane = in_plane});
   }
   return keeps_bound();
 }
@@ -164,7 +172,8 @@ bool DistanceGuard::keeps_bound() {
     if (!changed_[i].stays && !carry_samples(i)) return false;
   }
   return std::all_of(changed_.begin(), changed_.end(), [this](const Changed& t) {
-    return t.stays || t.vanishes || reach_.within(t.shape.corners(), t.low, t.high);
+    return t.stays || t.vanishes || t.in_inner_plane ||
+           reach_.within(t.shape.corners(), t.side | t.low, t.side | t.high);
   });
 }
 
@@ -260,11 +269,13 @@ std::optional<std::size_t> DistanceGuard::receiver_nearby(const Wanderer& w) {
 std::optional<std::size_t> DistanceGuard::nearest(const Wanderer& w, std::size_t first,
                                                   double min_cosine) const {
   const Label low = changed_[w.from].low, high = changed_[w.from].high;
+  const Label side = changed_[w.from].side;
   double min = w.limit * w.limit;
   std::optional<std::size_t> to;
   for (std::size_t i = first; i < changed_.size(); ++i) {
     const Changed& t = changed_[i];
     if (t.vanishes || t.low != low || t.high != high) continue;
+    if (t.side != side || t.in_inner_plane) continue;
     if (w.sign * t.shape.unit_normal()[static_cast<int>(w.axis)] < min_cosine) continue;
     if (t.shape.is_beyond(w.point, w.limit)) continue;
     const double d = t.shape.squared_distance(w.point);
@@ -304,6 +315,8 @@ void DistanceGuard::add_neighbours_at(LocalVertex w) {
                         .shape = DistanceTriangle({at(w), at(second), at(third)}),
                         .low = t.low,
                         .high = t.high,
+                        .side = t.side,
+                        .in_inner_plane = t.in_inner_plane,
                         .stays = true});
   }
 }

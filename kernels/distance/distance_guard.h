@@ -101,6 +101,8 @@ class DistanceGuard {
     DistanceTriangle shape;  ///< after the change, in voxels; its normal points to high
     Label low = 0;
     Label high = 0;
+    Label side = 0;               ///< samples go to triangles on the same side
+    bool in_inner_plane = false;  ///< ends of the volume, which are no interface there
     bool vanishes = false;
     bool stays = false;  ///< not changed at all; may receive samples
     /// The rows of kept_ that say which of its samples it keeps; without rows it keeps them all.

@@ -26,7 +26,7 @@ MW_LANES Unpacked unpack(const FaceGroup& faces) {
           field(words, 44, kCoordinate), field(words, 4, 3)};
 }
 
-/// Marks the faces whose lower voxel has the label.
+/// Marks the faces whose lower voxel has the label, on any side.
 MW_LANES LaneMask is_label(const Unpacked& faces, const LabelBox& labels, Label label) {
   const Index3 shape = labels.box.shape(), lo = labels.box.lo;
   const LaneInts rows =
@@ -36,7 +36,7 @@ MW_LANES LaneMask is_label(const Unpacked& faces, const LabelBox& labels, Label 
       rows * static_cast<std::int32_t>(shape.x) + (faces.x - static_cast<std::int32_t>(lo.x));
   const Label* all = labels.labels.data();
   const LaneMask found{all[places[0]], all[places[1]], all[places[2]], all[places[3]]};
-  return found == static_cast<std::int64_t>(label);
+  return (found & static_cast<std::int64_t>(kFirstSide - 1)) == static_cast<std::int64_t>(label);
 }
 
 /// Sums of the samples of some quarters: of their coordinates along the face's two axes, in voxels

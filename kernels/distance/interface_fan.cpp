@@ -70,12 +70,12 @@ void InterfaceFan::collect_of_two(const TetMesh& mesh, LocalVertex v,
     if (at_b && at_c) open_or_close(t.b, t.c);
     if (at_c && at_a) open_or_close(t.c, t.a);
   }
-  const auto [low, high] = std::minmax(label, other);
+  const auto [low, high] = std::minmax({without_side(label), without_side(other)});
   for (const std::size_t at : opened_) {
     const Side& s = sides_[at];
     if (!s.is_open) continue;
     out.push_back({static_cast<LocalVertex>(s.edge >> 32), static_cast<LocalVertex>(s.edge), low,
-                   high, s.ascends == (label == high)});
+                   high, s.ascends == (without_side(label) == high), side_of(label)});
   }
 }
 
@@ -98,17 +98,21 @@ std::size_t InterfaceFan::place_of(std::uint64_t edge) const {
 }
 
 /// The first side of a triangle waits for the other.
-void InterfaceFan::pair_sides(LocalVertex a, LocalVertex b, Label label,
+void InterfaceFan::pair_sides(LocalVertex a, LocalVertex b, Label sided,
                               std::vector<FanTriangle>& out) {
   const std::uint64_t edge = edge_of(a, b);
   Side& side = sides_[place_of(edge)];
   const auto [low, high] = std::minmax(a, b);
   if (side.stamp != stamp_) {
-    side = {edge, stamp_, label, a < b, true};
-  } else if (side.label < label) {
-    out.push_back({low, high, side.label, label, a < b});
-  } else if (label < side.label) {
-    out.push_back({low, high, label, side.label, side.ascends});
+    side = {edge, stamp_, sided, a < b, true};
+    return;
+  }
+  const Label one = without_side(side.label), other = without_side(sided);
+  const bool in_plane = side_of(side.label) != side_of(sided);
+  if (one < other) {
+    out.push_back({low, high, one, other, a < b, side_of(sided), in_plane});
+  } else if (other < one) {
+    out.push_back({low, high, other, one, side.ascends, side_of(sided), in_plane});
   }
 }
 

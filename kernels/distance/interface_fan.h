@@ -20,6 +20,9 @@ struct FanTriangle {
   Label low = 0;
   Label high = 0;
   bool faces_high = false;  ///< the normal (a - v) x (b - v) points to the side of high
+  /// Where both tets are (kFirstSide); several triangles that differ in this are one interface.
+  Label side = 0;
+  bool in_inner_plane = false;  ///< the tets are on different sides
 };
 
 /// Collects the triangles at v that have different labels of the volume on their two sides,
@@ -34,16 +37,16 @@ class InterfaceFan {
   struct Side {
     std::uint64_t edge = 0;   ///< its smaller vertex in the upper half
     std::uint32_t stamp = 0;  ///< number of the call that filled it
-    Label label = 0;
-    bool ascends = false;  ///< the normal of (v, smaller, larger) points into the tet
-    bool is_open = true;   ///< the other side has not come
+    Label label = 0;          ///< with its side (kFirstSide)
+    bool ascends = false;     ///< the normal of (v, smaller, larger) points into the tet
+    bool is_open = true;      ///< the other side has not come
   };
 
   void make_room(std::size_t sides);
   [[nodiscard]] std::size_t place_of(std::uint64_t edge) const;
   void collect_of_any(const TetMesh& mesh, LocalVertex v, std::vector<FanTriangle>& out);
   void collect_of_two(const TetMesh& mesh, LocalVertex v, std::vector<FanTriangle>& out);
-  void pair_sides(LocalVertex a, LocalVertex b, Label label, std::vector<FanTriangle>& out);
+  void pair_sides(LocalVertex a, LocalVertex b, Label sided, std::vector<FanTriangle>& out);
   void open_or_close(LocalVertex a, LocalVertex b);
 
   std::vector<Side> sides_;          ///< hash table, linear probing; free where stamps differ

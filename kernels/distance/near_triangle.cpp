@@ -20,7 +20,7 @@ std::int32_t units(double voxels) {
 bool has_tet(const TetMesh& mesh, LocalVertex v, LocalVertex a, LocalVertex b, Label label) {
   const auto star = mesh.star(v);
   return std::any_of(star.begin(), star.end(), [&](const LinkTriangle& t) {
-    return t.label == label && t.has(a) && t.has(b);
+    return without_side(t.label) == label && t.has(a) && t.has(b);
   });
 }
 
@@ -61,7 +61,7 @@ bool NearTriangle::may_be_at(const TetMesh& mesh, LocalVertex v,
            has_tet(mesh, v, a, b, wanted.high);
   };
   for (const LinkTriangle& t : mesh.star(v)) {
-    if (t.label != wanted.low) continue;
+    if (without_side(t.label) != wanted.low) continue;
     const unsigned a = sides_of(mesh.position(t.a)), b = sides_of(mesh.position(t.b)),
                    c = sides_of(mesh.position(t.c));
     if (is_near(t.a, t.b, a & b) || is_near(t.b, t.c, b & c) || is_near(t.c, t.a, c & a)) {

@@ -18,7 +18,10 @@ class InnerDemand {
   /// wanted has an entry for each dense label.
   explicit InnerDemand(std::vector<bool> wanted) : wanted_(std::move(wanted)) {}
 
-  [[nodiscard]] bool wants(Label label) const { return label < wanted_.size() && wanted_[label]; }
+  [[nodiscard]] bool wants(Label sided) const {
+    const Label label = without_side(sided);
+    return label < wanted_.size() && wanted_[label];
+  }
 
  private:
   std::vector<bool> wanted_;

@@ -22,9 +22,9 @@ BoxPlanes planes_of(Point p, Point box) {
 }
 
 LabelBits bits_of(std::span<const BlockTet> tets) {
-  std::vector<Label> labels{kExterior};
+  std::vector<Label> labels{without_side(kExterior)};
   for (const BlockTet& t : tets) {
-    if (t.label != labels.back()) labels.push_back(t.label);
+    if (without_side(t.label) != labels.back()) labels.push_back(without_side(t.label));
   }
   sort_distinct(labels);
   return LabelBits(labels);
@@ -33,8 +33,8 @@ LabelBits bits_of(std::span<const BlockTet> tets) {
 }  // namespace
 
 TetMesh::TetMesh(std::span<const BlockVertex> vertices, std::span<const BlockTet> tets, Point box,
-                 BoxPlanes kept)
-    : kept_(kept), bits_(bits_of(tets)), marks_(vertices.size() + 1) {
+                 PlaneRoles roles)
+    : roles_(roles), bits_(bits_of(tets)), marks_(vertices.size() + 1) {
   points_.reserve(vertices.size());
   ids_.reserve(vertices.size());
   quadrics_.reserve(vertices.size());
@@ -54,6 +54,7 @@ TetMesh::TetMesh(std::span<const BlockVertex> vertices, std::span<const BlockTet
     if (volume6(position(v[0]), position(v[1]), position(v[2]), position(v[3])) < 0) {
       std::swap(v[2], v[3]);
     }
+    tet.label |= side_of(v, box);
     loaded.push_back(tet);
   }
   const std::size_t real = loaded.size();
@@ -65,7 +66,7 @@ TetMesh::TetMesh(std::span<const BlockVertex> vertices, std::span<const BlockTet
                                           {{v[1], v[0], infinity(), v[3]}, kExterior},
                                           {{v[0], v[2], v[1], infinity()}, kExterior}}};
     for (std::size_t corner = 0; corner < 4; ++corner) {
-      unsigned shared = 63;
+      unsigned shared = 63U & ~unsigned{roles_.inner};
       for (std::size_t j = 0; j < 4; ++j) {
         if (j != corner) shared &= planes_[v[j]];
       }
@@ -82,6 +83,20 @@ TetMesh::TetMesh(std::span<const BlockVertex> vertices, std::span<const BlockTet
   }
   versions_.assign(points_.size(), 0);
   classify_vertices();
+}
+
+/// Returns the sides of a tet, which no inner plane crosses.
+Label TetMesh::side_of(const std::array<LocalVertex, 4>& tet, Point box) const {
+  if (roles_.inner == 0) return 0;
+  Label sides = 0;
+  for (unsigned axis = 0; axis < 3; ++axis) {
+    if ((roles_.inner >> 2 * axis & 3U) == 0) continue;
+    const bool is_beyond = std::any_of(tet.begin(), tet.end(), [&](LocalVertex v) {
+      return along(points_[v], axis) > along(box, axis);
+    });
+    if (is_beyond) sides |= side_beyond(axis);
+  }
+  return sides;
 }
 
 void TetMesh::count_stars(std::span<const LocalTet> tets) {
@@ -110,7 +125,7 @@ void TetMesh::classify_vertices() {
       for (LocalVertex w : {t.a, t.b, t.c}) link_vertices += marks_.insert(w) ? 1U : 0U;
     }
     const bool is_complete = 2 * link_vertices == stars_[v].size + 4;
-    free_[v] = is_complete && (planes_[v] & kept_) == 0 ? 1 : 0;
+    free_[v] = is_complete && (planes_[v] & roles_.kept) == 0 ? 1 : 0;
     classify_labels(v);
   }
 }
@@ -119,13 +134,15 @@ void TetMesh::classify_labels(LocalVertex v) {
   std::array<Label, 255> seen;
   std::size_t count = 0;
   std::uint64_t signature = 0;
+  bool has_exterior = false;
   for (const LinkTriangle& t : star(v)) {
     signature |= label_bit(t.label);
+    has_exterior |= t.label == kExterior;
+    const Label label = without_side(t.label);
     const auto end = seen.begin() + static_cast<std::ptrdiff_t>(count);
-    if (count < seen.size() && std::find(seen.begin(), end, t.label) == end) {
-      seen[count++] = t.label;
-    }
+    if (count < seen.size() && std::find(seen.begin(), end, label) == end) seen[count++] = label;
   }
+  if ((planes_[v] & roles_.inner) != 0 && !has_exterior && count < seen.size()) ++count;
   orders_[v] = static_cast<std::uint8_t>(count);
   signatures_[v] = is_free(v) ? signature : ~std::uint64_t{0};
 }

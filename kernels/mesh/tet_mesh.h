@@ -26,7 +26,7 @@ namespace mw {
 class LabelBits {
  public:
   LabelBits() : LabelBits(std::vector<Label>{}) {}
-  /// REQUIRES: ascending, each label once.
+  /// REQUIRES: ascending, each label once, without sides.
   explicit LabelBits(const std::vector<Label>& labels)
       : slots_(std::bit_ceil(std::max<std::size_t>(4 * labels.size(), 4))),
         shift_(static_cast<unsigned>(32 - std::countr_zero(slots_.size()))) {
@@ -38,8 +38,9 @@ class LabelBits {
     }
   }
 
-  /// The label's bit; 0 for a label that is not one of these.
-  [[nodiscard]] std::uint64_t of(Label label) const {
+  /// The label's bit, whatever side it is on; 0 for a label that is not one of these.
+  [[nodiscard]] std::uint64_t of(Label sided) const {
+    const Label label = without_side(sided);
     for (std::size_t at = slot(label);; at = (at + 1) & (slots_.size() - 1)) {
       if (slots_[at].bit == kFree) return 0;
       if (slots_[at].label == label) return std::uint64_t{1} << slots_[at].bit;
@@ -101,6 +102,15 @@ struct LocalTet {
 /// Bits of the box planes that a vertex lies on: 1, 2 for low and high x; 4, 8 for y; 16, 32 for z.
 using BoxPlanes = std::uint8_t;
 
+/// What planes of the box are to the mesh of a window, beside the ends of the volume.
+struct PlaneRoles {
+  /// Triangles on these stay as they are: no vertex on one of them is free.
+  BoxPlanes kept = 0;
+  /// The mesh goes on beyond these, because the volume repeats itself.  No tet crosses one.  Tets
+  /// beyond bear a side (side_beyond()).
+  BoxPlanes inner = 0;
+};
+
 /// Axes (bit 0 = x) along which a vertex on these planes cannot move.
 [[nodiscard]] constexpr unsigned fixed_axes(BoxPlanes planes) {
   return ((planes & 3U) != 0 ? 1U : 0U) | ((planes & 12U) != 0 ? 2U : 0U) |
@@ -110,8 +120,9 @@ using BoxPlanes = std::uint8_t;
 /// The mesh of a window.
 ///
 /// The exterior is present as virtual tetrahedra of label kExterior between each triangle on the
-/// volume's box and the vertex infinity(), so that the star of a free vertex is always a closed
-/// sphere and the topology test needs no special case (kernels/topology/README.md, "The sphere").
+/// volume's box, unless the plane is an inner one, and the vertex infinity(), so that the star of a
+/// free vertex is always a closed sphere and the topology test needs no special case
+/// (kernels/topology/README.md, "The sphere").
 ///
 /// A vertex is free when its star is complete, that is, when its loaded link is a sphere: with n
 /// link vertices and F link triangles, 2 n = F + 4 (Euler; no proper subset of a triangulated
@@ -120,11 +131,10 @@ using BoxPlanes = std::uint8_t;
 class TetMesh {
  public:
   /// Local vertices are the rows of `vertices`.
-  /// kept are planes of the box whose triangles stay as they are: no vertex on one of them is free.
   /// REQUIRES: vertices ascending by id; tets by rows, in a canonical order, all within
   /// kMaxTetExtent and not flat; box = far corner of the volume in lattice units.
   TetMesh(std::span<const BlockVertex> vertices, std::span<const BlockTet> tets, Point box,
-          BoxPlanes kept = 0);
+          PlaneRoles roles = {});
 
   [[nodiscard]] LocalVertex vertex_count() const {
     return static_cast<LocalVertex>(points_.size());
@@ -139,10 +149,14 @@ class TetMesh {
   [[nodiscard]] const Quadric& quadric(LocalVertex v) const { return quadrics_[v]; }
   [[nodiscard]] BoxPlanes planes(LocalVertex v) const { return planes_[v]; }
   [[nodiscard]] bool is_free(LocalVertex v) const { return free_[v] != 0; }
-  [[nodiscard]] BoxPlanes kept_planes() const { return kept_; }
+  [[nodiscard]] PlaneRoles plane_roles() const { return roles_; }
   /// Is the edge in a triangle of a plane that is kept?
   [[nodiscard]] bool is_kept(LocalVertex v, LocalVertex w) const {
-    return (planes_[v] & planes_[w] & kept_) != 0;
+    return (planes_[v] & planes_[w] & roles_.kept) != 0;
+  }
+  /// Is the edge in a plane that the mesh goes through?
+  [[nodiscard]] bool is_in_inner_plane(LocalVertex v, LocalVertex w) const {
+    return (planes_[v] & planes_[w] & roles_.inner) != 0;
   }
   [[nodiscard]] bool is_alive(LocalVertex v) const { return stars_[v].size != 0; }
   /// Grows with every change of the mesh.
@@ -155,12 +169,13 @@ class TetMesh {
     return {pool_.data() + stars_[v].begin, stars_[v].size};
   }
 
-  /// Number of distinct labels at v, exterior included (the paper's order, Sec 5.3.1).
+  /// Number of distinct labels at v, exterior included (the paper's order, Sec 5.3.1).  Sides do
+  /// not count, but an inner plane at v does once, as the exterior would.
   /// REQUIRES: v free (a fixed vertex may have labels that are not loaded).
   [[nodiscard]] int order(LocalVertex v) const { return orders_[v]; }
   /// The bits of the labels at v; all bits at a fixed vertex, whose labels may not all be loaded.
   [[nodiscard]] std::uint64_t label_signature(LocalVertex v) const { return signatures_[v]; }
-  /// The label's bit (LabelBits); where there are more than 64 labels, several share one.
+  /// The label's bit, whatever its side (LabelBits); of more than 64 labels several share one.
   [[nodiscard]] std::uint64_t label_bit(Label label) const { return bits_.of(label); }
   /// True when v lies between two labels of the volume (not merely on the box).
   [[nodiscard]] bool on_interface(LocalVertex v) const {
@@ -193,6 +208,7 @@ class TetMesh {
     std::uint32_t capacity = 0;
   };
 
+  [[nodiscard]] Label side_of(const std::array<LocalVertex, 4>& tet, Point box) const;
   void count_stars(std::span<const LocalTet> tets);
   void classify_vertices();
   void classify_labels(LocalVertex v);
@@ -211,7 +227,7 @@ class TetMesh {
   std::vector<VertexId> ids_;
   std::vector<Quadric> quadrics_;
   std::vector<BoxPlanes> planes_;
-  BoxPlanes kept_ = 0;
+  PlaneRoles roles_;
   std::vector<std::uint8_t> free_;
   std::vector<std::uint8_t> orders_;
   LabelBits bits_;  ///< bits of all labels, the exterior among them

@@ -51,9 +51,10 @@ CarriedSamples moved_samples(const CarriedSamples& samples, std::span<const Loca
     for (int corner = 0; corner < 4; ++corner) {
       const LinkTriangle f = link_triangle(t, corner);
       const TriangleKey key = triangle_key(f.a, f.b, f.c);
-      if (!samples.has(key, t.label)) continue;
+      const Label side = without_side(t.label);
+      if (!samples.has(key, side)) continue;
       const TriangleKey moved = triangle_key(row[f.a], row[f.b], row[f.c]);
-      for (const FaceSamples s : samples.of(key)) out.add(moved, t.label, s);
+      for (const FaceSamples s : samples.of(key)) out.add(moved, side, s);
     }
   }
   return out;
@@ -74,7 +75,7 @@ void rebuild(TetMesh& mesh, CarriedSamples& samples, std::span<const LocalTet> t
     sorted.push_back(tet);
   }
   std::sort(sorted.begin(), sorted.end());
-  mesh = TetMesh(rows.vertices, sorted, box, mesh.kept_planes());
+  mesh = TetMesh(rows.vertices, sorted, box, mesh.plane_roles());
 }
 
 }  // namespace mw

@@ -148,11 +148,12 @@ bool Flipper::surface_allows(LocalVertex p, LocalVertex q) {
   }
   const std::array<LocalVertex, 2> ab{ring_vertex(0), ring_vertex(polygons_[1].first)};
   const Label first = polygons_[0].label, second = polygons_[1].label;
-  if (first == kExterior || second == kExterior) {
-    return (mesh_.planes(p) & mesh_.planes(q) & mesh_.planes(ab[0]) & mesh_.planes(ab[1])) != 0;
-  }
+  const bool in_plane =
+      (mesh_.planes(p) & mesh_.planes(q) & mesh_.planes(ab[0]) & mesh_.planes(ab[1])) != 0;
+  if (first == kExterior || second == kExterior) return in_plane;
+  if (on_side_of(first, second) != second && !in_plane) return false;
   // The new tets of the first polygon are (a, ., b, q) and (a, b, ., p).
-  if (guard_ == nullptr) return true;
+  if (guard_ == nullptr || !is_between_labels()) return true;
   const std::array<TriangleKey, 2> old{triangle_key(p, q, ab[0]), triangle_key(p, q, ab[1])};
   const std::array<FlippedTriangle, 2> fresh{{{ab[1], ab[0], p}, {ab[0], ab[1], q}}};
   return guard_->allows_flip(mesh_, old, fresh, first, second);
@@ -160,7 +161,8 @@ bool Flipper::surface_allows(LocalVertex p, LocalVertex q) {
 
 bool Flipper::is_between_labels() const {
   return polygons_.size() == 2 && polygons_[0].label != kExterior &&
-         polygons_[1].label != kExterior;
+         polygons_[1].label != kExterior &&
+         without_side(polygons_[0].label) != without_side(polygons_[1].label);
 }
 
 bool Flipper::collect_polygons(LocalVertex p, LocalVertex q, std::size_t max_ring) {
@@ -206,7 +208,9 @@ std::span<const LinkTriangle> Flipper::find_dimple(LocalVertex v,
   dimple_.clear();
   if (fan.size() > kMostInDimple + 2) return {};
   const auto star = mesh_.star(v);
-  const auto is_low = [low = fan[0].low](const LinkTriangle& t) { return t.label == low; };
+  const auto is_low = [low = fan[0].low](const LinkTriangle& t) {
+    return without_side(t.label) == low;
+  };
   const auto low_tets = static_cast<std::size_t>(std::count_if(star.begin(), star.end(), is_low));
   const std::size_t few = std::min(low_tets, star.size() - low_tets);
   if (few + 2 != fan.size()) return {};
@@ -240,13 +244,14 @@ bool Flipper::goes_on_beyond(LocalVertex v, const LinkTriangle& t) {
 }
 
 bool Flipper::flip_dimple(LocalVertex v, std::span<const FanTriangle> fan) {
-  const Label label = dimple_[0].label, around = fan[0].low == label ? fan[0].high : fan[0].low;
+  const Label sided = dimple_[0].label, label = without_side(sided);
+  const Label beyond = on_side_of(sided, fan[0].low == label ? fan[0].high : fan[0].low);
   std::vector<TriangleKey> old;
   for (const FanTriangle& t : fan) old.push_back(triangle_key(v, t.a, t.b));
   std::vector<FlippedTriangle> fresh;
   for (const LinkTriangle& t : dimple_) fresh.push_back({t.a, t.b, t.c});
-  if (guard_ != nullptr && !guard_->allows_flip(mesh_, old, fresh, label, around)) return false;
-  for (const auto& [a, b, c] : fresh) mesh_.relabel({{v, a, b, c}, label}, around);
+  if (guard_ != nullptr && !guard_->allows_flip(mesh_, old, fresh, sided, beyond)) return false;
+  for (const auto& [a, b, c] : fresh) mesh_.relabel({{v, a, b, c}, sided}, beyond);
   if (guard_ != nullptr) guard_->commit();
   return true;
 }

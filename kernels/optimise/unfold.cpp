@@ -196,7 +196,7 @@ Unfolder::Dimple Unfolder::dimple(LocalVertex v) {
   const auto from_v = [&](LocalVertex w) { return metric_.vector(at, mesh_.position(w)); };
   for (const LinkTriangle& t : flipper_.find_dimple(v, star_.fan())) {
     const Vec3 a = from_v(t.a), b = from_v(t.b), c = from_v(t.c), away = (b - a).cross(c - a);
-    out.triangles.push_back({t, a, b, c, t.label == fan[0].high ? away : -away});
+    out.triangles.push_back({t, a, b, c, without_side(t.label) == fan[0].high ? away : -away});
   }
   return out;
 }

@@ -89,7 +89,7 @@ class CandidateFinder {
   [[nodiscard]] bool labels_allow(LocalVertex v, LocalVertex w) const {
     const std::uint64_t edge = seen_[w].labels;
     if ((mesh_.label_signature(v) & mesh_.label_signature(w) & ~edge) != 0) return false;
-    const bool several = (edge & (edge - 1)) != 0;
+    const bool several = (edge & (edge - 1)) != 0 || mesh_.is_in_inner_plane(v, w);
     return several || mesh_.order(v) == 1 || mesh_.order(w) == 1;
   }
 
@@ -135,6 +135,8 @@ class Simplifier {
         inner_(mesh, options.demands.inner),
         topology_(mesh, options.topology),
         topology_on_box_(mesh, KeptTopology::kInterfaces),
+        topology_across_(mesh, options.topology, LinkCondition::Sides::kTogether),
+        topology_of_sides_(mesh, options.topology),
         bends_(mesh, metric) {}
 
   SimplifyStats run() {
@@ -230,10 +232,17 @@ class Simplifier {
   }
 
   /// On the box interfaces are kept in any case: a thin layer that ends there would else be pinched
-  /// off at its end, which the topology of its label allows.
+  /// off at its end, which the topology of its label allows.  In a plane that the mesh goes
+  /// through, both the labels and their parts on either side are kept.
   bool keeps_topology(const Contraction& c) {
-    const bool on_box = (mesh_.planes(c.keep) | mesh_.planes(c.drop)) != 0;
-    return (on_box ? topology_on_box_ : topology_).keeps_topology(mesh_, c.keep, c.drop);
+    const unsigned planes = mesh_.planes(c.keep) | mesh_.planes(c.drop);
+    const unsigned inner = planes & mesh_.plane_roles().inner;
+    if (planes != inner && !topology_on_box_.keeps_topology(mesh_, c.keep, c.drop)) return false;
+    if (inner != 0) {
+      return topology_across_.keeps_topology(mesh_, c.keep, c.drop) &&
+             topology_of_sides_.keeps_topology(mesh_, c.keep, c.drop);
+    }
+    return planes != 0 || topology_.keeps_topology(mesh_, c.keep, c.drop);
   }
 
   bool try_contraction(Contraction c) {
@@ -288,6 +297,7 @@ class Simplifier {
   InnerFilter inner_;
   LinkCondition topology_;
   LinkCondition topology_on_box_;
+  LinkCondition topology_across_, topology_of_sides_;
   BendFilter bends_;
   SimplifyStats stats_;
 };

@@ -185,6 +185,44 @@ void SizeField::limit_voxel(Index3 voxel, double limit) {
   value = std::min(value, rounded_down(limit));
 }
 
+void SizeField::repeat_cell(Index3 cell, Index3 margin) {
+  const std::vector<float> own = values_;
+  const auto in_cell = [](std::int64_t v, std::int64_t size, std::int64_t around) {
+    return around > 0 ? (v - around + 2 * size * around) % size + around : v;
+  };
+  const Box3 inner{margin, margin + cell};
+  for_each_index(cubes_, [&](Index3 c) {
+    const Index3 lo{c.x * cube_, c.y * cube_, c.z * cube_};
+    const Box3 voxels{lo, lo + Index3{cube_, cube_, cube_}};
+    if (intersection(voxels, inner) == voxels) return;
+    float& value = values_[row(c.x, c.y, c.z)];
+    for_each_index(voxels, [&](Index3 v) {
+      const Index3 w{in_cell(v.x, cell.x, margin.x), in_cell(v.y, cell.y, margin.y),
+                     in_cell(v.z, cell.z, margin.z)};
+      if (inner.contains(w))
+        value = std::min(value, own[row(w.x / cube_, w.y / cube_, w.z / cube_)]);
+    });
+  });
+}
+
+SizeField SizeField::around_cell(Index3 cell, Index3 margin) const {
+  SizeField out = *this;
+  out.is_around_cell_ = true;
+  out.cell_ = cell;
+  out.margin_ = margin;
+  return out;
+}
+
+Point SizeField::in_volume(Point p) const {
+  const auto along = [](std::int32_t units, std::int64_t voxels, std::int64_t around) {
+    if (around == 0) return units;
+    const std::int64_t size = voxels * kUnitsPerVoxel, rest = units % size;
+    return static_cast<std::int32_t>((rest < 0 ? rest + size : rest) + around * kUnitsPerVoxel);
+  };
+  return {along(p.x, cell_.x, margin_.x), along(p.y, cell_.y, margin_.y),
+          along(p.z, cell_.z, margin_.z)};
+}
+
 double SizeField::rung_below(double limit) {
   return rung_of(kWidestStep, limit);
 }

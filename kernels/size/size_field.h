@@ -73,10 +73,19 @@ class SizeField {
   /// of_label() stays.  Cost: some 50 ns a cube and limit.
   void spread();
 
+  /// Gives the cubes of copies around a cell, of a volume that repeats itself, the limits of the
+  /// cell's voxels.  The volume is the cell with a margin on both sides of each axis.
+  /// REQUIRES: spread() was not called.
+  void repeat_cell(Index3 cell, Index3 margin);
+  /// Returns the field for places relative to the cell; along axes with a margin they may be in any
+  /// copy of it.  REQUIRES: spread() was called.
+  [[nodiscard]] SizeField around_cell(Index3 cell, Index3 margin) const;
+
   /// The limit at a place, without those of labels.  A place outside the volume, where a vertex may
   /// be considered before it is refused, has the limit of the nearest cube.
   /// REQUIRES: limits(), spread() was called.
   [[nodiscard]] double at(Point p) const {
+    if (is_around_cell_) p = in_volume(p);
     return values_[row(cube_at(p.x, cubes_.x), cube_at(p.y, cubes_.y), cube_at(p.z, cubes_.z))];
   }
   /// Appends the limits of all cubes that a box meets, in raster order.
@@ -87,7 +96,8 @@ class SizeField {
   }
   /// The least limit of any place or label; shorter edges need not be looked at.
   [[nodiscard]] double least() const { return least_; }
-  [[nodiscard]] double of_label(Label label) const {
+  [[nodiscard]] double of_label(Label sided) const {
+    const Label label = without_side(sided);
     return label < label_limits_.size() ? label_limits_[label] : kNoLimit;
   }
   /// Has the label a limit of its own, or is each voxel told one?
@@ -107,6 +117,8 @@ class SizeField {
     return static_cast<std::size_t>((z * cubes_.y + y) * cubes_.x + x);
   }
 
+  [[nodiscard]] Point in_volume(Point p) const;
+
   std::int64_t cube_ = 1;  ///< edge in voxels
   int cube_shift_ = 0;     ///< from lattice units to cubes
   Index3 cubes_;
@@ -116,6 +128,8 @@ class SizeField {
   double gradation_ = 0.0;
   bool by_voxel_ = false;
   double stretch_ = kStretch;
+  bool is_around_cell_ = false;
+  Index3 cell_, margin_;       ///< see around_cell()
   double least_ = 0.0;         ///< known after spread()
   std::vector<float> values_;  ///< limit of each cube, rounded down; before spread() of its voxels
 };

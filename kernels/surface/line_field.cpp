@@ -25,7 +25,7 @@ void find_line_edges(const TetMesh& mesh, LocalVertex v, std::vector<EdgeLabel>&
   ends.clear();
   for (const LinkTriangle& t : mesh.star(v)) {
     for (const LocalVertex w : {t.a, t.b, t.c}) {
-      if (w != mesh.infinity()) around.push_back({w, t.label});
+      if (w != mesh.infinity()) around.push_back({w, without_side(t.label)});
     }
   }
   sort_distinct(around);

@@ -191,9 +191,9 @@ std::optional<LocalVertex> SurfaceStar::across(const TetMesh& mesh, const Surfac
     ++others;
   };
   for (std::size_t i = 0; i < ring_.size(); ++i) {
-    if (ring_.labels[i] != t.low) continue;
+    if (without_side(ring_.labels[i]) != t.low) continue;
     for (std::size_t k = 0; k < ring_.size(); ++k) {
-      if (ring_.labels[k] != t.high) continue;
+      if (without_side(ring_.labels[k]) != t.high) continue;
       if (ring_.ends[i] == ring_.vertices[k]) add(ring_.ends[i], true);
       if (ring_.ends[k] == ring_.vertices[i]) add(ring_.vertices[i], false);
     }

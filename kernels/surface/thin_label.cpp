@@ -21,7 +21,7 @@ Box3 voxels_around(Index3 corner, std::int64_t reach) {
 }
 
 bool has_label(const LabelBox& labels, Index3 voxel, Label label) {
-  return labels.box.contains(voxel) && labels.at(voxel) == label;
+  return labels.box.contains(voxel) && without_side(labels.at(voxel)) == label;
 }
 
 bool is_cube_of(const LabelBox& labels, Index3 lowest, Label label) {

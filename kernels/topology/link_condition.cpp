@@ -19,7 +19,8 @@ bool LinkCondition::look_from(const TetMesh& mesh, LocalVertex end, LocalVertex 
   side.labels = 0;
   std::fill_n(side.vertex_labels.begin(), n, Mask{0});
   for (const LinkTriangle& t : mesh.star(end)) {
-    const int index = label_index(t.label);
+    const Label label = t.label & compared_;
+    const int index = label_index(label);
     if (labels_.size() > kMaxLabels) return false;
     const Mask bit = Mask{1} << index;
     side.labels |= bit;
@@ -33,8 +34,8 @@ bool LinkCondition::look_from(const TetMesh& mesh, LocalVertex end, LocalVertex 
     for (std::size_t i = 0; i < 3; ++i) {
       const std::size_t s = slot[i], r = slot[i == 2 ? 0 : i + 1];
       if (s == kNoSlot || r == kNoSlot) continue;
-      if (after(s) == r) side.beyond[s] = t.label;
-      if (after(r) == s) side.beyond[r] = t.label;
+      if (after(s) == r) side.beyond[s] = label;
+      if (after(r) == s) side.beyond[r] = label;
     }
   }
   return true;
@@ -118,7 +119,7 @@ bool LinkCondition::interfaces_allow(const TetMesh& mesh, LocalVertex p, LocalVe
 void LinkCondition::collect_pairs(const TetMesh& mesh, LocalVertex v, LabelPairs& pairs) {
   sides_.clear();
   for (const LinkTriangle& t : mesh.star(v)) {
-    const int label = label_index(t.label);
+    const int label = label_index(t.label & compared_);
     for (const auto& [a, b] :
          {std::minmax(t.a, t.b), std::minmax(t.b, t.c), std::minmax(t.c, t.a)}) {
       sides_.push_back({a, b, label});
@@ -135,6 +136,7 @@ void LinkCondition::collect_pairs(const TetMesh& mesh, LocalVertex v, LabelPairs
 bool LinkCondition::keeps_topology(const TetMesh& mesh, LocalVertex p, LocalVertex q) {
   if (!collect_ring(mesh, p, q, ring_) || ring_.size() > kMaxRing) return false;
   labels_.clear();
+  for (Label& label : ring_.labels) label &= compared_;
   for (std::size_t i = 0; i < ring_.size(); ++i) {
     slots_[ring_.vertices[i]] = static_cast<std::uint8_t>(i);
   }

@@ -60,8 +60,14 @@ class LabelPairs {
 /// Cost: O(stars + labels * ring); kInterfaces: O(stars + ring), rarely a sort of both stars.
 class LinkCondition {
  public:
-  explicit LinkCondition(const TetMesh& mesh, KeptTopology kept = KeptTopology::kLabels)
-      : kept_(kept), slots_(mesh.vertex_count() + 1, kNoSlot) {}
+  /// Where a label is on several sides (kFirstSide), it counts as several labels, or as one.
+  enum class Sides { kApart, kTogether };
+
+  explicit LinkCondition(const TetMesh& mesh, KeptTopology kept = KeptTopology::kLabels,
+                         Sides sides = Sides::kApart)
+      : kept_(kept),
+        compared_(sides == Sides::kApart ? kExterior : without_side(kExterior)),
+        slots_(mesh.vertex_count() + 1, kNoSlot) {}
 
   [[nodiscard]] bool keeps_topology(const TetMesh& mesh, LocalVertex p, LocalVertex q);
 
@@ -95,6 +101,7 @@ class LinkCondition {
   };
 
   KeptTopology kept_;
+  Label compared_;  ///< bits of labels that count
   EdgeRing ring_;
   std::vector<std::uint8_t> slots_;
   std::vector<Label> labels_;

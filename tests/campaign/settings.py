@@ -162,13 +162,12 @@ def draw_flags(random, settings):
 
 
 def draw_periodic(random, settings, volume):
-    """Along axes of an even number of voxels, without what cells that repeat themselves do not have."""
+    """Without what cells that repeat themselves do not have."""
     flags = settings.flags
-    if "crop" in settings.prepare or {"size", "count", "across"} & flags.keys() or volume.has_scores:
+    if "crop" in settings.prepare or volume.has_scores:
         return
-    even = [axis for axis, voxels in zip("xyz", volume.shape) if voxels % 2 == 0]
-    if even and flags.get("optimizer") != "tetgen" and random.random() < 0.15:
-        flags["periodic"] = "".join(axis for axis in even if random.random() < 0.7) or even[0]
+    if flags.get("optimizer") != "tetgen" and random.random() < 0.15:
+        flags["periodic"] = "".join(axis for axis in "xyz" if random.random() < 0.7) or "y"
 
 
 def draw_values(random, settings, volume):

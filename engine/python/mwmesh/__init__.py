@@ -18,6 +18,7 @@ import sys
 from . import _handles
 from ._errors import (CancelledError, CheckFailedError, Error, InputError, InternalError,
                       MissingPackageError, ResourceError, UsageError)
+from ._homogenise import homogenise
 from ._library import encoded
 from ._mesh import Materials, Mesh, Picture, Surface, Verdict
 from ._options import TABLE, arguments_of, options_of
@@ -28,8 +29,8 @@ from ._volume import PLACE, as_volume
 __version__ = _handles.__version__
 __all__ = [
     "CancelledError", "CheckFailedError", "Error", "InputError", "InternalError", "Materials",
-    "Mesh", "MissingPackageError", "Picture", "ResourceError", "Surface", "UsageError", "Verdict", "as_volume", "mesh", "mesh_to_file",
-    "Session", "read", "settings", "synth",
+    "Mesh", "MissingPackageError", "Picture", "ResourceError", "Surface", "UsageError", "Verdict", "as_volume", "homogenise", "mesh",
+    "mesh_to_file", "Session", "read", "settings", "synth",
 ]
 
 

@@ -134,7 +134,7 @@ class Mesh:
         element: _Element = "tet4",
         values: bool = True,
         materials: str | None = None,
-        deck: bool = False,
+        deck: bool | Literal["none", "static", "periodic", "conduction"] = False,
         pairs: _Path | None = None,
         ascii: bool = False,
     ) -> None: ...
@@ -248,13 +248,14 @@ def mesh_to_file(
     *,
     element: _Element = "tet4",
     materials: str | None = None,
-    deck: bool = False,
+    deck: bool | Literal["none", "static", "periodic", "conduction"] = False,
     pairs: _Path | None = None,
     ascii: bool = False,
     progress: _Progress | None = None,
     **arguments: Any,
 ) -> dict[str, Any] | None: ...
 def read(path: _Path) -> Mesh: ...
+def homogenise(job: _Path) -> npt.NDArray[np.float64]: ...
 def synth(
     kind: Literal["voronoi", "tubes", "spheres", "noise", "checkerboard"],
     shape: Sequence[int],

@@ -446,7 +446,8 @@ class Mesh:
         read from curved tets its nodes again.  values: False leaves out the values of tets, for which some
         formats have no place.  materials: "NAME=N" or "NAME=N:LO:HI" makes N sets of elements by
         ranges of a value, which a format with a place for values then has to have, too.  deck: with
-        a job for CalculiX (.inp) or FEBio (.feb).  pairs: a file (.csv, or .inp with equations) for
+        a job for CalculiX (.inp) or FEBio (.feb): "static" (or True) pulls the mesh, "periodic" and
+        "conduction" are for :func:`mwmesh.homogenise`.  pairs: a file (.csv, or .inp with equations) for
         the nodes on the faces of a mesh that was made with ``periodic``, and those that they are
         images of.  ascii: a .msh as text."""
         check_names(options, arguments_of("write"))

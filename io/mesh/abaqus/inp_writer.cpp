@@ -4,6 +4,7 @@
 #include "io/mesh/abaqus/inp_writer.h"
 
 #include "io/file/errors.h"
+#include "io/mesh/abaqus/periodic_job.h"
 #include "io/mesh/grouped/curved_nodes.h"
 #include "io/mesh/grouped/facet_nodes.h"
 #include "io/mesh/grouped/fixed_fields.h"
@@ -83,7 +84,7 @@ class NumberRows {
 void InpWriter::write(GroupedMesh& mesh) {
   check_number(name_, std::max(mesh.node_count(), mesh.tet_count() + mesh.wedge_count()),
                {.max = kMaxNumber, .subject = "Abaqus has", .others = ".msh or .vtkhdf"});
-  if (has_deck_) check_jacobians(name_, mesh);
+  if (deck_ != Deck::kNone) check_jacobians(name_, mesh);
   if (rule_) materials_.emplace(mesh, *rule_);
   const PlainNames names(mesh, {.reserved = names_of_others()});
   write_head(mesh, names);
@@ -100,7 +101,7 @@ void InpWriter::write(GroupedMesh& mesh) {
     if (!set.other.empty()) write_surface(mesh, set.other, set.group.facets, true);
   });
   if (rule_) write_materials();
-  if (has_deck_ && mesh.tet_count() > 0) write_deck(mesh, names);
+  if (deck_ != Deck::kNone && mesh.tet_count() > 0) write_deck(mesh, names);
   line(kInpEnds);
   table_ ? commit_together({*table_, file_}) : file_.commit();
 }
@@ -109,8 +110,8 @@ void InpWriter::write(GroupedMesh& mesh) {
 std::vector<std::string> InpWriter::names_of_others() const {
   std::vector<std::string> out;
   if (materials_) out = materials_->names();
-  if (!has_deck_) return out;
-  out.insert(out.end(), {kLowSet, kHighSet});
+  if (deck_ == Deck::kNone) return out;
+  out.insert(out.end(), {kLowSet, kHighSet, std::string(kAllElements)});
   if (rule_) out.push_back(rest_set());
   return out;
 }
@@ -218,14 +219,21 @@ void InpWriter::write_materials() {
 }
 
 void InpWriter::write_deck(GroupedMesh& mesh, const PlainNames& names) {
-  line(
-      "** A job to begin with.  1000 and 0.3 stand for modulus and Poisson's ratio of each "
-      "material.");
+  line(deck_ == Deck::kConduction
+           ? "** A job to begin with.  1 stands for the conductivity of each material."
+           : "** A job to begin with.  1000 and 0.3 stand for modulus and Poisson's ratio of each "
+             "material.");
   if (rule_) {
     write_material_sections(mesh);
   } else {
     for (Label rank = 0; rank < mesh.table().size(); ++rank) write_section(names.volume(rank));
   }
+  if (deck_ == Deck::kStatic) return write_pull(mesh);
+  write_periodic_job(file_, mesh, name_, deck_);
+}
+
+/// Writes the step that pulls one end of the mesh.
+void InpWriter::write_pull(GroupedMesh& mesh) {
   const DeckEnds ends(mesh);
   const char* const low = ends.are_sides() ? "Z_MIN" : kLowSet;
   const char* const high = ends.are_sides() ? "Z_MAX" : kHighSet;
@@ -247,8 +255,10 @@ void InpWriter::write_deck(GroupedMesh& mesh, const PlainNames& names) {
 
 void InpWriter::write_section(const std::string& set) {
   line("*MATERIAL, NAME=", set);
-  line("*ELASTIC");
-  line("1000, 0.3");
+  for (const char* const card : {deck_ == Deck::kConduction ? "*CONDUCTIVITY" : "*ELASTIC",
+                                 deck_ == Deck::kConduction ? "1." : "1000, 0.3"}) {
+    line(card);
+  }
   line(text("*SOLID SECTION, ELSET=", set, ", MATERIAL=", set));
 }
 

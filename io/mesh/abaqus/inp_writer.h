@@ -28,13 +28,13 @@ namespace mw::io {
 /// Between tets of ten nodes they are not written, because Abaqus has no such element.  Materials
 /// are element sets beside those of the labels; empty ones are left out.  A deck is a job for
 /// CalculiX: a material with placeholders and a section for each label, or for each material and
-/// the elements in none, and one static step (MeshExtras::deck).
+/// the elements in none, and steps (Deck).
 /// Memory: 9 MiB.  ERRORS: see AtomicFile; mw::Error(kUsage) above 999,999,999 nodes or elements,
 /// which is all that Abaqus has numbers for, and of a deck with tets too small for CalculiX.
 class InpWriter {
  public:
   explicit InpWriter(const std::filesystem::path& path, const MeshExtras& extras)
-      : name_(path.string()), file_(path), rule_(extras.materials), has_deck_(extras.deck) {
+      : name_(path.string()), file_(path), rule_(extras.materials), deck_(extras.deck) {
     if (rule_) table_.emplace(material_table_path(path));
   }
 
@@ -53,6 +53,7 @@ class InpWriter {
   void write_surface(GroupedMesh& mesh, const std::string& name, RowRange facets, bool of_second);
   void write_materials();
   void write_deck(GroupedMesh& mesh, const PlainNames& names);
+  void write_pull(GroupedMesh& mesh);
   void write_section(const std::string& set);
   void write_material_sections(GroupedMesh& mesh);
   template <class Where>
@@ -65,7 +66,7 @@ class InpWriter {
   std::optional<MaterialRule> rule_;
   std::optional<MaterialSets> materials_;
   std::optional<AtomicFile> table_;  ///< table of the materials
-  bool has_deck_ = false;
+  Deck deck_ = Deck::kNone;
 };
 
 }  // namespace mw::io

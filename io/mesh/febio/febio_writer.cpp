@@ -187,7 +187,7 @@ void write_feb(TabledFile& file, GroupedMesh& mesh) {
   write_feb_masks(file, mesh);
   write_feb_surfaces(file, mesh);
   std::optional<DeckEnds> ends;
-  if (file.extras.deck && mesh.tet_count() > 0) ends.emplace(mesh);
+  if (file.extras.deck == Deck::kStatic && mesh.tet_count() > 0) ends.emplace(mesh);
   if (ends && !ends->are_sides()) write_end_sets(file, mesh, *ends);
   file.append("  </Mesh>\n");
   write_domains(file, parts);

@@ -155,11 +155,11 @@ void write_table(AtomicFile& file, const PeriodicPairs& found) {
 }
 
 void write_equation(AtomicFile& file, const PeriodicPair& p,
-                    const std::array<std::uint64_t, 3>& references, int direction) {
-  std::vector<std::string> terms{text(p.node + 1, ",", direction, ",1."),
-                                 text(p.image_of + 1, ",", direction, ",-1.")};
+                    const std::array<std::uint64_t, 3>& references, int freedom) {
+  std::vector<std::string> terms{text(p.node + 1, ",", freedom, ",1."),
+                                 text(p.image_of + 1, ",", freedom, ",-1.")};
   for (unsigned k = 0; k < 3; ++k) {
-    if ((p.axes >> k & 1U) != 0) terms.push_back(text(references[k], ",", direction, ",-1."));
+    if ((p.axes >> k & 1U) != 0) terms.push_back(text(references[k], ",", freedom, ",-1."));
   }
   file.append(text("*EQUATION\n", terms.size(), "\n"));
   for (std::size_t i = 0; i < terms.size(); ++i) {
@@ -168,15 +168,23 @@ void write_equation(AtomicFile& file, const PeriodicPair& p,
   }
 }
 
-void write_equations(AtomicFile& file, GroupedMesh& mesh, const PeriodicPairs& found,
-                     unsigned axes) {
+}  // namespace
+
+unsigned recorded_axes(const GroupedMesh& mesh) {
+  const MeshRecord& record = mesh.header().record;
+  return record.promises ? record.promises->periodic : 0;
+}
+
+std::array<std::uint64_t, 3> write_equations(AtomicFile& file, GroupedMesh& mesh,
+                                             const PeriodicPairs& found,
+                                             std::span<const int> freedoms) {
   std::array<std::uint64_t, 3> references{};
   std::uint64_t next = mesh.node_count();
   file.append(text("** a node on a high face moves as its partner on the low face and the ",
                    "reference nodes\n** of the axes between them; nodes without a partner: ",
                    found.alone, "\n"));
   for (unsigned k = 0; k < 3; ++k) {
-    if ((axes >> k & 1U) == 0) continue;
+    if ((recorded_axes(mesh) >> k & 1U) == 0) continue;
     references[k] = ++next;
     const Position& first = mesh.box().origin;
     const Position& edge = mesh.box().edges[k];
@@ -185,17 +193,14 @@ void write_equations(AtomicFile& file, GroupedMesh& mesh, const PeriodicPairs& f
                      inp_real(first[2] + edge[2]), "\n"));
   }
   for (const PeriodicPair& p : found.pairs) {
-    for (int direction = 1; direction <= 3; ++direction) {
-      write_equation(file, p, references, direction);
-    }
+    for (const int freedom : freedoms) write_equation(file, p, references, freedom);
   }
+  return references;
 }
 
-/// Writes the pairs into a file called `path`.
-void write_pairs(AtomicFile& file, GroupedMesh& mesh, const std::filesystem::path& path) {
-  const std::string name = path.string();
+PeriodicPairs recorded_pairs(GroupedMesh& mesh, const std::string& name) {
   const MeshRecord& record = mesh.header().record;
-  const unsigned axes = record.promises ? record.promises->periodic : 0;
+  const unsigned axes = recorded_axes(mesh);
   if (axes == 0) {
     const char* const why = record.promises ? ": the mesh was not made with --periodic"
                                             : ": the mesh's file does not tell whether it was "
@@ -207,7 +212,7 @@ void write_pairs(AtomicFile& file, GroupedMesh& mesh, const std::filesystem::pat
                ": vertices of the mesh were doubled (--split, "
                "--cohesive, --open-hinges), so pairs are not known");
   }
-  const PeriodicPairs found = periodic_pairs(mesh, axes);
+  PeriodicPairs found = periodic_pairs(mesh, axes);
   const bool is_whole =
       record.only_labels.empty() && record.without_labels.empty() && record.partial_labels.empty();
   if (is_whole && found.alone + found.unlike > 0) {
@@ -215,11 +220,8 @@ void write_pairs(AtomicFile& file, GroupedMesh& mesh, const std::filesystem::pat
                 text(name, ": ", found.alone, " nodes on faces have no partner, and ", found.unlike,
                      " triangles are on one of two faces alone"));
   }
-  path.extension() == ".inp" ? write_equations(file, mesh, found, axes) : write_table(file, found);
-  file.commit();
+  return found;
 }
-
-}  // namespace
 
 PeriodicPairs periodic_pairs(GroupedMesh& mesh, unsigned axes) {
   const std::vector<std::uint64_t> rows = face_rows(mesh, axes);
@@ -256,7 +258,16 @@ WriteGrouped open_pairs(const std::filesystem::path& path) {
     fail_usage(path.string() + ": pairs of nodes are written as .csv, or as equations in .inp");
   }
   const auto file = std::make_shared<AtomicFile>(path);
-  return [file, path](GroupedMesh& mesh) { write_pairs(*file, mesh, path); };
+  return [file, path](GroupedMesh& mesh) {
+    const PeriodicPairs found = recorded_pairs(mesh, path.string());
+    if (path.extension() == ".inp") {
+      constexpr std::array<int, 3> kDisplacements{1, 2, 3};
+      write_equations(*file, mesh, found, kDisplacements);
+    } else {
+      write_table(*file, found);
+    }
+    file->commit();
+  };
 }
 
 }  // namespace mw::io

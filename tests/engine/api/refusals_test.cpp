@@ -192,12 +192,6 @@ TEST(LibraryErrors, AreWordedForCallers) {
 
 TEST(LibraryErrors, AdviseWhatCanBeDoneToAnArray) {
   const auto labels = grains();
-  const Options periodic{{"periodic", "z"}};
-  EXPECT_THAT(failure(ErrorKind::kUsage,
-                      [&] {
-                        (void)mesh(volume_of(labels, {22, 18, 19}), periodic);
-                      }),
-              HasSubstr("crop it, slice an array"));
   ArrayVolume thin{.data = labels.data(), .type = VoxelType::kU64, .shape = kShape};
   thin.space = {.spacing = {1e-3, 1e-3, 1e3}};
   EXPECT_THAT(failure(ErrorKind::kInput, [&] { (void)mesh(Volume::of(thin)); }),

@@ -79,12 +79,58 @@ class Periodic(unittest.TestCase):
                 run("verify", "odd.npy", "m.vtu")
                 self.check("m.vtu", "xyz")
 
+    def test_odd_numbers_of_voxels(self):
+        """Voxels are cut in halves, so that the start mesh repeats itself."""
+        for shape in ((9, 12, 8), (15, 13, 11), (45, 21, 16)):
+            with self.subTest(shape):
+                np.save("odd.npy", grains(shape, 6, 5))
+                self.mesh("odd.npy", "xyz", "m.vtu", *(("--size", "4") if shape[0] == 45 else ()))
+                run("verify", "odd.npy", "m.vtu")
+                points = meshio.read("m.vtu").points
+                np.testing.assert_array_equal(points.max(0), shape[::-1])
+
     def test_large_cells_inside_labels(self):
         labels = np.ones((96, 96, 96), np.uint8)
         labels[40:56, 44:52, 30:66] = 2
         np.save("large.npy", np.roll(labels, (48, 20, 0), (0, 1, 2)))
         self.mesh("large.npy", "xyz")
         self.check("m.vtu", "xyz")
+
+    def test_sizes(self):
+        """Sizes, counts and thin parts make meshes that hold their promises, with faces that match."""
+        for options in (("--size", "3"), ("--size", "1=4,2|*=2"), ("--count", "9000"), ("--across", "2"),
+                        ("--preset", "fine")):
+            with self.subTest(options):
+                self.mesh("grains.npy", "xyz", "m.vtu", *options)
+                run("verify", "grains.npy", "m.vtu")
+                self.check("m.vtu", "xyz")
+        self.assertLess(abs(self.tets("--count", "9000") / 9000 - 1), 0.1)
+
+    def test_sizes_of_an_image(self):
+        """Sizes by place repeat themselves, too: they are small around a corner, which is all corners."""
+        apart = [np.minimum(np.arange(n) + 0.5, n - np.arange(n) - 0.5) for n in (32, 24, 40)]
+        distance = np.sqrt(sum(a**2 for a in np.meshgrid(*apart, indexing="ij")))
+        np.save("sizes.npy", np.clip(distance / 2, 2, 8).astype(np.float32))
+        self.mesh("grains.npy", "xyz", "m.mesh", "--size", "@sizes.npy")
+        points = meshio.read("m.mesh").points
+        corner = np.minimum(points, (40, 24, 32) - points)
+        near = (corner < 6).all(1).sum()
+        self.mesh("grains.npy", "xyz", "m.mesh", "--size", "8")
+        points = meshio.read("m.mesh").points
+        corner = np.minimum(points, (40, 24, 32) - points)
+        self.assertGreater(near, 2 * (corner < 6).all(1).sum())
+
+    def tets(self, *options):
+        self.mesh("grains.npy", "xyz", "m.vtu", *options)
+        return sum(len(block.data) for block in meshio.read("m.vtu").cells if block.type == "tetra")
+
+    def test_faces_are_as_coarse_as_the_rest(self):
+        np.save("cell.npy", grains((48, 48, 48), 40, 1))
+        self.mesh("cell.npy", "xyz", "m.vtu")
+        run("verify", "cell.npy", "m.vtu")
+        periodic = len(meshio.read("m.vtu").points)
+        run("mesh", "cell.npy", "-o", "m.vtu", "--force")
+        self.assertLess(periodic, 1.1 * len(meshio.read("m.vtu").points))
 
     def test_inner_vertices(self):
         for axes in ("x", "xyz"):
@@ -165,9 +211,8 @@ class Periodic(unittest.TestCase):
         self.assertRegex(judged.stdout, "FAILS? +P2 periodic +x: .* which differ")
 
     def test_refused(self):
-        np.save("uneven.npy", np.ones((8, 8, 7), np.uint8))
-        for options, words in ((("uneven.npy", "--periodic", "x"), "7 voxels along x"),
-                               (("grains.npy", "--periodic", "x", "--size", "3"), "--periodic: works without"),
+        for options, words in ((("grains.npy", "--periodic", "x", "--optimizer", "tetgen"),
+                                "--periodic: works without"),
                                (("grains.npy", "--periodic", "x", "--keep", "kept"), "without periodic"),
                                (("grains.npy", "--pairs", "p.csv"), "give --periodic"),
                                (("grains.npy", "--periodic", "x", "--pairs", "p.csv", "--split", "*"),

@@ -62,6 +62,38 @@ TEST(RunLayout, PartsFillTheirBlock) {
   }
 }
 
+/// Grids that begin elsewhere: whole() undoes parts(), and parts have the voxels of their block in
+/// the volume.
+TEST(RunLayout, PartsOfGridsThatBeginElsewhereFillTheirBlock) {
+  std::mt19937 random(322);
+  for (int i = 0; i < 60; ++i) {
+    const auto any = [&](std::int64_t n) {
+      return static_cast<std::int64_t>(random() % static_cast<std::uint64_t>(n));
+    };
+    const Index3 volume{6 + any(9), 6 + any(9), 6 + any(9)};
+    std::vector<WindowGrid> grids;
+    for (const int window : {4, 8, 8}) {
+      const Index3 blocks = WindowGrid(volume, window).blocks();
+      grids.emplace_back(volume, window, Index3{any(blocks.x), any(blocks.y), any(blocks.z)});
+    }
+    const RunLayout layout(grids);
+    for (std::uint32_t m = 1; m < layout.marches(); ++m) {
+      for_each_index(layout.grid(m).blocks(), [&](Index3 b) {
+        const WindowGrid &grid = layout.grid(m), &before = layout.grid(m - 1);
+        const Box3 box = grid.block_box(b);
+        std::int64_t voxels = 0;
+        for (const BlockKey& part : layout.parts({m, b})) {
+          EXPECT_EQ(layout.whole(part), (BlockKey{m, b}));
+          const Index3 by = grid.beyond(b) - before.beyond(part.block);
+          EXPECT_TRUE(box.contains(before.block_box(part.block).lo + by));
+          voxels += before.block_box(part.block).voxels();
+        }
+        EXPECT_EQ(voxels, box.voxels());
+      });
+    }
+  }
+}
+
 /// All windows of the run in order; those that touch the block's voxels use it.
 TEST(RunLayout, NextUseIsTheFirstWindowLeftThatTouchesTheBlock) {
   std::mt19937 random(321);

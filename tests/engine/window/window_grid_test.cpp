@@ -178,5 +178,53 @@ TEST(InnerQuality, PartsOfBricksAreBricks) {
   EXPECT_EQ(inner_quality_for(faces), kInnerQuality);
 }
 
+/// Grids that begin at any block.
+template <typename Check>
+void for_grids_from_anywhere(Check check) {
+  for (int window : {2, 4, 6}) {
+    for (const Index3 shape : {Index3{7, 9, 5}, {6, 8, 4}, {3, 10, 12}}) {
+      const Index3 blocks = WindowGrid(shape, window).blocks();
+      for_each_index(blocks, [&](Index3 first) { check(WindowGrid(shape, window, first)); });
+    }
+  }
+}
+
+Index3 in_cell(Index3 v, Index3 shape) {
+  return {v.x % shape.x, v.y % shape.y, v.z % shape.z};
+}
+
+TEST(WindowGrid, BlocksFromAnywhereTileTheVolumeAndItsNextCopy) {
+  for_grids_from_anywhere([](const WindowGrid& grid) {
+    const WindowGrid plain(grid.volume(), static_cast<int>(2 * grid.block_edge()));
+    std::set<std::size_t> covered;
+    for_each_index(grid.blocks(), [&](Index3 b) {
+      ASSERT_EQ(grid.in_grid(grid.in_volume(b)), b);
+      const Box3 box = grid.block_box(b), in_volume = plain.block_box(grid.in_volume(b));
+      ASSERT_EQ(box.lo - grid.beyond(b), in_volume.lo);
+      ASSERT_EQ(box.hi - grid.beyond(b), in_volume.hi);
+      for_each_index(box, [&](Index3 v) {
+        ASSERT_TRUE(covered.insert(raster(in_cell(v, grid.volume()), grid.volume())).second);
+      });
+      if (b.x + 1 < grid.blocks().x) {
+        ASSERT_EQ(grid.block_box(b + Index3{1, 0, 0}).lo.x, box.hi.x) << "blocks follow each other";
+      }
+    });
+    ASSERT_EQ(covered.size(), static_cast<std::size_t>(grid.volume().product()));
+  });
+}
+
+TEST(WindowGrid, OwnersFromAnywhereHoldTheBarycentre) {
+  for_grids_from_anywhere([](const WindowGrid& grid) {
+    for_each_index(grid.windows(), [&](Index3 w) {
+      const Box3 box = grid.window_box(w);
+      for_each_index(box, [&](Index3 v) {
+        const auto sum = [](std::int64_t voxel) { return 4 * voxel * kUnitsPerVoxel + 2048; };
+        const Index3 owner = grid.owner(w, {sum(v.x), sum(v.y), sum(v.z)});
+        ASSERT_TRUE(grid.block_box(owner).contains(v));
+      });
+    });
+  });
+}
+
 }  // namespace
 }  // namespace mw::engine

@@ -218,7 +218,7 @@ TEST(InpWriter, NumbersAreWithinTheCharactersThatCalculixReads) {
   for (Position& p : mesh.vertices) p = {p[0] * step, p[1] * step, p[2] * step};
   mesh.record.promises.emplace().periodic = 7;
   mesh.record.box = MeshBox{{}, {{{2 * step, 0, 0}, {0, 2 * step, 0}, {0, 0, 2 * step}}}};
-  const MeshExtras extras{.deck = true, .pairs = dir.path() / "pairs.inp"};
+  const MeshExtras extras{.deck = Deck::kStatic, .pairs = dir.path() / "pairs.inp"};
   write_mesh(mesh, *open_mesh_sink(dir.path() / "m.inp", Element::kTet4, extras));
   int exponents = 0;
   for (const char* const name : {"m.inp", "pairs.inp"}) {
@@ -242,7 +242,8 @@ TEST(InpWriter, DecksOfTetsTooSmallForCalculixAreRefused) {
     MeshData mesh = grid_mesh({2, 2, 2}, 1);
     for (Position& p : mesh.vertices) p = {p[0] * step, p[1] * step, p[2] * step};
     const auto write = [&](bool has_deck) {
-      write_mesh(mesh, *open_mesh_sink(dir.path() / "m.inp", Element::kTet4, {.deck = has_deck}));
+      write_mesh(mesh, *open_mesh_sink(dir.path() / "m.inp", Element::kTet4,
+                                       {.deck = has_deck ? Deck::kStatic : Deck::kNone}));
     };
     write(false);
     if (step > 2e-7) {

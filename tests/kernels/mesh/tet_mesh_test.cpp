@@ -330,5 +330,38 @@ TEST(FailedPairs, AreOfSomeSizeWhateverTheMesh) {
   EXPECT_FALSE(failed.contains(mesh, 0, 2));
 }
 
+/// A plane that the mesh goes through has no virtual tets, sides beyond it, and vertices that are
+/// free where both sides are loaded; it counts once in their order, as the exterior would.
+TEST(TetMesh, PlanesInsideHaveSides) {
+  std::mt19937 random(417);
+  std::size_t free_in_plane = 0;
+  for (int i = 0; i < 60 && !HasFatalFailure(); ++i) {
+    const Index3 shape{4, 2 + below(random, 3), 2 + below(random, 3)};
+    const SmallVolume volume = random_volume_of(random, random_kind(random), shape, 3);
+    const BlockMesh block = dense_block(volume, {{0, 0, 0}, shape});
+    Point box = far_corner(shape);
+    box.x = 2 * kUnitsPerVoxel;
+    const TetMesh mesh(block.vertices, block.tets, box, {.inner = 2}),
+        plain(block.vertices, block.tets, far_corner(shape));
+    for (LocalVertex v = 0; v < mesh.vertex_count(); ++v) {
+      const bool in_plane = mesh.position(v).x == box.x;
+      ASSERT_EQ((mesh.planes(v) & 2U) != 0, in_plane);
+      for (const LinkTriangle& t : mesh.star(v)) {
+        if (t.label == kExterior) continue;
+        const bool beyond = mesh.position(v).x > box.x || mesh.position(t.a).x > box.x ||
+                            mesh.position(t.b).x > box.x || mesh.position(t.c).x > box.x;
+        ASSERT_EQ(side_of(t.label), beyond ? side_beyond(0) : 0U);
+      }
+      if (!in_plane) continue;
+      ASSERT_EQ(mesh.is_free(v), plain.is_free(v));
+      const int labels = plain.order(v) - (plain.planes(v) != 0 ? 1 : 0);
+      ASSERT_EQ(mesh.order(v), labels + 1);
+      ASSERT_EQ(mesh.on_interface(v), labels > 1);
+      ++free_in_plane;
+    }
+  }
+  EXPECT_GT(free_in_plane, 500U);
+}
+
 }  // namespace
 }  // namespace mw::test

@@ -293,6 +293,59 @@ TEST(LinkCondition, PositiveSurvivorsShareOnlyTheRing) {
   EXPECT_GT(others, 10);
 }
 
+/// The mesh of a volume that goes on beyond the plane x = `voxels`.
+TetMesh mesh_through(const SmallVolume& volume, std::int64_t voxels) {
+  const BlockMesh block = dense_block(volume, {{0, 0, 0}, volume.shape});
+  Point box = far_corner(volume.shape);
+  box.x = static_cast<std::int32_t>(voxels * kUnitsPerVoxel);
+  return {block.vertices, block.tets, box, {.inner = 2}};
+}
+
+/// Betti numbers of the parts of labels before and beyond the plane, and of labels as a whole.
+std::array<std::vector<RegionBetti>, 3> betti_through(const TetMesh& mesh,
+                                                      const std::vector<LocalTet>& tets,
+                                                      std::size_t labels) {
+  std::array<std::vector<LocalTet>, 3> parts;
+  for (LocalTet t : tets) {
+    const std::size_t side = side_of(t.label) == 0 ? 0 : 1;
+    t.label = without_side(t.label);
+    parts[side].push_back(t);
+    parts[2].push_back(t);
+  }
+  return {betti(mesh, parts[0], labels), betti(mesh, parts[1], labels),
+          betti(mesh, parts[2], labels)};
+}
+
+TEST(LinkCondition, KeepsThePartsAndTheWholeOfLabelsOnBothSides) {
+  std::mt19937 random(307);
+  int accepted = 0, refused_and_broken = 0, refused_but_kept = 0;
+  for (int i = 0; i < 250 && !HasFailure(); ++i) {
+    const Index3 shape{4, 2 + below(random, 2), 2 + below(random, 2)};
+    const std::uint32_t labels = 2 + below(random, 3);
+    TetMesh mesh = mesh_through(random_volume_of(random, random_kind(random), shape, labels), 2);
+    disturb(mesh, random);
+    LinkCondition whole(mesh, KeptTopology::kLabels, LinkCondition::Sides::kTogether), parts(mesh);
+    for (int k = 0; k < 60 && !HasFailure(); ++k) {
+      const auto [p, q] = random_edge(mesh, random);
+      if (p == q || !mesh.is_in_inner_plane(p, q)) continue;
+      const auto x = contraction_target(mesh, p, q, below(random, 3));
+      if (!x || !stays_positive(mesh, p, q, *x)) continue;
+      const std::vector<LocalTet> before = mesh.tets();
+      const bool kept = betti_through(mesh, contracted(before, p, q), labels) ==
+                        betti_through(mesh, before, labels);
+      const bool is_accepted = whole.keeps_topology(mesh, p, q) && parts.keeps_topology(mesh, p, q);
+      EXPECT_TRUE(kept || !is_accepted);
+      accepted += is_accepted ? 1 : 0;
+      refused_and_broken += kept ? 0 : 1;
+      refused_but_kept += kept && !is_accepted ? 1 : 0;
+      if (is_accepted) mesh.contract(p, q, *x, mesh.quadric(p));
+    }
+  }
+  EXPECT_GT(accepted, 100);
+  EXPECT_GT(refused_and_broken, 20);
+  EXPECT_GT(accepted, refused_but_kept);
+}
+
 /// A case by hand, so that a reader sees what is refused and why.
 TEST(LinkCondition, RefusesToCutATunnelOpen) {
   // A bar of label 1 through a 3 x 3 x 3 box: label 0 is the ring around it.
