@@ -358,9 +358,11 @@ class MeshRun {
     job_.run.store.memory_beside = std::min(input_.held_bytes(), job_.run.store.memory);
   }
 
-  /// Leaves out label 0 where nobody said what is written, and the names that it is nothing.
+  /// Leaves out label 0 where nobody said what is written, and the names that it is nothing.  Of
+  /// probabilities and distances it is what none of the names has, and stays.
   void leave_out_zero() {
-    if (!job_.choice.any() && is_zero_nothing(run_.labels, run_.volume.names)) {
+    const bool is_open = !job_.choice.any() && opened_.scores() == nullptr;
+    if (is_open && is_zero_nothing(run_.labels, run_.volume.names)) {
       job_.choice.background = asked_.choice.background = 0;
       run_.leaves_out_zero = true;
     }

@@ -103,14 +103,14 @@ Overlay LegendColumn::marks(const Camera& camera, const View& view, const Colour
 }
 
 void LegendColumn::add_rows(const Colour& ink, Overlay& out) const {
-  if (legend_.labels < 2 && (legend_.rows.empty() || legend_.rows.front().text.empty())) return;
   const double end = middle_of_directions().y - scale_ * (kArm + kGlyphHeight) - pad();
   const auto room = static_cast<std::size_t>(std::max(end - pad(), 0.0) / line_height());
+  if (room == 0) return;
   const bool has_all = legend_.labels <= std::min(room, legend_.rows.size());
   const std::size_t count = has_all ? legend_.labels : std::min(room, legend_.rows.size()) - 1;
   int y = pad();
   const int text_left = left() + scale_ * (kSwatch + kGap);
-  for (std::size_t i = 0; i < count && room > 0; ++i, y += line_height()) {
+  for (std::size_t i = 0; i < count; ++i, y += line_height()) {
     const LegendRow& row = legend_.rows[i];
     std::u32string text = letters_of(row.text);
     if (text.size() > letters_) text = text.substr(0, letters_ - 1) + U"\u00bb";
@@ -118,7 +118,7 @@ void LegendColumn::add_rows(const Colour& ink, Overlay& out) const {
     out.add_box(left(), top, left() + scale_ * kSwatch, top + scale_ * kSwatch, row.colour);
     out.add_text(text_left, y, scale_, text, ink);
   }
-  if (has_all || room == 0) return;
+  if (has_all) return;
   out.add_text(text_left, y, scale_,
                letters_of("and " + std::to_string(legend_.labels - count) + " more"), ink);
 }

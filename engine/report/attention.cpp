@@ -47,8 +47,8 @@ std::string background_text(const FinishedRun& run) {
 
 std::string spacing_text(const FinishedRun& run) {
   if (run.volume.space.is_sized) return "";
-  return "voxels are taken to be 1 wide, as the file does not say how large they are: --spacing "
-         "says it";
+  return "a spacing of 1 is taken, as the file does not say how large voxels are: --spacing says "
+         "it";
 }
 
 std::string slices_text(const FinishedRun& run) {

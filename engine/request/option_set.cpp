@@ -165,7 +165,7 @@ void OptionSet::settle(Entry& entry) {
   const Option& option = entry.option;
   if (entry.text.empty()) return;
   try {
-    entry.text = canonical_text(option.kind, entry.text);
+    if (entry.text != option.word) entry.text = canonical_text(option.kind, entry.text);
     const auto& choices = option.choices;
     if (!choices.empty() &&
         std::find(choices.begin(), choices.end(), entry.text) == choices.end()) {

@@ -103,7 +103,7 @@ void add_choice_options(OptionSet& options, engine::LabelChoice& choice) {
                .assign = into(choice.labels, parse_labels)});
   options.add({.name = "background",
                .value = "L",
-               .help = "the label that is left out, as 0; none [0 where names say it is nothing]",
+               .help = "left out, as 0, or none [0 where names say it is nothing]",
                .group = kLabelGroup,
                .kind = ValueKind::kLabels,
                .calls = kMeshing | kVerifying,

@@ -106,7 +106,7 @@ TEST_F(ChooseLabelsTest, WeldedBlocksAreOnePart) {
   const json report = json::parse(read("r.json"));
   EXPECT_EQ(report["parts"]["found"], 1);
   EXPECT_EQ(report["parts"]["hinge_edges"], 0);
-  EXPECT_EQ(report["welds"], (json{{"rounds", 1}, {"voxels", 8}}));
+  EXPECT_EQ(report["welds"], (json{{"labels_to_join", true}, {"rounds", 1}, {"voxels", 8}}));
   expect_done("verify" + in + "m.vtu --weld 0 --report v.json");
   EXPECT_EQ(json::parse(read("v.json"))["volume"]["per_label"][0]["voxels"], 136);
   EXPECT_EQ(info(in + "--weld 0")["welds"]["voxels"], 8);

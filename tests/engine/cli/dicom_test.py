@@ -227,7 +227,7 @@ class Dicom(unittest.TestCase):
         numpy.save("array.npy", labels.astype(numpy.uint16).transpose(2, 1, 0))
         run("mesh", "array.npy", "--spacing", ",".join(map(str, self.spacing)), "-o", "array.mesh",
             "--force")
-        run("mesh", "s.dcm", "-o", "s.mesh", "--force", *options)
+        run("mesh", "s.dcm", "-o", "s.mesh", "--force", "--background", "none", *options)
         vertices, tets, tet_labels = read_medit("array.mesh")
         found, found_tets, found_labels = read_medit("s.mesh")
         first = FIRST + segmentation.axes[:, 2] * STEP * min(slices)
@@ -370,7 +370,7 @@ class Dicom(unittest.TestCase):
 
     def check_colours(self, segmentation, expected):
         segmentation.save("s.dcm")
-        run("mesh", "s.dcm", "-o", "s.vtkhdf", "--force")
+        run("mesh", "s.dcm", "-o", "s.vtkhdf", "--force", "--background", "none")
         volume = json.loads(run("info", "s.dcm", "--json"))["labels"]["per_label"]
         mesh = json.loads(run("info", "s.vtkhdf", "--json"))["volume"]["per_label"]
         for rows in (volume, mesh):

@@ -1,10 +1,14 @@
 // SPDX-FileCopyrightText: The mwmesh authors
 // SPDX-License-Identifier: Apache-2.0
 // Bad usage and bad input: exit codes, messages, nothing left behind.
+#include <nlohmann/json.hpp>
+
 #include "tests/engine/cli/run_program.h"
 
 namespace mw::cli {
 namespace {
+
+using nlohmann::json;
 
 class UsageTest : public ProgramTest {};
 
@@ -289,7 +293,7 @@ TEST_F(UsageTest, SaysFirstWhatOneAsksFirst) {
   const std::vector<std::string> expected{"tets",   "edges", "shape", "volumes", "labels", "specks",
                                           "checks", "time",  "file",  "note",    "next"};
   EXPECT_EQ(names, expected) << out;
-  const json r = report("r.json");
+  const json r = json::parse(read("r.json"));
   EXPECT_EQ(r["attention"].size(), 1U) << r["attention"];
   EXPECT_NE(out.find("\nnote        " + r["attention"][0].get<std::string>() + "\n"), out.npos);
   EXPECT_LT(r["quality"]["edge_min"], r["quality"]["edge_median"]);
@@ -300,15 +304,16 @@ TEST_F(UsageTest, SaysFirstWhatOneAsksFirst) {
 TEST_F(UsageTest, SuggestsASize) {
   expect_done("synth spheres --shape 64,64,64 --labels 3 --seed 2 -o v.npy");
   expect_done("mesh v.npy -o v.vtu --background 0 --report r.json");
-  const json next = report("r.json")["suggestion"];
+  const json next = json::parse(read("r.json"))["suggestion"];
   ASSERT_FALSE(next.is_null());
   const std::string size = std::to_string(next["size"].get<double>());
   const std::string out =
       run("mesh v.npy -o v.vtu --background 0 --report s.json --size " + size).out;
   EXPECT_EQ(out.find("\nnext "), out.npos) << out;
-  const double tets = report("s.json")["output"]["tets"];
+  const json made = json::parse(read("s.json"));
+  const double tets = made["output"]["tets"];
   EXPECT_NEAR(next["tets"].get<double>() / tets, 1, 0.4);
-  EXPECT_TRUE(report("s.json")["suggestion"].is_null());
+  EXPECT_TRUE(made["suggestion"].is_null());
 }
 
 TEST_F(UsageTest, RefusesBadInput) {
