@@ -75,6 +75,31 @@ void write_bdf_part(TabledFile& file, GroupedMesh& mesh, RowRange tets, std::int
   }
 }
 
+/// Writes a pressure of 1 on the faces of tets on one side of a set, which no job sees until it
+/// takes the load of this number.  A face of a tet is told by a corner of it and the corner off it.
+void write_bdf_pressures(TabledFile& file, GroupedMesh& mesh, std::size_t number,
+                         const NamedFacets& set, bool of_second) {
+  file.line(text("$ PLOAD4 ", number, ": faces of ", of_second ? set.other : set.name));
+  const std::string load = number_field(number);
+  const RowRange& facets = set.group.facets;
+  for (std::uint64_t f = facets.begin; f < facets.end; ++f) {
+    const Facet facet = of_second ? mesh.of_second(mesh.facet(f)) : mesh.facet(f);
+    const std::uint64_t off = *(mesh.tet_nodes(facet.tet).begin() + facet.opposite);
+    file.line(field("PLOAD4") + load + number_field(facet.tet + 1) + field("1.0") +
+              field("", 3 * kFieldColumns) + number_field(facet.rows[0] + 1) +
+              number_field(off + 1));
+  }
+}
+
+/// Writes the pressures of all sets, those of an interface on both sides.
+void write_bdf_loads(TabledFile& file, GroupedMesh& mesh, const PlainNames& names) {
+  std::size_t number = 0;
+  for_each_named(mesh, names, [&](const NamedFacets& set) {
+    write_bdf_pressures(file, mesh, ++number, set, false);
+    if (!set.other.empty()) write_bdf_pressures(file, mesh, ++number, set, true);
+  });
+}
+
 }  // namespace
 
 void write_bdf(TabledFile& file, GroupedMesh& mesh) {
@@ -94,6 +119,7 @@ void write_bdf(TabledFile& file, GroupedMesh& mesh) {
   for (Label rank = 0; rank < mesh.table().size(); ++rank) {
     write_bdf_part(file, mesh, mesh.label_tets()[rank], numbers[rank], names.volume(rank));
   }
+  write_bdf_loads(file, mesh, names);
   file.line("ENDDATA");
   file.commit(mesh, numbers);
 }

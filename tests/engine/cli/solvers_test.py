@@ -6,6 +6,7 @@ import collections
 import csv
 import json
 import pathlib
+import re
 import subprocess
 import sys
 import unittest
@@ -246,6 +247,46 @@ class Solvers(unittest.TestCase):
         ids = numbers("m.bdf.labels.csv")
         sizes = collections.Counter(ids[n] for n in mesh.cell_data["nastran:ref"][0])
         self.assertEqual(sizes, collections.Counter(wanted.cell_data["label"][0].tolist()))
+
+    def test_pressures_of_nastran_act_on_faces_of_interfaces_and_sides(self):
+        run("convert", "named.mesh", "m.bdf")
+        tets, sets, loads, name = {}, {}, collections.defaultdict(list), None
+        for line in pathlib.Path("m.bdf").read_text().splitlines():
+            fields = [line[i:i + 8].strip() for i in range(0, 72, 8)]
+            if line.startswith("$ SET"):
+                name = line.split()[-1]
+                sets[name] = []
+            elif line.startswith("$ PLOAD4"):
+                number, name = int(line.split()[2][:-1]), line.split()[-1]
+                self.assertEqual(number, len(loads) + 1)
+            elif line.startswith("CEND") or line.startswith("BEGIN"):
+                pass
+            elif line.startswith(("SET ", "  ")):
+                sets[name] += [int(n) for n in re.findall(r"\d+", line.split("=")[-1])]
+            elif fields[0] == "CTETRA":
+                tets[int(fields[1])] = [int(n) for n in fields[3:7]]
+            elif fields[0] == "PLOAD4":
+                self.assertEqual(fields[1:4:2] + fields[4:7], [str(number), "1.0", "", "", ""])
+                corners = tets[int(fields[2])]
+                on, off = int(fields[7]), int(fields[8])
+                self.assertNotEqual(on, off)
+                self.assertIn(on, corners)
+                face = set(corners) - {off}
+                self.assertEqual(len(face), 3)
+                loads[name].append((int(fields[2]), face))
+        self.assertGreater(len(loads), len(sets) + 1)
+        for name, faces in loads.items():
+            nodes = set().union(*(face for _, face in faces))
+            other = "_".join(["FACE", *name.split("_")[:0:-1]])
+            wanted = sets.get(name, sets.get(other))
+            if wanted is not None:
+                self.assertEqual(nodes, set(wanted), name)
+            self.assertEqual(len({tuple(sorted(face)) for _, face in faces}), len(faces))
+        pairs = [name for name in loads if name.startswith("FACE_")]
+        for one, two in zip(pairs[::2], pairs[1::2]):
+            self.assertEqual(sorted(sorted(face) for _, face in loads[one]),
+                             sorted(sorted(face) for _, face in loads[two]))
+            self.assertFalse({tet for tet, _ in loads[one]} & {tet for tet, _ in loads[two]})
 
     def test_ten_nodes_in_vtk(self):
         for name, reader in (

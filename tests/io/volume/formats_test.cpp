@@ -249,12 +249,14 @@ TEST(VolumeErrors, OptionsThatAFormatDoesNotHave) {
 
 /// What help and errors list.
 TEST(VolumeFormats, AreListedFromOneTable) {
-  for (const char* ending : {".npy", ".nii", ".nrrd", ".mha", ".h5", ".tif", ".png"}) {
+  for (const char* ending : {".npy", ".nii", ".hdr", ".img", ".mgh", ".mgz", ".nrrd", ".mha",
+                             ".vti", ".h5", ".tif", ".png", ".zip"}) {
     EXPECT_NE((volume_endings() + ",").find(text(ending, ",")), std::string::npos) << ending;
   }
-  EXPECT_EQ(formats_with_datasets(), "HDF5, neuroglancer precomputed, N5, Zarr");
-  EXPECT_EQ(formats_with_scales(), "neuroglancer precomputed, N5, Zarr");
-  EXPECT_EQ(volume_folders(), formats_with_scales() + ", TIFF or PNG slices, masks");
+  const std::string stores = "neuroglancer precomputed, N5, Zarr";
+  EXPECT_EQ(formats_with_datasets(), "HDF5, VTK image, zipped Zarr, " + stores);
+  EXPECT_EQ(formats_with_scales(), "zipped Zarr, " + stores);
+  EXPECT_EQ(volume_folders(), stores + ", TIFF or PNG slices, masks");
 }
 
 TEST(VolumeErrors, Gzip) {
