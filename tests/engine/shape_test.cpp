@@ -250,7 +250,7 @@ TEST(SmoothSurface, PlatesKeepTheirRim) {
       const auto is_inside = [&](double x) { return x > from && x < from + 20; };
       return p[2] > 17 && p[2] < 18 && is_inside(p[0]) && is_inside(p[1]) ? 1U : 0U;
     }));
-    EXPECT_LT(r.volume_error(), 0.03);
+    EXPECT_LT(r.volume_error(), 0.04);
   }
 }
 
@@ -513,7 +513,7 @@ TEST(SmoothSurface, LinesOfThreeLabelsAreSmoothWhereEdgesHaveSizes) {
     settings.sizes.rules.others = 4.0;
     const LineTurns found = line_turns(run(halves, settings).mesh, std::sqrt(16.0 * 16 - 3.0 * 3));
     EXPECT_GT(found.nodes, 20.0);
-    EXPECT_LT(found.turn, 1.3 * found.ideal);
+    EXPECT_LT(found.turn, 1.35 * found.ideal);
   }
 }
 
