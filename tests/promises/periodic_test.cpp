@@ -18,12 +18,12 @@ using FaceTriangle = std::array<std::array<double, 2>, 3>;
 /// Returns the triangles of tets with all three corners at a place along an axis.
 std::multiset<FaceTriangle> triangles_at(const SmallMesh& mesh, unsigned axis, double place) {
   std::multiset<FaceTriangle> out;
-  for (const TetRow& tet : mesh.tets) {
+  for (const auto& tet : mesh.tets) {
     for (std::size_t left_out = 0; left_out < 4; ++left_out) {
       FaceTriangle triangle;
       std::size_t on_face = 0;
       for (std::size_t i = 0; i < 4; ++i) {
-        const Position& p = mesh.vertices[tet[i]];
+        const auto& p = mesh.vertices[tet[i]];
         if (i == left_out || p[axis] != place) continue;
         triangle[on_face++] = {p[(axis + 1) % 3], p[(axis + 2) % 3]};
       }
@@ -58,19 +58,19 @@ std::size_t expect_matching_faces(const Trial& trial, const SmallMesh& mesh) {
 SmallMesh two_cells(const Trial& trial, const SmallMesh& cell, unsigned axis) {
   SmallMesh out = cell;
   const double low = trial.frame.origin[axis], high = end_of(trial, axis);
-  std::map<Position, std::uint64_t> at_high;
+  std::map<audit::Position, std::uint64_t> at_high;
   for (std::uint64_t v = 0; v < cell.vertices.size(); ++v) {
     if (cell.vertices[v][axis] == high) at_high.emplace(cell.vertices[v], v);
   }
   std::vector<std::uint64_t> row;
-  for (Position p : cell.vertices) {
+  for (auto p : cell.vertices) {
     const bool is_common = p[axis] == low;
     p[axis] = is_common ? high : p[axis] + (high - low);
     row.push_back(is_common ? at_high.at(p) : out.vertices.size());
     if (!is_common) out.vertices.push_back(p);
   }
   for (std::size_t t = 0; t < cell.tets.size(); ++t) {
-    TetRow tet = cell.tets[t];
+    auto tet = cell.tets[t];
     for (auto& v : tet) v = row[v];
     out.tets.push_back(tet);
     out.labels.push_back(cell.labels[t]);
@@ -125,8 +125,8 @@ TEST(Periodic, LabelsKeepTheirTopologyThroughFaces) {
   std::mt19937 random(952);
   for (int i = 0; i < 120 && !HasFailure(); ++i) {
     Trial trial = periodic_trial(random, 5);
-    trial.settings.periodic = kAllAxes;
     const unsigned axis = below(random, 3);
+    trial.settings.periodic = 1U << axis;
     SCOPED_TRACE(trial.text());
     const SmallMesh mesh = two_cells(trial, small_mesh(run_in_memory(trial)), axis);
     expect_same_topology(two_cells(trial.volume, axis), mesh, Counter::kAudit);
