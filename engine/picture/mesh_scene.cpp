@@ -3,14 +3,13 @@
 // Collects what is seen of a mesh.
 #include "engine/picture/draw.h"
 
-#include <Eigen/Geometry>
-
 #include <algorithm>
 #include <cmath>
 #include <limits>
 
 #include "io/file/errors.h"
 #include "kernels/core/error.h"
+#include "kernels/core/vector3.h"
 
 namespace mw::picture {
 namespace {
@@ -22,8 +21,7 @@ Vec3 vec(const io::Position& p) {
 /// Returns the area of the box's six sides.
 double area_of(const io::MeshBox& box) {
   const auto& [x, y, z] = box.edges;
-  return 2 *
-         (vec(x).cross(vec(y)).norm() + vec(y).cross(vec(z)).norm() + vec(z).cross(vec(x)).norm());
+  return 2 * (norm(cross(x, y)) + norm(cross(y, z)) + norm(cross(z, x)));
 }
 
 /// Visits a polygon as triangles around its first corner; its own sides are edges of the mesh.

@@ -119,7 +119,7 @@ const Room kRooms[] = {
       "engine/window/window_order.h"}},
     {"engine/output/", {"engine/system/", "engine/window/window_grid.h"}},
     // Looks at a finished mesh, and knows no run.
-    {"engine/connect/", {"engine/settings/"}},
+    {"engine/connect/", {"engine/settings/", "engine/system/"}},
     // All that is done to a finished mesh before a file of it is written; it knows no run, either.
     {"engine/finish/",
      {"engine/connect/", "engine/output/label_selection.h", "engine/sample/", "engine/settings/",
@@ -140,7 +140,7 @@ const Room kRooms[] = {
      {"engine/forecast/", "engine/labels/", "engine/march/", "engine/output/", "engine/run/",
       "engine/settings/", "engine/store/", "engine/window/"}},
     // What of a mesh is seen, and from where: commands, pages and the library have it drawn.
-    {"engine/picture/", {}},
+    {"engine/picture/", {"engine/report/figures.h"}},
     // The main job as program and library start it.
     {"engine/job/", {"engine/"}},
 };
