@@ -56,8 +56,9 @@ std::unique_ptr<io::MeshSink> open_output(const ConvertJob& job, io::Element ele
   if (in_pieces && job.pieces == 0) {
     io::fail_usage(job.to.string() + ": a mesh in pieces; say how many with --pieces N");
   }
-  if (job.extras.encoding == io::Encoding::kText || job.extras.materials || job.extras.deck != io::Deck::kNone ||
-      element != io::Element::kTet4 || !job.extras.pairs.empty()) {
+  if (job.extras.encoding == io::Encoding::kText || job.extras.materials ||
+      job.extras.deck != io::Deck::kNone || element != io::Element::kTet4 ||
+      !job.extras.pairs.empty()) {
     io::fail_usage(job.to.string() +
                    ": pieces are written with tet4 only, in one way, without "
                    "--materials, --deck and --pairs");

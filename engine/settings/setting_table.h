@@ -70,7 +70,8 @@ struct Preset {
   std::vector<std::pair<std::string, std::string>> values;
 };
 
-inline constexpr const char* kPresetHelp = "draft: quick, no P4, P8; fine: finer, smoother surfaces";
+inline constexpr const char* kPresetHelp =
+    "draft: quick, no P4, P8; fine: finer, smoother surfaces";
 inline constexpr const char* kDefaultPreset = "default";
 
 /// Thread-safe.

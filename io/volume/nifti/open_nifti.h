@@ -70,7 +70,7 @@ struct NiftiFiles {
 /// Opens the .img, gzipped or not, beside a .hdr.  ERRORS: mw::Error(kInput) where there is none.
 [[nodiscard]] std::unique_ptr<ByteSource> open_nifti_image(const std::string& header);
 
-/// Of two files either may be opened.  Several volumes in a file are masks
+/// Either of two files may be opened.  Several volumes in a file are masks
 /// (io/volume/masks/open_masks.h), or numbers where options.values asks for them.  Bytes behind the
 /// voxels are ignored. ERRORS: mw::Error(kInput) naming file and field.
 [[nodiscard]] std::unique_ptr<LabelVolume> open_nifti(std::unique_ptr<ByteSource> source,

@@ -59,7 +59,7 @@ std::vector<std::string> names_of_pattern(std::string_view pattern,
   return out;
 }
 
-/// Checks that so many files of so many axes make the volume.
+/// Checks that the files, with their axes, make the volume.
 void check_count(std::size_t files, std::int64_t axes, const std::vector<std::int64_t>& sizes,
                  std::string_view file) {
   const auto rank = static_cast<std::int64_t>(sizes.size());

@@ -46,7 +46,7 @@ class Nrrd(Stores):
             self.check("z.nrrd.gz", labels.astype(int) if kind[0] == "f" else labels)
 
     def pieces(self, labels, encoding, axes):
-        """The bytes of each file of so many axes."""
+        """The bytes of each file, which has this number of axes."""
         for part in (labels.reshape(-1, *labels.shape[3 - axes:]) if axes < 3
                      else numpy.split(labels, 2)):
             yield {"raw": part.tobytes(), "gzip": gzip.compress(part.tobytes()),
