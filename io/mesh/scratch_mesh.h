@@ -45,7 +45,7 @@ struct MeshFacet {
 /// Memory: kBufferBytes; with facets 256 KiB more, and 16 bytes for each vertex that was doubled.
 /// Disk: 24 bytes a vertex, 40 a tet, and 8 for each of its values.  Facets take 80 bytes each,
 /// and 160 a tet while they are made.
-/// ERRORS (all members): see ScratchFile.  Thread safety: that of read_tets() after settle(), else none.
+/// ERRORS (all members): see ScratchFile.  Thread safety: see read_tets(); else none.
 class ScratchMesh {
  public:
   static constexpr std::size_t kBatchTets = 4096;
@@ -93,7 +93,7 @@ class ScratchMesh {
   }
   /// Puts all rows into the files, so that several threads may read tets at once.
   void settle();
-  /// Fills both lists, which are of one length, from this tet on.  REQUIRES: the mesh has these tets.
+  /// Fills both lists, which are of one length, from this tet on.  REQUIRES: they are there.
   void read_tets(std::uint64_t first, std::span<TetRows> tets, std::span<RawLabel> labels);
   /// Calls visit on all tets in their order, at most kBatchTets at once.
   void each_tet_batch(const std::function<void(const TetBatch&)>& visit);
