@@ -195,7 +195,8 @@ void add_output_options(OptionSet& options, ConvertJob& job) {
                .group = kOutputGroup,
                .assign = into(job.extras.materials, engine::parse_materials)});
   options.add({.name = "deck",
-               .help = "a job: static pulls; periodic, conduction: unit loads of --periodic xyz",
+               .value = "JOB",
+               .help = "static: a job that pulls; periodic, conduction: of a cell",
                .group = kOutputGroup,
                .fallback = "none",
                .choices = kDecks,

@@ -63,6 +63,17 @@ double cubes_of_size(const PilotTask& task, const SizeRules& rules) {
   return out;
 }
 
+/// Returns whether each label that is written has a size.
+bool have_all_sizes(const PilotTask& task, const SizeRules& rules) {
+  const io::LabelTable& table = task.labels.table();
+  const LabelSelection kept(wanted_labels(task.job.choice, table), table);
+  bool all = true;
+  for (Label label = 0; label < table.size(); ++label) {
+    all = all && (!kept.keeps(label) || rules.of_label(table.raw(label)).has_value());
+  }
+  return all;
+}
+
 /// A part of the volume that is meshed, and what of it counts.
 struct Cube {
   Box3 voxels;  ///< of the volume, with the halo
@@ -165,7 +176,7 @@ class Pilot {
  public:
   explicit Pilot(const PilotTask& task) : task_(task) {
     const MeshSettings& settings = task.job.settings;
-    const VoxelLattice lattice(task.labels, settings.periodic);
+    const VoxelLattice lattice(task.labels);
     const auto& spacing = lattice.info().space.spacing;
     const double voxel = *std::min_element(spacing.begin(), spacing.end());
     const double diagonal = std::hypot(spacing[0], spacing[1], spacing[2]);
@@ -181,6 +192,7 @@ class Pilot {
                        : std::log(std::cbrt(static_cast<double>(shape.product()) * spacing[0] *
                                             spacing[1] * spacing[2] / (kTetVolume * asked())) /
                                   least);
+    all_have_sizes_ = have_all_sizes(task, rules);
     cubes_ = find_cubes(lattice);
   }
 
@@ -192,7 +204,7 @@ class Pilot {
       const double error = std::abs(error_of(trials_.back()));
       if (error <= kNearEnough || is_at_end(trials_.back())) break;
       at = std::clamp(next(), range_[0], range_[1]);
-      is_told = error <= (i == 0 ? kNearForOne : kNearForMore);
+      is_told = error <= (i == 0 ? kNearForOne : kNearForMore) && answers_as_usual();
     }
     const Trial best =
         is_told ? Trial{at, asked()}
@@ -230,6 +242,14 @@ class Pilot {
   }
   [[nodiscard]] bool is_at_end(const Trial& t) const {
     return (t.at == range_[0] && error_of(t) < 0) || (t.at == range_[1] && error_of(t) > 0);
+  }
+
+  /// Returns whether the count follows sizes as it does where all labels have one, so that next()
+  /// may be trusted: by the last two trials, or, of one, because all labels have one.
+  [[nodiscard]] bool answers_as_usual() const {
+    if (trials_.size() == 1) return all_have_sizes_;
+    const Trial &a = trials_[trials_.size() - 2], &b = trials_.back();
+    return (error_of(b) - error_of(a)) / (b.at - a.at) <= kFlattest;
   }
 
   /// Returns where a line has the count: through the nearest trials on both sides of it, else
@@ -316,6 +336,7 @@ class Pilot {
   const PilotTask& task_;
   std::array<double, 2> range_{};  ///< of the logarithm of the factor
   double first_ = 0;
+  bool all_have_sizes_ = false;
   std::vector<Cube> cubes_;  ///< empty: the volume is meshed whole
   double inner_quality_ = 0;
   std::vector<Trial> trials_;

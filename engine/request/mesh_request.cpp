@@ -171,7 +171,8 @@ void add_format_options(OptionSet& options, MeshRequest& request) {
                .listed = Listed::kInHelpAll,
                .assign = into(request.extras.materials, engine::parse_materials)});
   options.add({.name = "deck",
-               .help = "a job: static pulls; periodic, conduction: unit loads of --periodic xyz",
+               .value = "JOB",
+               .help = "static: a job that pulls; periodic, conduction: of a cell",
                .group = kOutputGroup,
                .fallback = "none",
                .choices = kDecks,

@@ -4,6 +4,7 @@
 #include "engine/request/volume_options.h"
 
 #include <algorithm>
+#include <sstream>
 
 #include "engine/request/shared_options.h"
 #include "engine/request/values.h"
@@ -135,13 +136,13 @@ void add_place_options(OptionSet& options, VolumeRequest& request) {
 void add_array_options(OptionSet& options, VolumeRequest& request) {
   options.add({.name = "dataset",
                .value = "PATH",
-               .help = "array of several, of " + io::formats_with_datasets(),
+               .help = "which array, where a file has several",
                .group = kInputGroup,
                .calls = kOpening,
                .assign = into(request.open.dataset)});
   options.add({.name = "scale",
                .value = "N",
-               .help = "level, 0 the finest, of " + io::formats_with_scales(),
+               .help = "which level of an image pyramid, 0 the finest",
                .group = kInputGroup,
                .kind = ValueKind::kInteger,
                .calls = kOpening,
@@ -259,8 +260,19 @@ void add_volume_options(OptionSet& options, VolumeRequest& request) {
 }
 
 std::string volume_note() {
-  return io::text("Volumes:\n", io::volume_endings(), ",\nand folders: ", io::volume_folders(),
-                  ".\n");
+  constexpr std::size_t kWidth = 100;
+  const std::string all =
+      io::text(io::volume_endings(), ", and folders: ", io::volume_folders(), ".");
+  std::string out = "Volumes:", line;
+  std::istringstream words(all);
+  for (std::string word; words >> word;) {
+    if (line.size() + 1 + word.size() > kWidth) {
+      out += "\n" + line;
+      line.clear();
+    }
+    line += (line.empty() ? "" : " ") + word;
+  }
+  return out + "\n" + line + "\n";
 }
 
 }  // namespace mw::request

@@ -239,7 +239,7 @@ class Case:
         (self.folder / "l").mkdir()
         volumes.write_npy(self.folder / "l.npy", self.volume)
         common = ["--frame=voxel", "--spacing", volumes.triple(self.volume.spacing),
-                  "--surface=voxel", "--quality-floor=0", "--max-distance=none"]
+                  "--surface=voxel", "--quality-floor=0", "--max-distance=none", "--background=none"]
         self.run(["mesh", self.volume.file, *self.volume.meaning, *common, "-o", "l/v.vtu"])
         self.run(["mesh", "l.npy", *common, "-o", "l/l.vtu"])
         if self.digest("l/v.vtu") != self.digest("l/l.vtu"):

@@ -200,6 +200,8 @@ def draw(random, volume, values_of):
     if settings.output == "m.msh" and random.random() < 0.3:
         settings.flags["ascii"] = None
     draw_values(random, settings, volume)
+    if not volume.is_plain and not settings.chosen:
+        settings.flags["background"] = "none"  # where names say that 0 is nothing, it is left out
     return settings
 
 

@@ -43,7 +43,8 @@ TEST_F(VolumesTest, Promise8RunVerifyAndInfoAgree) {
     SCOPED_TRACE(mesh);
     expect_done("mesh v.npy -o " + mesh + " --window 16 --report r.json");
     expect_done("verify v.npy " + mesh + " --max-volume-error none --report q.json");
-    const json run_shape = report("r.json")["shape"];
+    json run_shape = report("r.json")["shape"];
+    for (json& row : run_shape["per_label"]) row.erase("tets");  // verify does not count these
     const json volume = report("q.json")["volume"];
     EXPECT_EQ(volume["exact"], true);
     for (const char* key : {"volume_error_mean_abs", "volume_error_max_abs",
