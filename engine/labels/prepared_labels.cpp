@@ -315,28 +315,11 @@ void PreparedLabels::find_source_in(const Box3& bricks) {
 }
 
 void PreparedLabels::coarsen_tiles(double max_distance, int threads) {
-  const Box3 inner = bricks_of_cell();
-  const Box3 bricks = intersection(inner, coarse_->held());
+  const Box3& bricks = coarse_->held();
   tbb_for_each_index(threads, tiles_of(bricks.shape()), [&](Index3 t) {
     const Index3 lo = bricks.lo + scaled(t, kBricksPerTile);
     coarsen_tile(intersection({lo, lo + scaled({1, 1, 1}, kBricksPerTile)}, bricks), max_distance);
   });
-  if (margin_ == Index3{}) return;
-  tbb_for_each_index(threads, coarse_->bricks(), [&](Index3 brick) {
-    if (!inner.contains(brick)) repeat_coarse(brick);
-  });
-}
-
-/// Writes a brick of copies around the cell.
-void PreparedLabels::repeat_coarse(Index3 brick) {
-  const Box3 box = coarse_->box_of(brick);
-  const LabelBox labels =
-      repeated_labels({box.lo - margin_, box.hi - margin_}, cell(), repeats(), [&](const Box3& in) {
-        LabelBox out = read_labels(*coarse_, {in.lo + margin_, in.hi + margin_});
-        out.box = in;
-        return out;
-      });
-  coarse_->write(brick, labels.labels);
 }
 
 void PreparedLabels::coarsen_tile(const Box3& bricks, double max_distance) {
@@ -351,16 +334,9 @@ void PreparedLabels::coarsen_tile(const Box3& bricks, double max_distance) {
   }
   const Box3 tile =
       clipped({scaled(bricks.lo, kBrick), scaled(bricks.hi, kBrick)}, original_.shape());
-  LabelBox before = read_labels(original_, grown(tile, kCoarsenHalo));
-  if (margin_ != Index3{}) {
-    const Box3 box = before.box;
-    before.box = {box.lo - margin_, box.hi - margin_};
-    give_sides(before, cell());
-    before.box = box;
-  }
+  const LabelBox before = read_labels(original_, grown(tile, kCoarsenHalo));
   LabelBox after = before;
   coarsen(before, after, tile, original_.shape(), max_distance, start_sizes());
-  for (Label& label : after.labels) label = without_side(label);
   for_each_index(bricks, [&](Index3 brick) {
     cut_brick(after, original_.box_of(brick), one);
     coarse_->write(brick, one);

@@ -114,7 +114,6 @@ class PreparedLabels {
   void find_source_in(const Box3& bricks);
   void coarsen_tiles(double max_distance, int threads);
   void coarsen_tile(const Box3& tile, double max_distance);
-  void repeat_coarse(Index3 brick);
   /// Returns the shape of the volume without its margin.
   [[nodiscard]] Index3 cell() const { return original_.shape() - margin_ - margin_; }
   [[nodiscard]] std::array<bool, 3> repeats() const {

@@ -66,12 +66,6 @@ int largest_level(const WindowGrid& grid, const MeshSettings& settings) {
   return periodic_level(grid.volume(), settings, largest_cell_level(of_grid));
 }
 
-/// Returns where the volume is among its copies; nothing where there are none.
-std::optional<Box3> cell_of(Index3 volume, Index3 margin) {
-  if (margin == Index3{}) return std::nullopt;
-  return Box3{margin, margin + volume};
-}
-
 Box3 moved(const Box3& box, Index3 by) {
   return {box.lo + by, box.hi + by};
 }
@@ -94,8 +88,7 @@ WindowVisitor::WindowVisitor(const PreparedLabels& labels, const Metric& metric,
              .weights = {},
              .metric = metric,
              .quality_floor = settings.quality_floor,
-             .sizes = labels.start_sizes(),
-             .cell = cell_of(grid.volume(), labels.margin())},
+             .sizes = labels.start_sizes()},
       simplify_(simplify_options(settings)),
       optimise_{.sweeps = settings.optimizer == Optimizer::kNone ? 0 : 1,
                 .quality_floor = settings.quality_floor,

@@ -186,8 +186,7 @@ class StartBuilder {
       if (label == kExterior) return;
       for (unsigned axis = 0; axis < 3; ++axis) {
         const Label beyond = labels_.original.at(lower + axis_vector(axis));
-        const VoxelFace face{lower, axis};
-        if (beyond != label && beyond != kExterior && is_in_cell(face)) visit(face);
+        if (beyond != label && beyond != kExterior) visit(VoxelFace{lower, axis});
       }
     });
   }
@@ -257,15 +256,9 @@ class StartBuilder {
     }
   }
 
-  [[nodiscard]] bool is_in_cell(const VoxelFace& face) const {
-    return !options_.cell ||
-           (options_.cell->contains(face.lower) && options_.cell->contains(face.upper()));
-  }
-
   [[nodiscard]] VoxelFace carrier_of(const VoxelFace& face) const {
     for (const VoxelFace& c : carriers_.of(face.axis)) {
       const VoxelFace carrier{face.lower + c.lower, c.axis};
-      if (!is_in_cell(carrier)) continue;
       if (may_carry(labels_.shape, carrier, labels_.original, face)) return carrier;
     }
     throw Error(ErrorKind::kInternal, "coarsening left an interface face without a carrier");

@@ -28,9 +28,6 @@ struct StartOptions {
   double quality_floor = 0.0;        ///< no tet below it, if the metric allows (min_start_ratio)
   const SizeField* sizes = nullptr;  ///< edges keep to these limits, if they are at least the
                                      ///< diagonal of a voxel; null for none
-  /// Where the volume is a cell with copies around it, the cell: only faces inside it have samples,
-  /// which are carried inside.
-  std::optional<Box3> cell = std::nullopt;
 };
 
 /// Voxels around a block whose labels its start mesh depends on.

@@ -221,7 +221,7 @@ class SharedRuns(unittest.TestCase):
         report = self.folder / "r.json"
         done = self.run_shared(3, "--certify", "on", "--report", report)
         self.assertEqual(done.returncode, 0, done.stderr)
-        self.assertIn("radius ratio, distance and volumes hold", done.stdout)
+        self.assertIn("P3 radius ratio, P4 distance and P8 volumes hold", done.stdout)
         self.assertEqual(done.stdout.count("vertices"), 1)
         self.assertTrue(report.exists())
 

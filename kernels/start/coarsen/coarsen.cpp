@@ -62,7 +62,6 @@ class Coarsener {
 
   /// Gives a mixed cube one label if it can; returns whether it did.
   bool visit(Index3 cube) {
-    if (touches_other_side(cube)) return false;
     CubeLabels before;
     for (unsigned i = 0; i < 8; ++i) before[i] = labels_.at(cube_voxel(cube, i));
     if (!sizes_allow(cube, before)) return false;
@@ -76,20 +75,6 @@ class Coarsener {
   }
 
  private:
-  /// True if a voxel beside the cube has another side (kFirstSide).
-  [[nodiscard]] bool touches_other_side(Index3 cube) const {
-    const Label side = side_of(labels_.at(cube));
-    const auto is_other = [&](Index3 v) {
-      const Label label = labels_.at(v);
-      return label != kExterior && side_of(label) != side;
-    };
-    for (unsigned axis = 0; axis < 3; ++axis) {
-      const Index3 step = axis_vector(axis);
-      if (is_other(cube - step) || is_other(cube + step + step)) return true;
-    }
-    return false;
-  }
-
   Label& at(Index3 v) { return labels_.labels[static_cast<std::size_t>(labels_.box.offset(v))]; }
 
   /// Labels that may take the cube, the most frequent first, then by label.

@@ -38,9 +38,6 @@ struct CoarsenStats {
 /// its edge: vertices could not go back from there to where the input has the interface, as edges
 /// may not become longer on the way.
 ///
-/// A cube beside a plane that parts two sides (kFirstSide) stays as it is, because what its labels
-/// touch beyond is not seen.
-///
 /// Cubes are visited in eight colours, by the parity of their position; cubes of one colour do not
 /// see each other, so the result is a local function: it depends on labels nearer than
 /// kCoarsenHalo.

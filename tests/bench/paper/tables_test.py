@@ -69,7 +69,7 @@ class Runs(WithVolume):
         reports[0].write_text(json.dumps(marked))
         again = self.runner().measure(self.volume, Mode("default"))
         self.assertEqual(again.run, first.run | {"marked": True})
-        same = self.runner().measure(self.volume, Mode("said", ("--order", "raster")))
+        same = self.runner().measure(self.volume, Mode("said", ("--order", "colour")))
         self.assertIn("marked", same.run)
         other = self.runner().measure(self.volume, Mode("other", ("--window", "8")))
         self.assertNotIn("marked", other.run)

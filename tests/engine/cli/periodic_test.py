@@ -195,8 +195,12 @@ class Periodic(unittest.TestCase):
         with open("m.mesh", encoding="utf-8") as file:
             lines = file.read().split("\n")
         first = next(i for i, line in enumerate(lines) if line.startswith("Vertices")) + 2
-        moved = next(i for i in range(first, len(lines)) if re.match(r"40 \d+ \d+ ", lines[i])
-                     and not re.match(r"40 (0|24) |40 \d+ (0|32) ", lines[i]))
+
+        def is_inside_a_face(line):
+            x, y, z, _reference = map(float, line.split())
+            return x == 40 and 0 < y < 24 and 0 < z < 32
+
+        moved = next(i for i in range(first, len(lines)) if is_inside_a_face(lines[i]))
         x, y, z, reference = lines[moved].split()
         lines[moved] = f"{x} {float(y) + 1 / UNITS} {z} {reference}"
         with open("n.mesh", "w", encoding="utf-8") as file:

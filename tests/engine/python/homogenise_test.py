@@ -107,8 +107,8 @@ class Homogenise(unittest.TestCase):
         self.assertGreater(np.linalg.eigvalsh(voigt - found).min(), -1e-6)
 
     def test_pores_count_as_empty(self):
-        labels = np.ones((12, 12, 12), np.uint8)
-        labels[4:8, 4:8, 4:8] = 2
+        labels = np.ones((16, 16, 16), np.uint8)
+        labels[4:12, 4:12, 4:12] = 2
         whole = self.solved(labels, "conduction", {1: 1.0, 2: 1.0})
         np.testing.assert_allclose(whole, np.eye(3), atol=1e-4)
         porous = self.solved(labels, "conduction", {1: 1.0}, background=2)
