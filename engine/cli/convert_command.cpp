@@ -136,7 +136,8 @@ void change(io::ScratchMesh& mesh, const ConvertJob& job) {
   if (job.connect.split.any() || job.connect.cohesive.any()) {
     check_interfaces(job.connect, engine::labels_of(mesh));
   }
-  engine::FinishTask task{.labels = job.choice, .connect = {.options = job.connect}};
+  engine::FinishTask task{.labels = job.choice,
+                          .connect = {.options = job.connect, .threads = engine::thread_count(0)}};
   std::optional<engine::ImageSampler> sampler;
   if (!job.samples.empty()) {
     io::VolumeInfo world;

@@ -135,11 +135,15 @@ std::size_t ConnectTask::memory_of(std::uint64_t budget) {
   return std::clamp<std::uint64_t>(budget / 64, kMin, kMaxMemoryBytes);
 }
 
+std::size_t ConnectTask::work_of(std::uint64_t budget, int threads) {
+  const std::size_t most = 2 * static_cast<std::size_t>(threads) * StarRange::kBytes;
+  return std::clamp<std::uint64_t>(budget / 64, StarRange::kBytes, most);
+}
+
 ConnectFacts connect(io::ScratchMesh& mesh, const ConnectTask& task,
                      const std::function<void()>& between) {
-  PartFinder finder(task.options, mesh.folder(), task.memory_bytes, task.threads);
-  finder.add(mesh, between);
-  finder.find();
+  PartFinder finder(mesh, task);
+  finder.find(between);
   find_places(mesh, finder.facts());
   if (task.options.change_mesh()) mesh = ChangedMesh(mesh, finder, task).make(between);
   return std::move(finder.facts());
@@ -147,7 +151,7 @@ ConnectFacts connect(io::ScratchMesh& mesh, const ConnectTask& task,
 
 std::uint64_t bytes_to_connect(const ConnectTask& task) {
   const std::uint64_t changes = task.options.change_mesh() ? io::ScratchMesh::kBufferBytes : 0;
-  return 2 * std::uint64_t{task.memory_bytes} + (std::uint64_t{5} << 18U) + changes;
+  return std::uint64_t{task.memory_bytes} + task.work_bytes + (std::uint64_t{5} << 18U) + changes;
 }
 
 }  // namespace mw::engine

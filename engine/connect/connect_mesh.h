@@ -14,12 +14,15 @@ namespace mw::engine {
 
 struct ConnectTask {
   ConnectOptions options{};
-  std::size_t memory_bytes = kMaxMemoryBytes;
+  std::size_t memory_bytes = kMaxMemoryBytes;  ///< of all sorts
+  std::size_t work_bytes = kMaxMemoryBytes;    ///< of what threads look at
   int threads = 1;
 
   static constexpr std::size_t kMaxMemoryBytes = 8 << 20;
-  /// Returns the part of a budget that each sort takes.
+  /// Returns the part of a budget that sorts take.
   [[nodiscard]] static std::size_t memory_of(std::uint64_t budget);
+  /// Returns the part of a budget that work on this many threads takes.
+  [[nodiscard]] static std::size_t work_of(std::uint64_t budget, int threads);
 };
 
 /// Counts parts and hinges.  If the options change the mesh, kept vertices and tets keep their

@@ -13,95 +13,52 @@
 namespace mw::engine {
 namespace {
 
-/// Returns how chunks and stars are worked on, in half of the memory that a sort has.
-WorkInOrder work_within(std::size_t memory_bytes, int threads) {
-  static_assert(StarFindings::kBytes <= TetChunk::kBytes);
-  const WorkInOrder most{.threads = threads};
-  const std::size_t fit = memory_bytes / 2 / TetChunk::kBytes;
-  return {.threads = threads, .at_once = std::clamp<std::size_t>(fit, 1, most.at_once)};
+/// Returns how things of this size are worked on in the memory that there is for them.
+WorkInOrder work_within(const ConnectTask& task, std::size_t bytes_each) {
+  const WorkInOrder most{.threads = task.threads};
+  const std::size_t fit = task.work_bytes / bytes_each;
+  return {.threads = task.threads, .at_once = std::clamp<std::size_t>(fit, 1, most.at_once)};
 }
 
 bool is_alone(const WorkInOrder& work) {
   return work.threads == 1 || work.at_once == 1;
 }
 
-/// Returns the sort of all corners, which has the memory that is left of `memory_bytes`.
-io::ExternalSort<6> corner_sort(const std::filesystem::path& folder, std::size_t memory_bytes,
-                                const WorkInOrder& work) {
-  if (is_alone(work)) return {folder, memory_bytes};
-  return {folder, memory_bytes - work.at_once * TetChunk::kBytes,
-          [](std::span<StarRecord> held) { tbb_sort(held); }};
+/// Returns the sort of tets by ranges, which works on all threads where chunks are.
+io::ExternalSort<2> range_sort(const std::filesystem::path& folder, const ConnectTask& task) {
+  const std::size_t bytes = task.memory_bytes / 2;
+  if (is_alone(work_within(task, TetChunk::kBytes))) return {folder, bytes};
+  return {folder, bytes, [](std::span<RangeTet> held) { tbb_sort(held); }};
+}
+
+/// Returns the end of the run of numbers that follow each other, which begins at `at`.
+std::size_t run_end(const std::vector<std::uint64_t>& numbers, std::size_t at) {
+  const std::uint64_t ahead = numbers[at] - at;
+  while (at < numbers.size() && numbers[at] == ahead + at) ++at;
+  return at;
 }
 
 }  // namespace
 
-PartFinder::PartFinder(ConnectOptions options, std::filesystem::path folder,
-                       std::size_t memory_bytes, int threads)
-    : options_(std::move(options)),
+PartFinder::PartFinder(io::ScratchMesh& mesh, const ConnectTask& task)
+    : mesh_(mesh),
+      options_(task.options),
       split_(options_.all_split()),
       met_(split_.pairs.size()),
       seen_(options_.watched.size()),
-      folder_(std::move(folder)),
-      work_(work_within(memory_bytes, threads)),
-      corners_(corner_sort(folder_, memory_bytes, work_)),
-      pinched_(folder_, 3 * memory_bytes / 8),
-      insides_(folder_, memory_bytes / 8),
-      copied_(folder_, memory_bytes / 4),
-      held_(folder_, memory_bytes / 4),
-      copies_(folder_),
-      tet_pieces_(folder_) {}
+      chunk_work_(work_within(task, TetChunk::kBytes)),
+      range_work_(work_within(task, StarRange::kBytes)),
+      ranges_(range_sort(mesh.folder(), task)),
+      pinched_(mesh.folder(), task.memory_bytes / 4),
+      insides_(mesh.folder(), task.memory_bytes / 16),
+      copied_(mesh.folder(), task.memory_bytes / 16),
+      held_(mesh.folder(), task.memory_bytes / 8),
+      copies_(mesh.folder()),
+      tet_pieces_(mesh.folder()) {}
 
-void PartFinder::add(io::ScratchMesh& mesh, const std::function<void()>& between) {
-  mesh.settle();
-  const std::uint64_t tets = mesh.tet_count();
-  each_in_order<TetChunk>(
-      work_, (tets + TetChunk::kTets - 1) / TetChunk::kTets,
-      [&](std::uint64_t i) {
-        const std::uint64_t first = i * TetChunk::kTets;
-        TetChunk out;
-        out.tets.resize(std::min<std::uint64_t>(TetChunk::kTets, tets - first));
-        out.labels.resize(out.tets.size());
-        mesh.read_tets(first, out.tets, out.labels);
-        look_at_chunk(i, split_, out);
-        return out;
-      },
-      [&](std::uint64_t, TetChunk&& chunk) {
-        between();
-        take(chunk);
-      });
-}
-
-void PartFinder::take(const TetChunk& chunk) {
-  if (pieces_.size() + chunk.tets.size() > std::numeric_limits<std::uint32_t>::max()) {
-    throw Error(ErrorKind::kResource, "parts of the mesh: more than 2^32 pieces");
-  }
-  const auto first = static_cast<std::uint32_t>(pieces_.size());
-  first_pieces_.push_back(first);
-  for (std::size_t t = 0; t < chunk.tets.size(); ++t) {
-    const std::uint32_t piece = first + chunk.pieces[t];
-    if (piece == pieces_.size()) {
-      pieces_.push_back({.split_parent = piece,
-                         .parent = piece,
-                         .body_parent = piece,
-                         .row = chunk.tets[t][0],
-                         .label = chunk.labels[t]});
-    }
-    ++pieces_[piece].tets;
-    if (options_.parts.leaves_out()) {
-      tet_pieces_.append(std::as_bytes(std::span(&piece, 1)));
-    }
-  }
-  for (const StarRecord& corner : chunk.corners) corners_.add(corner);
-  for (const RawLabel label : chunk.labels_met) insides_.add({label, 0});
-}
-
-void PartFinder::find() {
-  const StarRules rules{
-      .split = split_, .watched = options_.watched, .first_pieces = first_pieces_};
-  items_in_order<std::vector<StarRecord>, StarFindings>(
-      work_, [&] { return next_stars(); },
-      [&](std::vector<StarRecord>&& records) { return look_at_stars(records, rules); },
-      [&](StarFindings&& found) { take(found); });
+void PartFinder::find(const std::function<void()>& between) {
+  take_tets(between);
+  look_at_ranges(between);
   count_stiff_labels();
   choose_parts();
   pinched_.each_group<1>([&](std::span<const StarRecord> same) {
@@ -113,19 +70,104 @@ void PartFinder::find() {
   tell_apart();
 }
 
-/// Returns the corners of the vertices that follow, or nothing behind the last.
-std::optional<std::vector<StarRecord>> PartFinder::next_stars() {
-  std::vector<StarRecord> out;
-  out.reserve(kStarRecords);
-  if (ahead_) out.push_back(*std::exchange(ahead_, std::nullopt));
-  while (const StarRecord* record = corners_.next()) {
-    if (out.size() >= kStarRecords && (*record)[0] != out.back()[0]) {
+void PartFinder::take_tets(const std::function<void()>& between) {
+  mesh_.settle();
+  const std::uint64_t tets = mesh_.tet_count();
+  each_in_order<TetChunk>(
+      chunk_work_, (tets + TetChunk::kTets - 1) / TetChunk::kTets,
+      [&](std::uint64_t i) {
+        const std::uint64_t first = i * TetChunk::kTets;
+        TetChunk out;
+        out.tets.resize(std::min<std::uint64_t>(TetChunk::kTets, tets - first));
+        out.labels.resize(out.tets.size());
+        mesh_.read_tets(first, out.tets, out.labels);
+        look_at_chunk(first, split_, out);
+        return out;
+      },
+      [&](std::uint64_t, TetChunk&& chunk) {
+        between();
+        take(std::move(chunk));
+      });
+  tet_pieces_.flush();
+}
+
+void PartFinder::take(TetChunk chunk) {
+  if (pieces_.size() + chunk.tets.size() > std::numeric_limits<std::uint32_t>::max()) {
+    throw Error(ErrorKind::kResource, "parts of the mesh: more than 2^32 pieces");
+  }
+  const auto first_piece = static_cast<std::uint32_t>(pieces_.size());
+  first_pieces_.push_back(first_piece);
+  for (std::size_t t = 0; t < chunk.tets.size(); ++t) {
+    const std::uint32_t piece = first_piece + chunk.pieces[t];
+    if (piece == pieces_.size()) {
+      pieces_.push_back({.split_parent = piece,
+                         .parent = piece,
+                         .body_parent = piece,
+                         .row = chunk.tets[t][0],
+                         .label = chunk.labels[t]});
+    }
+    ++pieces_[piece].tets;
+    chunk.pieces[t] = piece;
+  }
+  tet_pieces_.append(std::as_bytes(std::span(chunk.pieces)));
+  for (const RangeTet& tet : chunk.ranges) ranges_.add(tet);
+  for (const RawLabel label : chunk.labels_met) insides_.add({label, 0});
+}
+
+void PartFinder::look_at_ranges(const std::function<void()>& between) {
+  const StarRules rules{.split = split_, .watched = options_.watched};
+  items_in_order<RangeTets, StarFindings>(
+      range_work_, [&] { return next_range(); },
+      [&](RangeTets&& wanted) { return look_at_stars(load(wanted), rules); },
+      [&](StarFindings&& found) {
+        between();
+        take(found);
+      });
+}
+
+/// Returns the tets of the range that follows, or nothing behind the last.
+std::optional<PartFinder::RangeTets> PartFinder::next_range() {
+  RangeTets out;
+  if (!ahead_) {
+    const auto* const first = ranges_.next();
+    if (first == nullptr) return std::nullopt;
+    ahead_ = *first;
+  }
+  out.range = (*ahead_)[0];
+  out.tets.push_back((*ahead_)[1]);
+  ahead_.reset();
+  while (const auto* const record = ranges_.next()) {
+    if ((*record)[0] != out.range) {
       ahead_ = *record;
       break;
     }
-    out.push_back(*record);
+    out.tets.push_back((*record)[1]);
   }
-  if (out.empty()) return std::nullopt;
+  return out;
+}
+
+/// Thread safety: may be called by several threads, once all tets were taken.
+StarRange PartFinder::load(const RangeTets& wanted) {
+  const std::size_t count = wanted.tets.size();
+  StarRange out{.first_row = wanted.range * kRowsARange,
+                .tets = std::vector<io::TetRows>(count),
+                .labels = std::vector<RawLabel>(count),
+                .pieces = std::vector<std::uint32_t>(count),
+                .places = {}};
+  for (std::size_t at = 0, end = 0; at < count; at = end) {
+    end = run_end(wanted.tets, at);
+    const std::uint64_t first = wanted.tets[at];
+    mesh_.read_tets(first, std::span(out.tets).subspan(at, end - at),
+                    std::span(out.labels).subspan(at, end - at));
+    tet_pieces_.read_at(first * sizeof(std::uint32_t),
+                        std::as_writable_bytes(std::span(out.pieces).subspan(at, end - at)));
+  }
+  out.places.reserve(count);
+  for (std::size_t i = 0; i < count; ++i) {
+    const std::uint64_t chunk = wanted.tets[i] / TetChunk::kTets;
+    out.places.push_back(
+        place_of(chunk, out.pieces[i] - first_pieces_[chunk], wanted.tets[i] % TetChunk::kTets));
+  }
   return out;
 }
 

@@ -8,9 +8,10 @@
 #include <span>
 #include <vector>
 
+#include "engine/connect/connect_mesh.h"
 #include "engine/connect/connect_options.h"
 #include "engine/connect/star.h"
-#include "engine/connect/star_batch.h"
+#include "engine/connect/star_range.h"
 #include "engine/connect/tet_chunk.h"
 #include "engine/system/in_order.h"
 #include "io/file/scratch/external_sort.h"
@@ -19,10 +20,10 @@
 namespace mw::engine {
 
 // Tets are taken in by chunks.  Tets of a chunk that are joined by faces, except split ones, form a
-// piece, and only pieces stay in memory.  The star of each vertex then comes out of a sort: its
-// faces unite pieces, and a star that is no ball or half ball may be a hinge, or a place where
-// vertices are doubled.  These pinched stars wait until all parts are known, since parts that are
-// left out make no hinges.
+// piece, and only pieces stay in memory.  The vertices are then looked at in ranges of rows, for
+// which a sort brings together the numbers of tets: shared faces unite pieces, and a star that is
+// no ball or half ball may be a hinge, or a place where vertices are doubled.  These pinched stars
+// wait until all parts are known, since parts that are left out make no hinges.
 
 /// A corner of a tet whose vertex is replaced by a copy.
 struct CopiedCorner {
@@ -32,20 +33,18 @@ struct CopiedCorner {
 };
 
 /// Finds parts and hinges, and counts facets that open where the options ask for some.
-/// Memory: `memory_bytes` twice, 0.3 MiB, and 40 bytes a piece.  Disk: 192 bytes a tet in `folder`
-/// during find().  ENSURES: what is found depends on the mesh alone.  Cost: 2 us a tet, most of it
-/// on several threads.
+/// Memory: `memory_bytes` for sorts, `work_bytes` for what threads look at, 0.3 MiB, and 40 bytes a
+/// piece.  Disk: 4 bytes a tet in `folder`, and some 24 more during find().
+/// ENSURES: what is found depends on the mesh alone.  Cost: 0.4 us a tet, most of it on several
+/// threads.
 class PartFinder {
  public:
-  PartFinder(ConnectOptions options, std::filesystem::path folder, std::size_t memory_bytes,
-             int threads);
+  /// The mesh outlives this.
+  PartFinder(io::ScratchMesh& mesh, const ConnectTask& task);
 
-  /// Takes a mesh in.  Must be called once, before find(); between(), which may throw, is called
-  /// often.
-  void add(io::ScratchMesh& mesh, const std::function<void()>& between);
-  /// Must be called once.
+  /// Must be called once; between(), which may throw, is called often.
   /// ERRORS: mw::Error(kUsage) when no part has as many tets as the options ask for.
-  void find();
+  void find(const std::function<void()>& between);
 
   // REQUIRES (all that follow): find() was called.
   /// Returns what was found, with rows of vertices but not yet their places.
@@ -70,8 +69,17 @@ class PartFinder {
   };
   using Tree = std::uint32_t Piece::*;
 
-  void take(const TetChunk& chunk);
-  [[nodiscard]] std::optional<std::vector<StarRecord>> next_stars();
+  /// The tets that have a vertex of a range of rows, ascending.
+  struct RangeTets {
+    std::uint64_t range = 0;
+    std::vector<std::uint64_t> tets;
+  };
+
+  void take_tets(const std::function<void()>& between);
+  void take(TetChunk chunk);
+  void look_at_ranges(const std::function<void()>& between);
+  [[nodiscard]] std::optional<RangeTets> next_range();
+  [[nodiscard]] StarRange load(const RangeTets& wanted);
   void take(const StarFindings& found);
   void count_stiff_labels();
   void choose_parts();
@@ -88,16 +96,17 @@ class PartFinder {
   [[nodiscard]] std::uint32_t root(Tree tree, std::uint32_t piece);
   void unite(Tree tree, std::uint32_t one, std::uint32_t other);
 
-  ConnectOptions options_;
+  io::ScratchMesh& mesh_;
+  const ConnectOptions& options_;
   SplitRule split_;         ///< all interfaces that come apart
   std::vector<bool> met_;   ///< by pair of split_: true if a face is between its labels
   std::vector<bool> seen_;  ///< by pair of options_.watched: likewise
-  std::filesystem::path folder_;
-  WorkInOrder work_;                         ///< how chunks and stars are worked on
+  WorkInOrder chunk_work_;
+  WorkInOrder range_work_;
   std::vector<std::uint32_t> first_pieces_;  ///< the first piece of each chunk
   std::vector<Piece> pieces_;
-  io::ExternalSort<6> corners_;
-  std::optional<StarRecord> ahead_;  ///< the corner behind the stars that were taken last
+  io::ExternalSort<2> ranges_;                         ///< range of rows, tet
+  std::optional<std::array<std::uint64_t, 2>> ahead_;  ///< behind the range that was taken last
   io::ExternalSort<6> pinched_;
   io::ExternalSort<2> insides_;  ///< label; 1 for a vertex inside, 0 for a tet
   io::ExternalSort<3> copied_;   ///< tet, row, copy
@@ -105,7 +114,7 @@ class PartFinder {
   /// its vertices that both of its tets keep.
   io::ExternalSort<4> held_;
   io::ScratchFile copies_;
-  io::ScratchFile tet_pieces_;  ///< the piece of each tet; only where parts are left out
+  io::ScratchFile tet_pieces_;  ///< the piece of each tet
   std::uint64_t loaded_chunk_ = ~std::uint64_t{0};
   std::vector<std::uint32_t> loaded_;  ///< pieces of that chunk's tets
   std::uint32_t largest_ = 0;          ///< the root of the largest part

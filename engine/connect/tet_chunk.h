@@ -13,20 +13,22 @@
 
 namespace mw::engine {
 
-/// A vertex, the three others of a tet, the place of the tet (place_of()), and its label.
-using StarRecord = std::array<std::uint64_t, 6>;
+/// How many vertices are looked at together, with all of their tets.
+inline constexpr std::uint64_t kRowsARange = 1024;
+/// The number of a range of rows, and a tet that has one of them.
+using RangeTet = std::array<std::uint64_t, 2>;
 
 struct TetChunk {
   static constexpr std::size_t kTets = 1024;
   /// The most memory that one takes, while it is made, too.
-  static constexpr std::size_t kBytes = std::size_t{3} << 17U;
+  static constexpr std::size_t kBytes = std::size_t{3} << 16U;
 
   std::vector<io::TetRows> tets;
   std::vector<RawLabel> labels;
   /// By tet; tets that are joined by faces which do not come apart are a piece.  Pieces are
   /// numbered by their first tets.
   std::vector<std::uint32_t> pieces;
-  std::vector<StarRecord> corners;   ///< those of all tets
+  std::vector<RangeTet> ranges;      ///< those of each tet
   std::vector<RawLabel> labels_met;  ///< those of all tets, ascending, each once
 };
 
@@ -36,7 +38,7 @@ struct TetChunk {
   return chunk << 32 | piece << 16 | tet;
 }
 
-/// Fills a chunk, whose number is given, that has tets and labels.
-void look_at_chunk(std::uint64_t number, const SplitRule& split, TetChunk& chunk);
+/// Fills a chunk that has tets, whose first one has this number, and labels.
+void look_at_chunk(std::uint64_t first, const SplitRule& split, TetChunk& chunk);
 
 }  // namespace mw::engine

@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <functional>
+#include <span>
 #include <utility>
 
 #include "kernels/core/vector3.h"
@@ -17,22 +19,26 @@ struct VertexLabels {
   std::uint32_t first = 0;  ///< one more than the dense label of the first tet; 0: none came yet
   std::uint32_t meet = 0;   ///< 1 if another label came
 };
-using Meetings = io::PagedArray<VertexLabels>;
 
-Meetings meetings_of(io::ScratchMesh& mesh, const io::LabelTable& table) {
-  Meetings out(mesh.folder(), mesh.vertex_count());
+/// Writes for each vertex 1 if tets of different labels have it, else 0.
+void write_meetings(io::ScratchMesh& mesh, const io::LabelTable& table, io::ScratchFile& out) {
+  io::PagedArray<VertexLabels> at_vertex(mesh.folder(), mesh.vertex_count());
   mesh.each_tet_batch([&](const io::TetBatch& batch) {
     for (std::size_t t = 0; t < batch.tets.size(); ++t) {
       const std::uint32_t label = 1 + table.dense(batch.labels[t]);
       for (const std::uint64_t row : batch.tets[t]) {
-        out.change(row, [label](VertexLabels& vertex) {
+        at_vertex.change(row, [label](VertexLabels& vertex) {
           if (vertex.first == 0) vertex.first = label;
           if (vertex.first != label) vertex.meet = 1;
         });
       }
     }
   });
-  return out;
+  for (std::uint64_t row = 0; row < at_vertex.size(); ++row) {
+    const std::byte meet{static_cast<unsigned char>(at_vertex.get(row).meet)};
+    out.append(std::span(&meet, 1));
+  }
+  out.flush();
 }
 
 /// Takes tets one by one.
@@ -54,6 +60,11 @@ class EdgeMeter {
       }
     }
   }
+  void add(const EdgeMeter& other) {
+    std::transform(out_.longest.begin(), out_.longest.end(), other.out_.longest.begin(),
+                   out_.longest.begin(), [](double a, double b) { return std::max(a, b); });
+    out_.ratios.add(other.out_.ratios);
+  }
   [[nodiscard]] EdgeFigures& figures() { return out_; }
 
  private:
@@ -69,18 +80,33 @@ void EdgeRatios::add(double ratio, bool is_at_interface) {
   if (is_at_interface) ++at_interfaces[static_cast<std::size_t>(bound)];
 }
 
-EdgeFigures measure_edges(io::ScratchMesh& mesh, const EdgesTask& task,
-                          const std::function<void()>& between) {
-  Meetings meetings = meetings_of(mesh, task.table);
+void EdgeRatios::add(const EdgeRatios& other) {
+  const auto add = [](const auto& from, auto& to) {
+    std::transform(to.begin(), to.end(), from.begin(), to.begin(), std::plus<>());
+  };
+  add(other.counts, counts);
+  add(other.at_interfaces, at_interfaces);
+}
+
+EdgeFigures measure_edges(io::ScratchMesh& mesh, const EdgesTask& task, const TetWork& work) {
+  io::ScratchFile meetings(mesh.folder());
+  write_meetings(mesh, task.table, meetings);
   EdgeMeter meter(task);
-  mesh.each_tet_batch([&](const io::TetBatch& batch) {
-    between();
-    for (std::size_t t = 0; t < batch.tets.size(); ++t) {
-      std::array<bool, 4> meet{};
-      for (std::size_t i = 0; i < 4; ++i) meet[i] = meetings.get(batch.tets[t][i]).meet != 0;
-      meter.add(mesh.corners(batch.tets[t]), task.table.dense(batch.labels[t]), meet);
-    }
-  });
+  each_tet_range<EdgeMeter>(
+      mesh, work,
+      [&](const TetRange& range, io::CornerReader& corners) {
+        EdgeMeter of_range(task);
+        io::RecordPages<std::byte, 16> pages;
+        for (std::size_t t = 0; t < range.tets.size(); ++t) {
+          std::array<bool, 4> meet{};
+          for (std::size_t i = 0; i < 4; ++i) {
+            meet[i] = pages.at(meetings, range.tets[t][i]) != std::byte{0};
+          }
+          of_range.add(corners.corners(range.tets[t]), task.table.dense(range.labels[t]), meet);
+        }
+        return of_range;
+      },
+      [&](EdgeMeter&& of_range) { meter.add(of_range); });
   return std::move(meter.figures());
 }
 

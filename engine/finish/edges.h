@@ -5,9 +5,9 @@
 
 #include <array>
 #include <cstdint>
-#include <functional>
 #include <vector>
 
+#include "engine/finish/tet_ranges.h"
 #include "io/labels/label_table.h"
 #include "io/mesh/scratch_mesh.h"
 
@@ -23,6 +23,7 @@ struct EdgeRatios {
 
   /// A ratio that equals a bound counts below that bound.
   void add(double ratio, bool is_at_interface);
+  void add(const EdgeRatios& other);
 };
 
 struct EdgesTask {
@@ -35,11 +36,11 @@ struct EdgeFigures {
   EdgeRatios ratios;
 };
 
-/// Measures the edges of all tets.  Calls between(), which may throw, often.
-/// Memory: bytes_of_edges(), and 8 bytes a label.  Disk: 8 bytes a vertex.
-/// ERRORS: those of ScratchMesh.
-[[nodiscard]] EdgeFigures measure_edges(
-    io::ScratchMesh& mesh, const EdgesTask& task, const std::function<void()>& between = [] {});
+/// Measures the edges of all tets.
+/// Memory: bytes_of_edges() before the work on ranges, and 8 bytes a label for each of these.
+/// Disk: 9 bytes a vertex.  ERRORS: those of ScratchMesh.
+[[nodiscard]] EdgeFigures measure_edges(io::ScratchMesh& mesh, const EdgesTask& task,
+                                        const TetWork& work = {});
 
 /// Returns the most bytes that measure_edges() holds beside the mesh, except for those of labels.
 [[nodiscard]] std::uint64_t bytes_of_edges();

@@ -6,18 +6,21 @@
 
 namespace mw::engine {
 
-MeshFigures measure(io::ScratchMesh& mesh, const FiguresTask& task,
-                    const std::function<void()>& between) {
+MeshFigures measure(io::ScratchMesh& mesh, const FiguresTask& task, const TetWork& work) {
   MeshFigures out;
   audit::QualityMeter quality;
-  mesh.each_tet_batch([&](const io::TetBatch& batch) {
-    between();
-    for (std::size_t t = 0; t < batch.tets.size(); ++t) {
-      quality.add(batch.first + t, mesh.corners(batch.tets[t]));
-    }
-  });
+  each_tet_range<audit::QualityMeter>(
+      mesh, work,
+      [](const TetRange& range, io::CornerReader& corners) {
+        audit::QualityMeter of_range;
+        for (std::size_t t = 0; t < range.tets.size(); ++t) {
+          of_range.add(range.first + t, corners.corners(range.tets[t]));
+        }
+        return of_range;
+      },
+      [&](audit::QualityMeter&& of_range) { quality.add(of_range); });
   out.quality = quality.report();
-  if (task.has_shape) out.shape = interface_shape(mesh, task.sort_bytes, between);
+  if (task.has_shape) out.shape = interface_shape(mesh, task.sort_bytes, work.between);
   out.has_shape = task.has_shape;
   return out;
 }

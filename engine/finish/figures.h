@@ -5,8 +5,8 @@
 
 #include <cstddef>
 #include <cstdint>
-#include <functional>
 
+#include "engine/finish/tet_ranges.h"
 #include "io/mesh/scratch_mesh.h"
 #include "kernels/audit/shape/quality.h"
 #include "kernels/audit/shape/shape.h"
@@ -24,12 +24,12 @@ struct MeshFigures {
   bool has_shape = false;
 };
 
-/// Measures a mesh.  Calls between(), which may throw, often.
+/// Measures a mesh.
 /// Memory: bytes_to_measure().  ERRORS: those of ScratchMesh.
-[[nodiscard]] MeshFigures measure(
-    io::ScratchMesh& mesh, const FiguresTask& task, const std::function<void()>& between = [] {});
+[[nodiscard]] MeshFigures measure(io::ScratchMesh& mesh, const FiguresTask& task,
+                                  const TetWork& work = {});
 
-/// Returns the most bytes that measure() holds beside the mesh.
+/// Returns the most bytes that measure() holds beside the mesh and the work on ranges.
 [[nodiscard]] std::uint64_t bytes_to_measure(const FiguresTask& task);
 
 }  // namespace mw::engine

@@ -5,6 +5,7 @@
 
 #include <array>
 #include <cmath>
+#include <utility>
 
 namespace mw::engine {
 namespace {
@@ -27,18 +28,27 @@ Int128 tet_volume6(const std::array<io::Position, 4>& corners, const VolumesTask
 
 }  // namespace
 
-LabelAmounts label_amounts(io::ScratchMesh& mesh, const VolumesTask& task,
-                           const std::function<void()>& between) {
+LabelAmounts label_amounts(io::ScratchMesh& mesh, const VolumesTask& task, const TetWork& work) {
   LabelAmounts out{std::vector<Int128>(task.table.size()),
                    std::vector<std::uint64_t>(task.table.size())};
-  mesh.each_tet_batch([&](const io::TetBatch& batch) {
-    between();
-    for (std::size_t t = 0; t < batch.tets.size(); ++t) {
-      const Label label = task.table.dense(batch.labels[t]);
-      out.volumes6[label] += tet_volume6(mesh.corners(batch.tets[t]), task);
-      ++out.tets[label];
-    }
-  });
+  using TetVolumes = std::vector<std::pair<Label, Int128>>;
+  each_tet_range<TetVolumes>(
+      mesh, work,
+      [&](const TetRange& range, io::CornerReader& corners) {
+        TetVolumes of_range;
+        of_range.reserve(range.tets.size());
+        for (std::size_t t = 0; t < range.tets.size(); ++t) {
+          of_range.emplace_back(task.table.dense(range.labels[t]),
+                                tet_volume6(corners.corners(range.tets[t]), task));
+        }
+        return of_range;
+      },
+      [&](TetVolumes&& of_range) {
+        for (const auto& [label, volume6] : of_range) {
+          out.volumes6[label] += volume6;
+          ++out.tets[label];
+        }
+      });
   return out;
 }
 

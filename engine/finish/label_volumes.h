@@ -4,9 +4,9 @@
 #pragma once
 
 #include <cstdint>
-#include <functional>
 #include <vector>
 
+#include "engine/finish/tet_ranges.h"
 #include "io/labels/label_table.h"
 #include "io/mesh/scratch_mesh.h"
 #include "io/volume/volume_space.h"
@@ -29,9 +29,8 @@ struct LabelAmounts {
 };
 
 /// Corners of tets count as the nearest points of the lattice, where those of the marches lie.
-/// Calls between(), which may throw, often.
-/// Memory: 24 bytes a label.  ERRORS: those of ScratchMesh.
-[[nodiscard]] LabelAmounts label_amounts(
-    io::ScratchMesh& mesh, const VolumesTask& task, const std::function<void()>& between = [] {});
+/// Memory: 24 bytes a label, and the work on ranges.  ERRORS: those of ScratchMesh.
+[[nodiscard]] LabelAmounts label_amounts(io::ScratchMesh& mesh, const VolumesTask& task,
+                                         const TetWork& work = {});
 
 }  // namespace mw::engine

@@ -11,6 +11,16 @@
 namespace mw::engine {
 namespace {
 
+/// Returns how passes look at tets, in the memory that parts have for the same.
+TetWork tet_work(const FinishTask& task) {
+  return {.how = TetWork::within(task.connect.work_bytes, task.connect.threads),
+          .between = task.between};
+}
+
+std::uint64_t bytes_of_ranges(const FinishTask& task) {
+  return TetWork::kRangeBytes * tet_work(task).how.at_once;
+}
+
 /// A row here and a field of FinishTask make a pass.  The order is the order of work.
 constexpr std::array kPasses{
     Pass{.name = "labels left out",
@@ -54,24 +64,27 @@ constexpr std::array kPasses{
              }},
     Pass{.name = "edges",
          .is_asked = [](const FinishTask& task) { return task.edges.has_value(); },
-         .bytes = [](const FinishTask&) { return bytes_of_edges(); },
+         .bytes = [](const FinishTask& task) { return bytes_of_edges() + bytes_of_ranges(task); },
          .apply =
              [](io::ScratchMesh& mesh, const FinishTask& task, FinishFacts& facts) {
-               facts.edges = measure_edges(mesh, *task.edges, task.between);
+               facts.edges = measure_edges(mesh, *task.edges, tet_work(task));
              }},
     Pass{.name = "volumes",
          .is_asked = [](const FinishTask& task) { return task.volumes.has_value(); },
-         .bytes = [](const FinishTask&) { return std::uint64_t{0}; },
+         .bytes = bytes_of_ranges,
          .apply =
              [](io::ScratchMesh& mesh, const FinishTask& task, FinishFacts& facts) {
-               facts.amounts = label_amounts(mesh, *task.volumes, task.between);
+               facts.amounts = label_amounts(mesh, *task.volumes, tet_work(task));
              }},
     Pass{.name = "figures",
          .is_asked = [](const FinishTask& task) { return task.figures.has_value(); },
-         .bytes = [](const FinishTask& task) { return bytes_to_measure(*task.figures); },
+         .bytes =
+             [](const FinishTask& task) {
+               return bytes_to_measure(*task.figures) + bytes_of_ranges(task);
+             },
          .apply =
              [](io::ScratchMesh& mesh, const FinishTask& task, FinishFacts& facts) {
-               facts.figures = measure(mesh, *task.figures, task.between);
+               facts.figures = measure(mesh, *task.figures, tet_work(task));
              }},
     Pass{.name = "values left out",
          .is_asked = [](const FinishTask& task) { return task.leaves_values_out; },

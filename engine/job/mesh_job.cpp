@@ -494,9 +494,11 @@ std::vector<LabelPair> sized_interfaces(const MeshJob& job, const io::LabelTable
 
 FinishTask looking_task(const MeshJob& job, const report::FinishedRun& run) {
   const std::size_t sort_bytes = ConnectTask::memory_of(job.run.store.memory);
+  const int threads = thread_count(job.run.threads);
   FinishTask out{.connect = {.options = {.watched = sized_interfaces(job, run.labels)},
                              .memory_bytes = sort_bytes,
-                             .threads = thread_count(job.run.threads)},
+                             .work_bytes = ConnectTask::work_of(job.run.store.memory, threads),
+                             .threads = threads},
                  .finds_parts = job.finds_parts,
                  .between = job.stop};
   if (run.sizes.rules.any()) {

@@ -85,7 +85,7 @@ void add_resource_options(OptionSet& options, int& threads, std::optional<std::u
                .assign = into(memory, parse_bytes)});
   options.add({.name = "threads",
                .value = "N",
-               .help = "worker threads; 0: all cores",
+               .help = "worker threads; 0: one for each core it may use",
                .group = kRunGroup,
                .kind = ValueKind::kInteger,
                .fallback = "0",

@@ -8,13 +8,15 @@
 #include <pthread.h>
 #include <tbb/blocked_range.h>
 #include <tbb/blocked_range3d.h>
+#include <tbb/info.h>
 #include <tbb/parallel_for.h>
 #include <tbb/partitioner.h>
 #include <tbb/task_arena.h>
 
 #include <algorithm>
-#include <thread>
+#include <fstream>
 
+#include "engine/system/control_groups.h"
 #include "io/remote/wait_stop.h"
 
 namespace mw::engine {
@@ -30,7 +32,9 @@ constexpr std::size_t kShortestRange = 1024;
 
 int thread_count(int threads) {
   if (threads > 0) return threads;
-  return std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
+  std::ifstream groups("/proc/self/cgroup");
+  const int own = tbb::info::default_concurrency();  // as many as the affinity mask has
+  return std::max(1, std::min(own, cgroup_cores("/sys/fs/cgroup", groups).value_or(own)));
 }
 
 /// A thread that takes part in the arena's work until this is destroyed.  Its waits for servers end

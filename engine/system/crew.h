@@ -16,7 +16,8 @@
 
 namespace mw::engine {
 
-/// Returns the number of threads that `threads` asks for: itself, or the number of cores for 0.
+/// Returns the number of threads that `threads` asks for: itself, or for 0 as many as there are
+/// cores that this process may use, by its affinity mask and its control groups.
 [[nodiscard]] int thread_count(int threads);
 
 /// The caller's thread and helpers in an arena of oneTBB.  This class starts the helpers itself,

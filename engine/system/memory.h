@@ -4,7 +4,6 @@
 #pragma once
 
 #include <cstdint>
-#include <filesystem>
 #include <istream>
 #include <optional>
 #include <string_view>
@@ -18,12 +17,6 @@ namespace mw::engine {
 /// Returns the budget when none is given: half of the memory that is available, or of the control
 /// group's limit if that is less.  It may differ from run to run; no result depends on it.
 [[nodiscard]] std::uint64_t default_memory_budget();
-
-/// Returns the least limit of the control groups that a process is in, of version 2 or 1; the
-/// largest number if there is none.  `own_groups` is like /proc/self/cgroup, `root` like
-/// /sys/fs/cgroup.
-[[nodiscard]] std::uint64_t cgroup_limit(const std::filesystem::path& root,
-                                         std::istream& own_groups);
 
 /// Returns the bytes of the process that are in memory; 0 where the kernel does not tell.
 [[nodiscard]] std::uint64_t resident_bytes();

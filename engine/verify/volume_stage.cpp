@@ -28,6 +28,12 @@ struct TileDistances {
   std::vector<audit::LabelDistances> rows;
 };
 
+/// What samples of a tile find that look farther, and how far they looked at most.
+struct Farther {
+  TileDistances distances;
+  double reach = 0;
+};
+
 struct VoxelFindings {
   audit::PartsPiece parts;
   std::vector<audit::SharedRun> shared;
@@ -326,39 +332,53 @@ class VolumeStage {
 
   /// Lets samples that found nothing of their label look farther, if there is something at all.
   void conclude_distances() {
+    const std::vector<bool> is_found = found_labels();
     double reach = std::numeric_limits<double>::infinity();
-    for (std::size_t i = 0; i < far_.size(); ++i) {
-      reach = std::min(reach, look_farther(far_[i], far_distances_[i]));
-      add(far_distances_[i]);
-      task_.between();
-    }
+    each_in_order<Farther>(
+        {task_.threads}, far_.size(),
+        [&](std::size_t i) {
+          return look_farther(far_[i], std::move(far_distances_[i]), is_found);
+        },
+        [&](std::size_t, Farther&& farther) {
+          reach = std::min(reach, farther.reach);
+          add(farther.distances);
+          task_.between();
+        });
     found_.distance = audit::conclude_distances(rows_, limit_, reach);
   }
 
-  [[nodiscard]] bool waits(const TileDistances& distances) const {
+  /// Returns by label whether volume and mesh have it.
+  [[nodiscard]] std::vector<bool> found_labels() const {
+    std::vector<bool> out(rows_.size());
+    for (std::size_t i = 0; i < out.size(); ++i) out[i] = rows_[i].in_volume && rows_[i].in_mesh;
+    return out;
+  }
+
+  [[nodiscard]] static bool waits(const TileDistances& distances,
+                                  const std::vector<bool>& is_found) {
     for (std::size_t i = 0; i < distances.rows.size(); ++i) {
-      const audit::LabelDistances& whole = rows_[distances.labels[i]];
       const audit::LabelDistances& row = distances.rows[i];
-      const bool is_found = whole.in_volume && whole.in_mesh;
-      if (is_found && row.to_input.far + row.to_mesh.far > 0) return true;
+      if (is_found[distances.labels[i]] && row.to_input.far + row.to_mesh.far > 0) return true;
     }
     return false;
   }
 
-  /// Returns how far it has looked: as far as memory lets it.
-  double look_farther(std::uint32_t tile, TileDistances& distances) const {
+  /// Looks as far as memory lets it.
+  [[nodiscard]] Farther look_farther(std::uint32_t tile, TileDistances&& distances,
+                                     const std::vector<bool>& is_found) const {
     constexpr double kStep = 4;
     constexpr std::uint64_t kBytesAVoxel = 32;
     const Box3 box = grid_.box(tile);
-    double reach = first_reach();
-    while (waits(distances)) {
-      const Box3 farther = around(box, kStep * reach + pieces_->radius());
+    Farther out{std::move(distances), first_reach()};
+    while (waits(out.distances, is_found)) {
+      const Box3 farther = around(box, kStep * out.reach + pieces_->radius());
       const auto voxels = static_cast<std::uint64_t>(farther.voxels() * layers_.product());
-      if (voxels > task_.memory_bytes / kBytesAVoxel) return reach;
-      reach *= kStep;
-      distances = measure(box, reach, load(farther));
+      if (voxels > task_.memory_bytes / kBytesAVoxel) return out;
+      out.reach *= kStep;
+      out.distances = measure(box, out.reach, load(farther));
     }
-    return std::numeric_limits<double>::infinity();
+    out.reach = std::numeric_limits<double>::infinity();
+    return out;
   }
 
   const io::DenseVolume& volume_;

@@ -31,6 +31,19 @@ void add_faces(ScratchMesh& mesh, const TetBatch& batch, std::size_t at, FaceRec
   }
 }
 
+/// ERRORS: mw::Error(kInput) for a row without a vertex.
+template <class At>
+std::array<Position, 4> places_of(const TetRows& tet, std::uint64_t vertices, At at) {
+  std::array<Position, 4> out{};
+  for (std::size_t i = 0; i < tet.size(); ++i) {
+    if (tet[i] >= vertices) {
+      throw Error(ErrorKind::kInput, text("a tet names vertex ", tet[i], " of ", vertices));
+    }
+    out[i] = at(tet[i]);
+  }
+  return out;
+}
+
 FacetSide side_of(const FaceRecords::Record& face) {
   return {.tet = face[3] >> 3,
           .label = face[4],
@@ -44,14 +57,7 @@ ScratchMesh::ScratchMesh(const std::filesystem::path& folder)
     : folder_(folder), positions_(folder), tets_(folder), labels_(folder), values_(folder) {}
 
 std::array<Position, 4> ScratchMesh::corners(const TetRows& tet) {
-  std::array<Position, 4> out{};
-  for (std::size_t i = 0; i < tet.size(); ++i) {
-    if (tet[i] >= vertex_count()) {
-      throw Error(ErrorKind::kInput, text("a tet names vertex ", tet[i], " of ", vertex_count()));
-    }
-    out[i] = vertex(tet[i]);
-  }
-  return out;
+  return places_of(tet, vertex_count(), [this](std::uint64_t row) { return vertex(row); });
 }
 
 ScratchFile& ScratchMesh::facets(std::size_t sort_bytes, const std::function<void()>& between) {
@@ -123,6 +129,7 @@ void ScratchMesh::drop_values() {
 }
 
 void ScratchMesh::settle() {
+  positions_.file().flush();
   tets_.flush();
   labels_.flush();
 }
@@ -147,6 +154,11 @@ void ScratchMesh::each_tet_batch(const std::function<void(const TetBatch&)>& vis
     values_.read_at(first * width * sizeof(double), std::as_writable_bytes(std::span(values)));
     visit({first, tets, labels, values});
   }
+}
+
+std::array<Position, 4> CornerReader::corners(const TetRows& tet) {
+  return places_of(tet, file_.size() / sizeof(Position),
+                   [this](std::uint64_t row) { return pages_.at(file_, row); });
 }
 
 void MeshSink::take(ScratchMesh& mesh, const std::function<void()>& between) {

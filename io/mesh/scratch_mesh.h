@@ -45,7 +45,7 @@ struct MeshFacet {
 /// Memory: kBufferBytes; with facets 256 KiB more, and 16 bytes for each vertex that was doubled.
 /// Disk: 24 bytes a vertex, 40 a tet, and 8 for each of its values.  Facets take 80 bytes each,
 /// and 160 a tet while they are made.
-/// ERRORS (all members): see ScratchFile.  Thread safety: see read_tets(); else none.
+/// ERRORS (all members): see ScratchFile.  Thread safety: see settle(); else none.
 class ScratchMesh {
  public:
   static constexpr std::size_t kBatchTets = 4096;
@@ -91,7 +91,8 @@ class ScratchMesh {
   void each_vertex_batch(Visit visit) {
     positions_.each_batch(visit);
   }
-  /// Puts all rows into the files, so that several threads may read tets at once.
+  /// Puts all rows into the files.  Until rows are added, several threads may call read_tets() at
+  /// once, and look at vertices through a CornerReader each.
   void settle();
   /// Fills both lists, which are of one length, from this tet on.  REQUIRES: they are there.
   void read_tets(std::uint64_t first, std::span<TetRows> tets, std::span<RawLabel> labels);
@@ -104,6 +105,8 @@ class ScratchMesh {
   }
 
  private:
+  friend class CornerReader;
+
   std::filesystem::path folder_;
   MeshHeader header_;
   PagedFile<Position, 256> positions_;
@@ -112,6 +115,23 @@ class ScratchMesh {
   ScratchFile values_;
   std::optional<DoubledVertices> doubles_;
   std::optional<ScratchFile> facets_;
+};
+
+/// Looks up places of corners.  Several threads may have one each.
+/// REQUIRES: a settled mesh, which outlives it.  Memory: kBytes.  ERRORS: see
+/// ScratchMesh::corners().
+class CornerReader {
+ public:
+  static constexpr std::size_t kPages = 64;
+  static constexpr std::uint64_t kBytes = kPages * (4096 + 64);
+
+  explicit CornerReader(ScratchMesh& mesh) : file_(mesh.positions_.file()) {}
+
+  [[nodiscard]] std::array<Position, 4> corners(const TetRows& tet);
+
+ private:
+  ScratchFile& file_;
+  RecordPages<Position, kPages> pages_;
 };
 
 /// Fills a mesh.  REQUIRES: the mesh is empty, and outlives it.

@@ -95,52 +95,72 @@ class ScratchFile {
   std::uint64_t flushed_ = 0;
 };
 
-/// Records are appended, and looked up through a cache of pages, which is fast where neighbours are
-/// asked for together.  Memory: 4 KiB for each of the pages, once they are used.
-/// ERRORS: see ScratchFile.
-template <typename Record, std::size_t kPages = 2048>
-class PagedFile {
+/// Pages of a file of records that were read last.
+/// Memory: 4 KiB for each of the pages, once they are used.  ERRORS: see ScratchFile.
+/// Thread safety: none, but several may read one file, if nothing of it waits to be written.
+template <typename Record, std::size_t kPages>
+class RecordPages {
   static_assert(std::is_trivially_copyable_v<Record>);
 
  public:
-  /// REQUIRES: an existing folder.
-  explicit PagedFile(const std::filesystem::path& folder)
-      : file_(folder), pages_(kPages), held_(kPages, kNone) {}
+  RecordPages() : pages_(kPages), held_(kPages, kNone) {}
 
-  void append(const Record& record) {
-    // The page that the record goes to changes, so that the cache must read it again.
-    const std::uint64_t page = size() / kPageRecords;
-    if (held_[page % kPages] == page) held_[page % kPages] = kNone;
-    file_.append(std::as_bytes(std::span(&record, 1)));
-  }
-  [[nodiscard]] std::uint64_t size() const { return file_.size() / sizeof(Record); }
-  /// Calls visit(std::span<const Record>) on all records in their order, some thousands at once.
-  template <class Visit>
-  void each_batch(Visit visit) {
-    file_.template each_batch<Record>(visit);
-  }
-  /// REQUIRES: at < size().
-  [[nodiscard]] Record operator[](std::uint64_t at) {
-    const std::uint64_t page = at / kPageRecords;
+  /// REQUIRES: the file, always the same one, has a record of this number.
+  [[nodiscard]] const Record& at(ScratchFile& file, std::uint64_t number) {
+    const std::uint64_t page = number / kPageRecords;
     const std::size_t slot = page % kPages;
-    if (held_[slot] != page) load(page, slot);
-    return pages_[slot][at % kPageRecords];
+    if (held_[slot] != page) load(file, page, slot);
+    return pages_[slot][number % kPageRecords];
+  }
+  /// Must be called where the record changes, or comes to be.
+  void forget(std::uint64_t number) {
+    const std::uint64_t page = number / kPageRecords;
+    if (held_[page % kPages] == page) held_[page % kPages] = kNone;
   }
 
  private:
   static constexpr std::size_t kPageRecords = 4096 / sizeof(Record);
   static constexpr std::uint64_t kNone = ~std::uint64_t{0};
 
-  void load(std::uint64_t page, std::size_t slot) {
+  void load(ScratchFile& file, std::uint64_t page, std::size_t slot) {
     const std::uint64_t first = page * kPageRecords;
-    pages_[slot].resize(std::min<std::uint64_t>(kPageRecords, size() - first));
-    file_.read_at(first * sizeof(Record), std::as_writable_bytes(std::span(pages_[slot])));
+    const std::uint64_t size = file.size() / sizeof(Record);
+    pages_[slot].resize(std::min<std::uint64_t>(kPageRecords, size - first));
+    file.read_at(first * sizeof(Record), std::as_writable_bytes(std::span(pages_[slot])));
     held_[slot] = page;
   }
 
-  ScratchFile file_;
   std::vector<std::vector<Record>> pages_;
   std::vector<std::uint64_t> held_;  ///< the page in each slot
+};
+
+/// Records are appended, and looked up through a cache of pages, which is fast where neighbours are
+/// asked for together.  Memory: 4 KiB for each of the pages, once they are used.
+/// ERRORS: see ScratchFile.
+template <typename Record, std::size_t kPages = 2048>
+class PagedFile {
+ public:
+  /// REQUIRES: an existing folder.
+  explicit PagedFile(const std::filesystem::path& folder) : file_(folder) {}
+
+  void append(const Record& record) {
+    pages_.forget(size());
+    file_.append(std::as_bytes(std::span(&record, 1)));
+  }
+  [[nodiscard]] std::uint64_t size() const { return file_.size() / sizeof(Record); }
+  /// Returns the file, for several threads to read once it is flushed.
+  [[nodiscard]] ScratchFile& file() { return file_; }
+  /// Calls visit(std::span<const Record>) on all records in their order, some thousands at once.
+  template <class Visit>
+  void each_batch(Visit visit) {
+    file_.template each_batch<Record>(visit);
+  }
+  /// REQUIRES: at < size().
+  [[nodiscard]] Record operator[](std::uint64_t at) { return pages_.at(file_, at); }
+
+ private:
+  ScratchFile file_;
+  RecordPages<Record, kPages> pages_;
 };
 
 /// Records whose bytes are all zero at first.  Access is fast where neighbours are asked for

@@ -57,7 +57,7 @@ inline Connected connect(const io::MeshData& mesh, const ConnectOptions& options
   io::ScratchMesh stored(folder.path());
   io::ScratchMeshSink into(stored);
   io::write_mesh(mesh, into);
-  Connected out{.mesh = {}, .facts = engine::connect(stored, {options, memory, threads})};
+  Connected out{.mesh = {}, .facts = engine::connect(stored, {options, memory, memory, threads})};
   io::MeshDataSink back;
   stored.copy_to(back);
   out.mesh = std::move(back.mesh());

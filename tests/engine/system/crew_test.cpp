@@ -3,19 +3,21 @@
 // A crew's helpers take part in what is run, also after a pause; loops visit every index once, and
 // kernels give the same bytes through them.
 #include <oneapi/tbb/blocked_range.h>
-
 #include <oneapi/tbb/parallel_for.h>
 #include <oneapi/tbb/task_arena.h>
+#include <sched.h>
 #include <tbb/global_control.h>
 #include <tbb/task_arena.h>
 
 #include <atomic>
 #include <chrono>
 #include <condition_variable>
+#include <cstdlib>
 #include <mutex>
 #include <stdexcept>
 #include <thread>
 
+#include "engine/system/control_groups.h"
 #include "engine/system/crew.h"
 #include "engine/system/memory.h"
 #include "kernels/simplify/simplify.h"
@@ -53,9 +55,27 @@ bool all_meet(Crew& crew) {
   return !late;
 }
 
-TEST(Crew, NoThreadsMeansAllCores) {
-  EXPECT_EQ(thread_count(0), static_cast<int>(std::max(1U, std::thread::hardware_concurrency())));
+TEST(Crew, NoThreadsMeansTheCoresThatThisProcessMayUse) {
   EXPECT_EQ(thread_count(5), 5);
+  cpu_set_t all;
+  ASSERT_EQ(::sched_getaffinity(0, sizeof all, &all), 0);
+  EXPECT_GE(thread_count(0), 1);
+  EXPECT_LE(thread_count(0), CPU_COUNT(&all));
+}
+
+/// oneTBB looks at the mask of a process once, so another process is asked, which begins with one
+/// core.
+TEST(Crew, AProcessBoundToOneCoreTakesOneThread) {
+  GTEST_FLAG_SET(death_test_style, "threadsafe");
+  cpu_set_t all, one;
+  ASSERT_EQ(::sched_getaffinity(0, sizeof all, &all), 0);
+  CPU_ZERO(&one);
+  for (int core = 0; CPU_COUNT(&one) == 0; ++core) {
+    if (CPU_ISSET(core, &all)) CPU_SET(core, &one);
+  }
+  ASSERT_EQ(::sched_setaffinity(0, sizeof one, &one), 0);
+  EXPECT_EXIT(std::exit(thread_count(0)), ::testing::ExitedWithCode(1), "");
+  ASSERT_EQ(::sched_setaffinity(0, sizeof all, &all), 0);
 }
 
 TEST(Crew, IsAsManyThreadsAsWereAskedFor) {
@@ -114,6 +134,35 @@ TEST(MachineMemory, TakesTheLeastLimitOfNestedGroups) {
   std::filesystem::create_directories(folder.path() / "memory" / "a");
   std::ofstream(folder.path() / "memory" / "a" / "memory.limit_in_bytes") << "2000\n";
   EXPECT_EQ(found("4:memory:/a/b\n0::/user\n"), 2000U);
+}
+
+TEST(MachineCores, AreTheLeastOfNestedGroups) {
+  const test::TempFolder folder;
+  const auto put = [&](const std::string& group, const std::string& file, const std::string& text) {
+    std::filesystem::create_directories(folder.path() / group);
+    std::ofstream(folder.path() / group / file) << text;
+  };
+  const auto found = [&](const std::string& groups) {
+    std::istringstream in(groups);
+    return cgroup_cores(folder.path(), in);
+  };
+  EXPECT_EQ(found("0::/user/job\n"), std::nullopt);
+  put("user", "cpu.max", "400000 100000\n");
+  put("user/job", "cpu.max", "max 100000\n");
+  EXPECT_EQ(found("0::/user/job\n"), 4);
+  put("user/job", "cpu.max", "150000 100000\n");
+  EXPECT_EQ(found("1:name=systemd:/x\n0::/user/job\n"), 2);
+  EXPECT_EQ(found("0::/user\n"), 4);
+  put("user/job/small", "cpu.max", "1000 100000\n");
+  EXPECT_EQ(found("0::/user/job/small\n"), 1);
+  put("cpu/a", "cpu.cfs_quota_us", "300000\n");
+  put("cpu/a", "cpu.cfs_period_us", "100000\n");
+  put("cpu/b", "cpu.cfs_quota_us", "-1\n");
+  put("cpu/b", "cpu.cfs_period_us", "100000\n");
+  EXPECT_EQ(found("4:cpu,cpuacct:/a/b\n"), 3);
+  EXPECT_EQ(found("4:cpuacct,cpu:/a\n"), 3);
+  EXPECT_EQ(found("4:cpuset:/a\n"), std::nullopt);
+  EXPECT_EQ(found("4:cpu:/b\n"), std::nullopt);
 }
 
 TEST(MachineMemory, IsAtMostHalfOfTheMachine) {

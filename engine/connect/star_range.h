@@ -1,8 +1,9 @@
 // SPDX-FileCopyrightText: The mwmesh authors
 // SPDX-License-Identifier: Apache-2.0
-// Stars of vertices that follow one another, looked at without the others.
+// Stars of vertices whose rows follow one another, looked at without the others.
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <functional>
@@ -15,11 +16,26 @@
 
 namespace mw::engine {
 
+/// A vertex, the three others of a tet, the place of the tet (place_of()), and its label.
+using StarRecord = std::array<std::uint64_t, 6>;
+
 /// What stars are looked at by; everything outlives the rules.
 struct StarRules {
   const SplitRule& split;
-  const std::vector<LabelPair>& watched;             ///< ConnectOptions::watched
-  const std::vector<std::uint32_t>& first_pieces{};  ///< the first piece of each chunk
+  const std::vector<LabelPair>& watched;  ///< ConnectOptions::watched
+};
+
+/// All tets that have a vertex of a range.
+struct StarRange {
+  /// What one takes while it is looked at, in a mesh whose vertices have some 24 tets each and
+  /// whose rows are near each other where vertices are.
+  static constexpr std::size_t kBytes = std::size_t{1} << 21U;
+
+  std::uint64_t first_row = 0;
+  std::vector<io::TetRows> tets;
+  std::vector<RawLabel> labels;
+  std::vector<std::uint32_t> pieces;  ///< by tet: its piece, of those of the whole mesh
+  std::vector<std::uint64_t> places;  ///< by tet: see place_of()
 };
 
 /// Two pieces of the mesh that have a face in common.
@@ -27,24 +43,19 @@ struct PieceJoint {
   std::uint32_t one = 0;
   std::uint32_t other = 0;
   bool is_cut = false;  ///< whether the mesh comes apart at the face
+
+  friend auto operator<=>(const PieceJoint&, const PieceJoint&) = default;
 };
 
 struct StarFindings {
-  /// The most memory that those of kStarRecords take, with the records.
-  static constexpr std::size_t kBytes = std::size_t{3} << 17U;
-
-  std::vector<PieceJoint> joints;
+  std::vector<PieceJoint> joints;    ///< ascending, each once
   std::vector<RawLabel> insides;     ///< labels of vertices inside one, ascending, each once
   std::vector<StarRecord> pinched;   ///< stars that are no ball or half ball
-  std::vector<std::size_t> watched;  ///< pairs of labels that were met, by number
+  std::vector<std::size_t> watched;  ///< pairs of labels that were met, by number, ascending
 };
 
-/// How many corners are looked at at once, or as many as one star has.
-inline constexpr std::size_t kStarRecords = 2048;
-
-/// REQUIRES: whole stars, whose records are sorted.
-[[nodiscard]] StarFindings look_at_stars(std::span<const StarRecord> records,
-                                         const StarRules& rules);
+/// Looks at the stars of the vertices of a range.  Cost: linear.
+[[nodiscard]] StarFindings look_at_stars(const StarRange& range, const StarRules& rules);
 
 /// Calls visit on each star of whole ones whose records are sorted.
 void each_star(std::span<const StarRecord> records,
