@@ -32,10 +32,7 @@ int halvings_of(const io::VolumeInfo& volume, const MeshJob& job, double in_imag
   const double least = std::min(listed, in_image);
   int times = 0;
   while (times < io::kMostHalvings && std::ldexp(least, times) < kept) ++times;
-  const bool is_alone = job.run.processes == nullptr || job.run.processes->count() == 1;
-  if (times == 0 || is_alone) return times;
-  io::fail_usage("size ", least, ": sizes below ", told_size(kept),
-                 " are for one process only, run mwmesh without mpirun");
+  return times;
 }
 
 MeshSettings before_halvings(MeshSettings settings, int times) {

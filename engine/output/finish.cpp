@@ -95,7 +95,7 @@ class Writer {
  private:
   std::vector<std::uint64_t> write_vertices(Index3 where, const BlockMesh& block,
                                             const std::vector<io::Position>& positions) {
-    remembered_.rows(Remembered::kBytesPerRow * (rows_.remembered() + block.vertices.size()));
+    remembered_.grow(Remembered::kBytesPerRow * (rows_.remembered() + block.vertices.size()));
     const std::uint64_t first_new = rows_.count();
     std::vector<std::uint64_t> rows = rows_.assign(where, block.vertices);
     std::vector<io::Position> added;

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The mwmesh authors
 // SPDX-License-Identifier: Apache-2.0
-// Sums up the memory that the parts of the merge hold.
+// The memory that the merge holds.
 #pragma once
 
 #include <algorithm>
@@ -21,31 +21,18 @@ class Remembered {
 
   explicit Remembered(HoldMemory hold) : hold_(std::move(hold)) {}
 
-  /// Each of these is called before its part of what is held grows to `bytes`: rows of vertices.
-  void rows(std::uint64_t bytes) {
-    rows_ = bytes;
-    tell();
-  }
-  /// The lists that several processes send one another.
-  void shared(std::uint64_t bytes) {
-    shared_ = bytes;
-    tell();
+  /// To be called before what is held grows to `bytes`.
+  void grow(std::uint64_t bytes) {
+    if (!hold_ || bytes <= held_) return;
+    held_ = bytes + std::min(bytes / 8 + kMinStepBytes, kMaxStepBytes);
+    hold_(held_);
   }
 
  private:
   static constexpr std::uint64_t kMinStepBytes = 1 << 16;
   static constexpr std::uint64_t kMaxStepBytes = 1 << 20;
 
-  void tell() {
-    const std::uint64_t sum = rows_ + shared_;
-    if (!hold_ || sum <= held_) return;
-    held_ = sum + std::min(sum / 8 + kMinStepBytes, kMaxStepBytes);
-    hold_(held_);
-  }
-
   HoldMemory hold_;
-  std::uint64_t rows_ = 0;
-  std::uint64_t shared_ = 0;
   std::uint64_t held_ = 0;
 };
 

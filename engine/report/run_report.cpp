@@ -158,8 +158,6 @@ Json engine_json(const FinishedRun& run) {
            {"bytes_read", store.bytes_read}};
   for (const engine::ProcessFacts& rank : run.engine.processes)
     out["ranks"].push_back(rank_json(rank));
-  if (!run.engine.processes.empty())
-    out["written_by"] = run.engine.written_together ? "all" : "first";
   if (run.engine.keep) out["remesh"] = keep_json(*run.engine.keep);
   if (run.engine.workers) out["codt"] = codt_json(run.engine);
   return out;

@@ -59,7 +59,7 @@ std::uint64_t Marches::most_to_come(const WindowOrder& order, BlockStore& store,
   });
   // Final blocks are a part of what windows begin with, and what is stored takes a little, too.
   constexpr std::uint64_t kPartWritten = 8, kStored = 1U << 20U;
-  return std::max(most, run_.output_buffer_bytes() + most / kPartWritten) + kStored;
+  return std::max(most, run_.sink.buffer_bytes() + most / kPartWritten) + kStored;
 }
 
 AdmitWindow Marches::admission(const WindowOrder& order, BlockStore& store,

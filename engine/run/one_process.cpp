@@ -36,11 +36,6 @@ class WholeRun : public RunPart {
   }
   [[nodiscard]] VisitStats end_marches(const VisitStats& own) override { return own; }
   [[nodiscard]] bool await_output() override { return true; }
-  [[nodiscard]] bool writes_with_others() const override { return false; }
-  [[nodiscard]] FinishedMesh write(const FinalMesh& mesh, io::MeshSink& sink,
-                                   const OutputOptions& options) override {
-    return finish(mesh, sink, options);
-  }
   void finish_keep(WindowKeep& keep) override { keep.finish(); }
   [[nodiscard]] std::shared_ptr<Workdir> keep_for_rest(RunStore& store) override {
     try {

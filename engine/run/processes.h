@@ -15,7 +15,6 @@
 #include "engine/labels/label_counts.h"
 #include "engine/labels/label_need.h"
 #include "engine/march/arrival_front.h"
-#include "engine/output/finish.h"
 #include "engine/store/journal/run_folder.h"
 #include "engine/store/memory_budget.h"
 #include "engine/store/run_store.h"
@@ -77,12 +76,8 @@ class RunPart {
   /// To be called once all own windows are done.  Returns the sum of the visits of all processes.
   [[nodiscard]] virtual VisitStats end_marches(const VisitStats& own) = 0;
 
-  /// True if this process writes the mesh or a part of it; its final blocks are in the store then.
+  /// True if this process writes the mesh; all final blocks are in the store then.
   [[nodiscard]] virtual bool await_output() = 0;
-  /// True if other processes write parts of it, too.
-  [[nodiscard]] virtual bool writes_with_others() const = 0;
-  [[nodiscard]] virtual FinishedMesh write(const FinalMesh& mesh, io::MeshSink& sink,
-                                           const OutputOptions& options) = 0;
   /// To be called once the mesh is complete, where something is kept: the process that speaks has
   /// what all have kept.
   virtual void finish_keep(WindowKeep& keep) = 0;

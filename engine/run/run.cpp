@@ -143,13 +143,13 @@ OutputRoom reserve_output(RunContext& run, const BlockStore& blocks, const Windo
   for_each_index(grid.blocks(),
                  [&](Index3 b) { largest = std::max(largest, blocks.loaded_bytes(b)); });
   const std::uint64_t each = std::max<std::uint64_t>(written_block_bytes(largest), 1);
-  const int threads = run.report.written_together ? 1 : run.hooks.threads;
+  const int threads = run.hooks.threads;
   OutputRoom out{.work = {.threads = threads}};
   const std::uint64_t others = std::min<std::uint64_t>(run.budget.limit() / 8 / each,
                                                        threads > 1 ? out.work.at_once - 1 : 0);
   out.work.at_once = 1 + static_cast<std::size_t>(others);
   out.reserved =
-      run.store.reserve(Purpose::kOutput, run.output_buffer_bytes() + out.work.at_once * each,
+      run.store.reserve(Purpose::kOutput, run.sink.buffer_bytes() + out.work.at_once * each,
                         run.hooks.store.buffers_grow);
   return out;
 }
@@ -168,7 +168,6 @@ void report_mesh(RunContext& run, const FinishedMesh& finished, const LabelCount
 
 /// Writes what the last march left.
 void write(RunContext& run, const LabelCounts& labels, RunForecast& forecast) {
-  run.report.written_together = run.part->writes_with_others();
   if (!run.part->await_output()) return;
   Stopwatch watch;
   const std::uint32_t last = run.layout.marches() - 1;
@@ -185,8 +184,7 @@ void write(RunContext& run, const LabelCounts& labels, RunForecast& forecast) {
   };
   forecast.begin_output();
   FinishedBlocks blocks(stored, run, forecast);
-  const FinishedMesh finished =
-      run.part->write({blocks, grid, run.lattice.volume()}, run.sink, options);
+  const FinishedMesh finished = finish({blocks, grid, run.lattice.volume()}, run.sink, options);
   watch.lap(run.report.output_seconds);
   report_mesh(run, finished, labels);
 }

@@ -18,7 +18,6 @@
 #include "engine/window/window_visitor.h"
 #include "io/labels/label_table.h"
 #include "io/mesh/mesh_sink.h"
-#include "io/mesh/shared_mesh.h"
 
 namespace mw::engine {
 
@@ -52,7 +51,6 @@ struct RunReport : VisitStats {
   std::optional<KeepFacts> keep;           ///< where something is kept
   std::shared_ptr<Workdir> work;           ///< for StoreOptions::stays; null if none is kept
   std::vector<ProcessFacts> processes;     ///< empty if there is only one
-  bool written_together = false;           ///< whether all processes wrote the mesh
   std::optional<codt::PoolFacts> workers;  ///< with Optimizer::kTetgen
 };
 
@@ -97,11 +95,6 @@ struct RunHooks {
   /// mesh_volume() with the same volume and settings; only the one that speaks uses its sink, and
   /// the others return when its output is complete.  Store options and threads are each one's own.
   Processes* processes = nullptr;
-  /// With several processes, the file that all of them write the mesh into, instead of the sink.
-  /// The process that speaks decides: if this is null there, its sink is used, else the others
-  /// write into the files that they have.  REQUIRES: the process that speaks has created the file,
-  /// and nothing of the output is measured.
-  io::SharedMesh* together = nullptr;
   /// Optional, with several processes, on the one that speaks.  A thread of its own often asks it
   /// whether to save and end the run, which then throws StoppedAfterSave.
   std::function<bool()> stop_after_save;

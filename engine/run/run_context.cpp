@@ -83,7 +83,7 @@ struct KnownStages {
       : buffers(run.lattice.labels().raw().buffer_bytes(1)),
         reading(buffers +
                 preparation_bytes(run.settings, run.lattice.labels().raw().scores() != nullptr)),
-        writing(run.output_buffer_bytes()) {}
+        writing(run.sink.buffer_bytes()) {}
 
   std::uint64_t buffers;
   std::uint64_t reading;
@@ -227,10 +227,5 @@ RunContext::RunContext(const io::DenseVolume& volume, const MeshSettings& wanted
       store(layout, budget, part->work_files(), hooks.store.group, part->router(), keep.get()),
       attached(part->attach(store)),
       report(begun_report(*this)) {}
-
-std::uint64_t RunContext::output_buffer_bytes() const {
-  const std::uint64_t together = hooks.together == nullptr ? 0 : hooks.together->buffer_bytes();
-  return std::max(sink.buffer_bytes(), together);
-}
 
 }  // namespace mw::engine

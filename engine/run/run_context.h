@@ -33,8 +33,6 @@ struct RunContext {
   RunContext(const io::DenseVolume& volume, const MeshSettings& settings, io::MeshSink& sink,
              const RunHooks& asked);
 
-  [[nodiscard]] std::uint64_t output_buffer_bytes() const;
-
   const MeshSettings& settings;
   io::MeshSink& sink;
   VoxelLattice lattice;

@@ -75,19 +75,6 @@ std::vector<std::vector<std::byte>> Team::gather(std::vector<std::byte> mine, Ch
   return out;
 }
 
-std::vector<std::vector<std::byte>> Team::trade(std::vector<std::vector<std::byte>> mine,
-                                                Channel channel) {
-  MW_ASSERT(mine.size() == static_cast<std::size_t>(ranks()));
-  const auto me = static_cast<std::size_t>(rank());
-  const Gathering gathering = next_gathering(channel);
-  for (std::size_t to = 0; to < mine.size(); ++to) {
-    if (to != me) say(static_cast<int>(to), gathering, shared(std::move(mine[to])));
-  }
-  auto out = hear(gathering);
-  out[me] = std::move(mine[me]);
-  return out;
-}
-
 std::vector<std::string> Team::gather(const std::string& mine) {
   std::vector<std::string> out;
   for (const auto& said : gather(text_bytes(mine))) out.push_back(text_of(said));

@@ -100,10 +100,6 @@ class Team {
   /// often.  ERRORS: that of the rank that failed, which may be this one.
   [[nodiscard]] std::vector<std::vector<std::byte>> gather(std::vector<std::byte> mine,
                                                            Channel channel = Channel::kRun);
-  /// Sends mine[r] to each rank r, and returns what every rank sent to this one, by rank.  Counts
-  /// as a call of gather().  REQUIRES: mine.size() == ranks().  ERRORS: those of gather().
-  [[nodiscard]] std::vector<std::vector<std::byte>> trade(std::vector<std::vector<std::byte>> mine,
-                                                          Channel channel = Channel::kRun);
   /// Gathers texts.
   [[nodiscard]] std::vector<std::string> gather(const std::string& mine);
 

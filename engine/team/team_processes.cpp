@@ -3,7 +3,6 @@
 #include "engine/team/team_processes.h"
 
 #include "engine/run/run_context.h"
-#include "engine/team/output/team_output.h"
 #include "engine/team/saved/saved_run.h"
 #include "engine/team/team_run.h"
 #include "io/file/errors.h"
@@ -59,14 +58,8 @@ LabelPlan TeamPart::plan_labels(const io::DenseVolume& volume, const MeshSetting
 }
 
 void TeamPart::begin_marches(RunStore& store) {
-  if (join_output(team_, hooks_.together)) {
-    traffic_.deal(std::move(partition_), FinalBlocksGo::kToOwners);
-    const std::uint32_t last = layout_.marches() - 1;
-    own_lines_.emplace(layout_.grid(last).blocks(), traffic_.line_owners(),
-                       static_cast<std::uint32_t>(team_.rank()));
-  } else {
-    traffic_.deal(std::move(partition_), FinalBlocksGo::kToFirst);
-  }
+  traffic_.deal(std::move(partition_));
+  wait_for_all(team_);  // all have reserved the room of their labels
   if (!work_) return;
   epochs_.emplace(team_, traffic_, store,
                   Epochs::Options{.every = hooks_.store.group.age,
@@ -115,15 +108,9 @@ VisitStats TeamPart::end_marches(const VisitStats& own) {
 }
 
 bool TeamPart::await_output() {
-  if (!team_.is_first() && !own_lines_) return false;
+  if (!team_.is_first()) return false;
   traffic_.wait_for_output();
   return true;
-}
-
-FinishedMesh TeamPart::write(const FinalMesh& mesh, io::MeshSink& sink,
-                             const OutputOptions& options) {
-  if (!own_lines_) return finish(mesh, sink, options);
-  return finish_together(mesh, {team_, *own_lines_, *hooks_.together}, options);
 }
 
 std::vector<ProcessFacts> TeamPart::end(const ProcessFacts& own) {

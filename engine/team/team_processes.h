@@ -34,17 +34,14 @@ class TeamPart : public RunPart {
   /// reads its part.
   [[nodiscard]] LabelPlan plan_labels(const io::DenseVolume& volume, const MeshSettings& settings,
                                       const RunHooks& hooks, RunStore& store) override;
-  /// Settles who writes the mesh, takes up what an earlier run left, and starts epochs.  Every rank
-  /// has reserved the room that its labels take, so blocks may come in.
+  /// Takes up what an earlier run left, and starts epochs.  Every rank has reserved the room that
+  /// its labels take, so blocks may come in.
   void begin_marches(RunStore& store) override;
   [[nodiscard]] bool visits(const WindowKey& key) const override { return traffic_.is_mine(key); }
   [[nodiscard]] std::optional<PartialMarch> part_of_march(std::uint32_t march) override;
   [[nodiscard]] VisitStats end_marches(const VisitStats& own) override;
 
   [[nodiscard]] bool await_output() override;
-  [[nodiscard]] bool writes_with_others() const override { return own_lines_.has_value(); }
-  [[nodiscard]] FinishedMesh write(const FinalMesh& mesh, io::MeshSink& sink,
-                                   const OutputOptions& options) override;
   /// Rank 0 takes over the folders of all.
   void finish_keep(WindowKeep& keep) override;
   /// Returns null: epochs are over by then, so nothing more can be saved.
@@ -65,7 +62,6 @@ class TeamPart : public RunPart {
   const RunLayout& layout_;
   const RunHooks& hooks_;
   Partition partition_;
-  std::optional<LineShare> own_lines_;  ///< what this rank writes; nothing if rank 0 writes alone
   BlockTraffic traffic_;
   std::optional<TeamWork> work_;
   std::optional<Epochs> epochs_;

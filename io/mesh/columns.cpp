@@ -8,7 +8,7 @@
 
 namespace mw::io {
 
-MeshColumns::MeshColumns(PlacedOutput& output, const ColumnPlaces& places, Element element,
+MeshColumns::MeshColumns(AtomicFile& output, const ColumnPlaces& places, Element element,
                          const MeshHeader& header)
     : element_(element),
       connectivity_(output, places.connectivity),
@@ -16,23 +16,12 @@ MeshColumns::MeshColumns(PlacedOutput& output, const ColumnPlaces& places, Eleme
       types_(output, places.types),
       labels_(output, places.labels),
       points_(output, places.points) {
+  offsets_.add(0);  // also where there are no cells
   for (const std::uint64_t place : places.values) values_.emplace_back(output, place);
   if (header.wedges.count > 0) cohesive_.emplace(output, places.cohesive);
   for (std::size_t i = 0; i < places.masks.size(); ++i) {
     masks_.push_back({header.record.masks[i], {output, places.masks[i]}});
   }
-}
-
-void MeshColumns::go_to(const RowPlace& place) {
-  place_ = place;
-  points_.go_to(3 * place.vertex);
-  connectivity_.go_to(node_count(element_) * place.tet);
-  types_.go_to(place.tet);
-  labels_.go_to(place.tet);
-  for (auto& column : values_) column.go_to(place.tet);
-  for (MaskColumn& mask : masks_) mask.cells.go_to(place.tet);
-  offsets_.go_to(place.tet == 0 ? 0 : place.tet + 1);
-  if (place.tet == 0) offsets_.add(0);
 }
 
 void MeshColumns::write_vertices(std::span<const Position> positions) {
@@ -84,11 +73,10 @@ void MeshColumns::flush() {
   points_.flush();
 }
 
-void ColumnSink::place_columns(const MeshHeader& header, PlacedOutput& output,
+void ColumnSink::place_columns(const MeshHeader& header, AtomicFile& output,
                                const ColumnPlaces& places) {
   header_ = header;
   columns_ = MeshColumns(output, places, element_, header);
-  columns_.go_to({0, 0});
 }
 
 void ColumnSink::write_vertices(std::span<const Position> positions) {

@@ -9,10 +9,9 @@
 #include <span>
 #include <vector>
 
-#include "io/file/sink/partial_file.h"
+#include "io/file/sink/atomic_file.h"
 #include "io/mesh/element.h"
 #include "io/mesh/grouped/grouped_mesh.h"
-#include "io/mesh/shared_mesh.h"
 
 namespace mw::io {
 
@@ -24,7 +23,7 @@ class FileColumn {
   FileColumn() = default;
   /// From address on, the bytes that will be added are reserved, or are the next to be reserved.
   /// REQUIRES: output outlives the column.
-  FileColumn(PlacedOutput& output, std::uint64_t address) : output_(&output), address_(address) {
+  FileColumn(AtomicFile& output, std::uint64_t address) : output_(&output), address_(address) {
     buffer_.reserve(kBuffered);
   }
   [[nodiscard]] std::uint64_t address() const { return address_; }
@@ -32,12 +31,6 @@ class FileColumn {
   void add(T value) {
     buffer_.push_back(value);
     if (buffer_.size() == kBuffered) flush();
-  }
-  /// Makes the next number added have this place in the column; others write those in between.
-  void go_to(std::uint64_t number) {
-    if (number == written_ + buffer_.size()) return;
-    flush();
-    written_ = number;
   }
   void flush() {
     if (buffer_.empty()) return;
@@ -50,7 +43,7 @@ class FileColumn {
   static_assert(std::endian::native == std::endian::little, "numbers are written as they are");
   static constexpr std::size_t kBuffered = std::size_t{1} << 16;
 
-  PlacedOutput* output_ = nullptr;
+  AtomicFile* output_ = nullptr;
   std::uint64_t address_ = 0;
   std::uint64_t written_ = 0;  ///< numbers before those that are buffered
   std::vector<T> buffer_;
@@ -68,18 +61,21 @@ struct ColumnPlaces {
   std::vector<std::uint64_t> masks{};   ///< one for each of MeshRecord::masks
 };
 
-/// Writes the rows of a mesh from any row on.  Cost: 3 MiB of buffers, half a MiB for each column
+/// How many rows are written.
+struct RowPlace {
+  std::uint64_t vertex = 0;
+  std::uint64_t tet = 0;
+};
+
+/// Writes the rows of a mesh.  Cost: 3 MiB of buffers, half a MiB for each column
 /// of values, and 64 KiB for each mask.  ERRORS: those of the output.
 class MeshColumns {
  public:
   MeshColumns() = default;
   /// REQUIRES: output outlives it.
-  MeshColumns(PlacedOutput& output, const ColumnPlaces& places, Element element,
+  MeshColumns(AtomicFile& output, const ColumnPlaces& places, Element element,
               const MeshHeader& header);
 
-  /// Makes the next rows go to this place.  To be called before the first rows, too.  A call for
-  /// tet 0 writes the first offset, which a file has even without tets.
-  void go_to(const RowPlace& place);
   void write_vertices(std::span<const Position> positions);
   /// Writes a tet; rows are those of its node_count(element) nodes.
   void write_cell(std::span<const std::uint64_t> rows, RawLabel label);
@@ -92,7 +88,6 @@ class MeshColumns {
   void write_values(std::span<const double> rows);
   void flush();
 
-  /// Returns where the next rows go.
   [[nodiscard]] const RowPlace& place() const { return place_; }
   [[nodiscard]] std::uint64_t wedges() const { return wedges_; }
 
@@ -137,7 +132,7 @@ class ColumnSink : public MeshSink {
   [[nodiscard]] Element element() const { return element_; }
   [[nodiscard]] const MeshHeader& header() const { return header_; }
   /// Makes rows go into these columns.
-  void place_columns(const MeshHeader& header, PlacedOutput& output, const ColumnPlaces& places);
+  void place_columns(const MeshHeader& header, AtomicFile& output, const ColumnPlaces& places);
   /// Writes what is buffered; returns how many rows there were.  ERRORS: see check_sink_counts().
   [[nodiscard]] RowPlace finish_columns(std::string_view file);
 

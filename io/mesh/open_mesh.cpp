@@ -425,9 +425,4 @@ std::unique_ptr<MeshSink> open_mesh_pieces(const std::filesystem::path& path,
   return std::make_unique<FileSink>(FileSink::File{path, Element::kTet4, {}, open});
 }
 
-std::unique_ptr<SharedMesh> open_shared_mesh(const std::filesystem::path& path, Element element) {
-  if (path.extension() != ".vtkhdf" || element != Element::kTet4) return nullptr;
-  return std::make_unique<VtkhdfShared>(path);
-}
-
 }  // namespace mw::io

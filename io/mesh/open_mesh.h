@@ -10,7 +10,6 @@
 #include "io/mesh/element.h"
 #include "io/mesh/mesh_data.h"
 #include "io/mesh/mesh_extras.h"
-#include "io/mesh/shared_mesh.h"
 
 namespace mw::io {
 
@@ -69,10 +68,5 @@ inline constexpr const char* kPiecesExtension = ".pvtu";
 /// ERRORS: mw::Error(kUsage) for another extension or no pieces, or a path that cannot be written.
 [[nodiscard]] std::unique_ptr<MeshSink> open_mesh_pieces(const std::filesystem::path& path,
                                                          std::uint64_t pieces);
-
-/// Opens a mesh that several processes write together, a .vtkhdf of kTet4.  Returns null for
-/// others, which only one process can write.  No file is touched before create() or join().
-[[nodiscard]] std::unique_ptr<SharedMesh> open_shared_mesh(const std::filesystem::path& path,
-                                                           Element element = Element::kTet4);
 
 }  // namespace mw::io

@@ -107,67 +107,44 @@ class SharedRuns(unittest.TestCase):
                 self.expect_same(ranks, expected, "--order", order, "--threads", str(2 * ranks),
                                  "--certify", "off")
 
-    def test_all_ranks_write_a_vtkhdf_together(self):
-        self.synth("voronoi", "40,48,56", 20)
-        for order in ("raster", "colour"):
-            options = ["--order", order, "--window", "8"]
-            expected = self.alone(*options)
-            for ranks in (2, 3, 4):
-                done = self.run_shared(ranks, *options, "--certify", "off")
-                self.assertEqual(done.returncode, 0, done.stderr)
-                self.assertIn(f"written by  all {ranks} processes", done.stdout)
-                self.assertEqual(digest(self.folder / "shared.vtkhdf"), expected)
+    def test_passes_and_formats_are_those_of_one_process(self):
+        self.synth("spheres", "24,24,40", 6)
+        for output, options in (
+                ("m.vtkhdf", ["--order", "raster"]),
+                ("m.vtkhdf", ["--element", "tet10-curved"]),
+                ("m.vtkhdf", ["--size", "1.3"]),
+                ("m.vtkhdf", ["--sample", f"x={self.volume}:mean"]),
+                ("m.vtu", ["--background", "0", "--parts", "3", "--split", "*"]),
+                ("m.inp", ["--background", "0", "--cohesive", "*"]),
+                ("m.msh", ["--element", "tet10", "--open-hinges"])):
+            with self.subTest(output=output, options=options):
+                options = ["--window", "8", "--certify", "off", *options]
+                made = []
+                for command in ([PROGRAM], mpirun(3)):
+                    path = self.folder / output
+                    done = subprocess.run([*command, "mesh", self.volume, "-o", path, *options],
+                                          capture_output=True, text=True, timeout=LIMIT,
+                                          env=environment())
+                    self.assertEqual(done.returncode, 0, done.stderr)
+                    made.append(digest(path))
+                    path.unlink()
+                self.assertEqual(made[0], made[1])
 
-    def test_values_of_images_are_those_of_one_process(self):
-        self.synth("voronoi", "40,48,56", 20)
-        options = ["--window", "8", "--sample", f"x={self.volume}:mean"]
-        done = self.run_shared(3, *options, "--certify", "off")
-        self.assertEqual(done.returncode, 0, done.stderr)
-        self.assertIn("written by  rank 0: it samples the images", done.stdout)
-        self.assertEqual(digest(self.folder / "shared.vtkhdf"), self.alone(*options))
-
-    def test_what_all_write_together_is_reported_like_the_mesh_of_one(self):
+    def test_the_report_is_that_of_one_process(self):
         self.synth("voronoi", "40,48,56", 20)
         options = ["--window", "8", "--size", "3=4"]
         one, all_of_them = self.folder / "one.json", self.folder / "all.json"
         self.alone(*options, "--report", one)
-        done = self.run_shared(3, *options, "--report", all_of_them)
-        self.assertEqual(done.returncode, 0, done.stderr)
-        alone, shared = json.loads(one.read_text()), json.loads(all_of_them.read_text())
-        self.assertEqual(shared["engine"]["written_by"], "all")
-        for part in ("input", "lattice", "parts", "quality", "shape", "size"):
-            self.assertEqual(shared[part], alone[part], part)
-        self.assertIn("longest_edge", json.dumps(shared["shape"]["per_label"]))
-        self.assertIsNone(shared["digest"])
-        self.assertIn("--certify on", shared["certificate"]["why"])
-
-    def test_rank_0_writes_what_has_to_pass_by_as_a_whole(self):
-        self.synth("spheres", "24,24,40", 4)
-        report = self.folder / "r.json"
-        options = ["--window", "8", "--report", report]
-        expected = self.alone(*options)
-        of_one = json.loads(report.read_text())
-        for more, why in ((["--certify", "on"], "it makes the certificate"),
-                          (["--html", self.folder / "page.html"], "it draws the page")):
-            done = self.run_shared(2, *options, *more)
+        alone = json.loads(one.read_text())
+        for more in ([], ["--html", self.folder / "page.html"], ["--certify", "on"]):
+            done = self.run_shared(3, *options, "--report", all_of_them, *more)
             self.assertEqual(done.returncode, 0, done.stderr)
-            self.assertRegex(done.stdout, f"written by  rank 0: .*{why}")
-            self.assertEqual(digest(self.folder / "shared.vtkhdf"), expected)
-            of_all = json.loads(report.read_text())
-            self.assertEqual(of_all["engine"]["written_by"], "first")
-            for part in ("quality", "size", "digest"):
-                self.assertEqual(of_all[part], of_one[part], part)
-
-    def test_parts_and_splits_are_those_of_one_process(self):
-        self.synth("spheres", "24,24,40", 6)
-        options = ["--window", "8", "--background", "0", "--parts", "3"]
-        for interfaces in ("--split", "--cohesive"):
-            expected = self.alone(*options, interfaces, "*")
-            done = self.run_shared(3, *options, interfaces, "*")
-            self.assertEqual(done.returncode, 0, done.stderr)
-            self.assertRegex(done.stdout,
-                             "written by  rank 0: it leaves parts out, or doubles vertices")
-            self.assertEqual(digest(self.folder / "shared.vtkhdf"), expected)
+            shared = json.loads(all_of_them.read_text())
+            for part in ("input", "lattice", "parts", "quality", "shape", "size", "digest"):
+                self.assertEqual(shared[part], alone[part], part)
+        self.assertTrue((self.folder / "page.html").exists())
+        self.assertIn("longest_edge", json.dumps(alone["shape"]["per_label"]))
+        self.assertTrue(shared["certificate"])
 
     def limit_files(self, run, rank, size):
         """From now on that rank of a run cannot write beyond `size` bytes of any file."""
@@ -181,19 +158,18 @@ class SharedRuns(unittest.TestCase):
         self.assertEqual(len(victims), 1)
         resource.prlimit(victims[0], resource.RLIMIT_FSIZE, (size, resource.RLIM_INFINITY))
 
-    def test_a_rank_that_cannot_write_ends_all_and_leaves_nothing(self):
+    def test_the_rank_that_writes_ends_all_when_it_cannot_and_leaves_nothing(self):
         self.synth("voronoi", "64,64,80", 40)
-        for rank in (0, 2):
-            run = subprocess.Popen(self.command(3, "--window", "8", "--order", "colour",
-                                                "--certify", "off", "--save-every", "1000"),
-                                   stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True,
-                                   env=environment())
-            self.limit_files(run, rank, 100_000)
-            _, err = run.communicate(timeout=LIMIT)
-            self.assertEqual(run.returncode, 4, err)
-            self.assertRegex(err, "shared.vtkhdf.*File too large")
-            self.assertEqual(err.count("mwmesh: error:"), 1, err)
-            self.assertEqual([f.name for f in self.folder.iterdir()], ["v.npy"])
+        run = subprocess.Popen(self.command(3, "--window", "8", "--order", "colour",
+                                            "--certify", "off", "--save-every", "1000"),
+                               stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True,
+                               env=environment())
+        self.limit_files(run, 0, 100_000)
+        _, err = run.communicate(timeout=LIMIT)
+        self.assertEqual(run.returncode, 4, err)
+        self.assertIn("File too large", err)
+        self.assertEqual(err.count("mwmesh: error:"), 1, err)
+        self.assertEqual([f.name for f in self.folder.iterdir()], ["v.npy"])
 
     def test_under_a_tight_budget_and_with_epochs(self):
         self.synth("spheres", "64,64,96", 8)
@@ -231,12 +207,6 @@ class SharedRuns(unittest.TestCase):
         self.assertEqual(done.returncode, 3, done.stderr)
         self.assertEqual(done.stderr.count("mwmesh: error:"), 1, done.stderr)
         self.assertFalse((self.folder / "shared.vtkhdf").exists())
-
-    def test_tets_are_not_cut_by_several(self):
-        self.synth("voronoi", "16,16,16", 3)
-        done = self.run_shared(2, "--size", "1.3")
-        self.assertEqual(done.returncode, 2, done.stderr)
-        self.assertIn("size 1.3: sizes below 1.39 are for one process only", done.stderr)
 
     def test_only_mesh_is_shared(self):
         done = subprocess.run(mpirun(2, "info", self.volume), capture_output=True, text=True,

@@ -9,7 +9,6 @@
 
 #include "engine/run/run.h"
 #include "engine/team/team_processes.h"
-#include "io/mesh/open_mesh.h"
 #include "tests/engine/memory_run.h"
 #include "tests/engine/store/work_folder.h"
 #include "tests/engine/team/crowd.h"
@@ -192,7 +191,6 @@ struct Attempt {
   int ranks = 1;
   int threads = 1;
   std::uint64_t fails_after = 0;  ///< visits of all ranks; 0: does not
-  bool together = false;          ///< all ranks write the mesh
 };
 
 class SharedResumeTest : public test::FolderTest {
@@ -205,10 +203,7 @@ class SharedResumeTest : public test::FolderTest {
               [&](Team& team) {
                 TeamProcesses processes(team);
                 test::MemorySink sink;
-                const auto shared = io::open_shared_mesh(folder() / "m.vtkhdf");
-                if (how.together && team.is_first()) shared->create();
                 RunHooks hooks{.threads = how.threads, .processes = &processes};
-                if (how.together || !team.is_first()) hooks.together = shared.get();
                 hooks.store.workdir = folder() / "work";
                 hooks.store.resume = true;
                 hooks.store.group.age = std::chrono::milliseconds(5);
@@ -219,8 +214,7 @@ class SharedResumeTest : public test::FolderTest {
                   const RunReport report = run_into(sink, trial, hooks);
                   if (!team.is_first()) return;
                   resumed_ += report.store.resumed_windows;
-                  EXPECT_EQ(report.written_together, how.together);
-                  out = how.together ? io::read_mesh(folder() / "m.vtkhdf") : sink.mesh();
+                  out = sink.mesh();
                 } catch (const Error& error) {
                   EXPECT_EQ(error.kind(), ErrorKind::kResource) << error.what();
                 }
@@ -248,8 +242,7 @@ TEST_F(SharedResumeTest, Promise7GoesOnFromTheLastEpochWithAnyNumberOfProcesses)
     for (int tries = 0; !mesh; ++tries) {
       mesh = attempt(trial, {.ranks = 1 + static_cast<int>(below(random, 5)),
                              .threads = 1 + static_cast<int>(below(random, 2)),
-                             .fails_after = tries < 4 ? 1 + below(random, 250) : 0,
-                             .together = below(random, 2) == 0});
+                             .fails_after = tries < 4 ? 1 + below(random, 250) : 0});
       ASSERT_LT(tries, 5);
     }
     expect_same(*mesh, expected);

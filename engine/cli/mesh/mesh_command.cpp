@@ -12,7 +12,6 @@
 #include "engine/cli/mesh/run_processes.h"
 #include "engine/cli/page/run_page.h"
 #include "engine/cli/requests.h"
-#include "engine/finish/passes.h"
 #include "engine/report/run_report.h"
 #include "engine/report/summary.h"
 #include "engine/settings/promises.h"
@@ -26,7 +25,6 @@
 #include "io/mesh/grouped/grouped_sink.h"
 #include "io/mesh/mesh_sink.h"
 #include "io/mesh/open_mesh.h"
-#include "io/mesh/scratch_mesh.h"
 #include "io/remote/wait_stop.h"
 #include "io/volume/cropped_volume.h"
 #include "io/volume/open_volume.h"
@@ -40,13 +38,9 @@ std::size_t digest_memory(std::uint64_t budget) {
   return std::clamp<std::uint64_t>(budget / 64, kMin, io::DigestSink::kMemoryBytes);
 }
 
-/// Returns whether this process leaves the mesh to another one, or to all of them.
-bool has_no_sink(const SharedOutput& shared) {
-  return !run_processes().speaks() || shared.mesh != nullptr;
-}
-
-std::unique_ptr<io::MeshSink> open_sink(const MeshRequest& request, const SharedOutput& shared) {
-  if (has_no_sink(shared)) return std::make_unique<io::NoSink>();
+/// Returns null where this process leaves the mesh to another one.
+std::unique_ptr<io::MeshSink> open_sink(const MeshRequest& request) {
+  if (!run_processes().speaks()) return nullptr;
   io::MeshExtras extras = request.extras;
   extras.wedges = request.job.connect.cohesive.any();
   return io::open_mesh_sink(request.output, request.element, extras);
@@ -54,29 +48,26 @@ std::unique_ptr<io::MeshSink> open_sink(const MeshRequest& request, const Shared
 
 /// The files of a run, created before any work so that a bad path fails at once.
 struct MeshFiles {
-  MeshFiles(const MeshRequest& request, SharedOutput shared_output)
-      : shared(std::move(shared_output)), sink(open_sink(request, shared)) {
+  explicit MeshFiles(const MeshRequest& request) : sink(open_sink(request)) {
     if (!request.trace.empty()) trace.emplace(request.trace);
     if (!request.html.empty()) html.emplace(request.html);
     if (!request.report.empty()) report.emplace(request.report);
     if (!request.delta.empty()) delta.emplace(request.delta);
-    if (has_no_sink(shared) || !request.job.is_measured) return;
+    if (sink == nullptr || !request.job.is_measured) return;
     digest.emplace(request.output.parent_path(), digest_memory(request.job.run.store.memory));
     if (html) grouped.emplace(request.output.parent_path(), nullptr);
   }
 
   /// Returns where the mesh goes; the file with its name comes last.
   [[nodiscard]] std::vector<io::MeshSink*> all() {
-    if (has_no_sink(shared)) return {sink.get()};
     std::vector<io::MeshSink*> out;
     if (digest) out.push_back(&*digest);
     if (grouped) out.push_back(&*grouped);
-    out.push_back(sink.get());
+    if (sink != nullptr) out.push_back(sink.get());
     return out;
   }
 
-  SharedOutput shared;
-  std::unique_ptr<io::MeshSink> sink;
+  std::unique_ptr<io::MeshSink> sink;  ///< null where the process that speaks has it
   std::optional<io::AtomicFile> report;
   std::optional<io::AtomicFile> html;
   std::optional<io::AtomicFile> delta;
@@ -106,7 +97,6 @@ report::FinishedRun mesh_into(const MeshRequest& request, const io::LabelVolume&
   job.labels_known = [](std::size_t labels) { log_info(io::text("meshing ", labels, " labels")); };
   engine::RunHooks& run = job.run;
   run.keep.say = [](const std::string& line) { log_warning(line); };
-  run.together = files.shared.mesh.get();
   run.stop_after_save = is_save_requested;
   run.progress = [&](const engine::RunProgress& at) { progress.show(at); };
   if (files.trace) run.trace = [&](const engine::TraceEvent& e) { files.trace->add(e); };
@@ -131,26 +121,6 @@ report::FinishedRun mesh_into(const MeshRequest& request, const io::LabelVolume&
     throw Interrupted{work};
   } catch (const engine::StoppedAfterSave&) {
     throw Interrupted{work};
-  }
-}
-
-/// Looks at a mesh that several processes have written.
-void look_at_file(const MeshRequest& request, report::FinishedRun& run) {
-  const std::filesystem::path& folder = request.job.folder;
-  io::ScratchMesh mesh(folder.empty() ? "." : folder);
-  io::ScratchMeshSink into(mesh);
-  io::copy_mesh(request.output, into);
-  run.take(engine::apply_passes(mesh, engine::looking_task(request.job, run)));
-}
-
-/// Says who wrote the mesh, where that could be several processes.
-void print_writers(const SharedOutput& shared) {
-  if (!runs_are_divided()) return;
-  std::cout << "written by  ";
-  if (shared.mesh != nullptr) {
-    std::cout << "all " << run_processes().count() << " processes\n";
-  } else {
-    std::cout << "rank 0: " << shared.why_alone << "\n";
   }
 }
 
@@ -282,14 +252,14 @@ int mesh(MeshRequest& request, const OptionSet& options) {
   const io::WaitStop waits(&stop);
   if (runs_are_divided()) watch_save_requests();
   // A certificate that cannot be made is refused before any file is opened.
-  const bool is_certified = engine::plan_certificate(request.job).why_not.empty();
+  static_cast<void>(engine::plan_certificate(request.job));
   const std::string why = engine::why_no_volumes(engine::promises_of(request.job.settings));
   if (!why.empty()) {
     log_warning(giver_of(why, options) + ": the volumes of labels are not promised (P8)");
   }
   tell_preset(options);
   const engine::ResourceMeter meter;
-  MeshFiles files(request, open_shared_output(request, is_certified));
+  MeshFiles files(request);
   log_info("reading " + request.volume.path.string());
   const std::unique_ptr<io::LabelVolume> volume = open(request.volume, log_warning);
   tell_volume(request, volume->info());
@@ -299,14 +269,11 @@ int mesh(MeshRequest& request, const OptionSet& options) {
   }
   report::FinishedRun run = mesh_into(request, *volume, files);
   if (!run_processes().speaks()) return kExitDone;
-  if (files.shared.mesh != nullptr) look_at_file(request, run);
   tell_resume(request, run.engine.store);
   if (run.engine.keep) tell_keep(*run.engine.keep);
   run.resources = meter.read();
   const io::Json facts = report::run_report(run, request.output, {});
-  std::cout << report::summary_text(facts);
-  print_writers(files.shared);
-  std::cout << std::flush;
+  std::cout << report::summary_text(facts) << std::flush;
   log_processes(run.engine);
   deliver_rest(request, run, files, options);
   print_warnings(run);

@@ -9,7 +9,6 @@
 #include "engine/cli/log.h"
 #include "engine/system/crew.h"
 #include "io/file/errors.h"
-#include "io/mesh/open_mesh.h"
 
 namespace mw::cli {
 namespace {
@@ -33,16 +32,6 @@ int threads_of_process(int asked, int processes_here) {
         ":node:PE=", share, ")"));
   }
   return own;
-}
-
-/// Returns why one process alone writes the mesh; empty where several can.
-std::string obstacle(const MeshRequest& request, bool can_be_shared, bool is_certified) {
-  if (run_processes().count() == 1) return "there is no other";
-  if (!can_be_shared) return "only a .vtkhdf of tet4 can be written by several";
-  if (is_certified) return "it makes the certificate";
-  if (request.job.connect.change_mesh()) return "it leaves parts out, or doubles vertices";
-  if (!request.job.samples.empty()) return "it samples the images";
-  return request.html.empty() ? "" : "it draws the page";
 }
 
 }  // namespace
@@ -72,19 +61,6 @@ void take_part(MeshRequest& request) {
   request.report.clear();
   request.html.clear();
   request.trace.clear();
-}
-
-SharedOutput open_shared_output(const MeshRequest& request, bool is_certified) {
-  if (!runs_are_divided()) return {};
-  SharedOutput out{.mesh = io::open_shared_mesh(request.output, request.element), .why_alone = ""};
-  if (!run_processes().speaks()) return out;
-  out.why_alone = obstacle(request, out.mesh != nullptr, is_certified);
-  if (out.why_alone.empty()) {
-    out.mesh->create();
-  } else {
-    out.mesh.reset();
-  }
-  return out;
 }
 
 }  // namespace mw::cli

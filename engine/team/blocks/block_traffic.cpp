@@ -15,15 +15,9 @@ Arrivals::Window window_of(const RunLayout& layout, const WindowKey& key) {
 }
 
 /// Returns the rank that needs a version next.
-int user_of(const BlockRoute& route, const Partition& partition, const FinalUsers& final_users,
-            const BlockVersion& version) {
+int user_of(const BlockRoute& route, const Partition& partition, const BlockVersion& version) {
   const auto next = route.next_user(version);
-  return next ? partition.rank_of(*next) : final_users.rank_of(version.block.block);
-}
-
-FinalUsers final_users_of(const RunLayout& layout, const Partition& partition, FinalBlocksGo go) {
-  if (go == FinalBlocksGo::kToFirst) return {};
-  return {go, layout.grid(layout.marches() - 1).blocks().y, line_owners(layout, partition)};
+  return next ? partition.rank_of(*next) : 0;
 }
 
 }  // namespace
@@ -47,11 +41,6 @@ BlockTraffic::Attached::~Attached() {
   traffic_.team_.listen({});
   traffic_.rooms_->close();
   traffic_.team_.let_go();
-}
-
-void BlockTraffic::deal(Partition partition, FinalBlocksGo go) {
-  partition_ = std::move(partition);
-  final_users_ = final_users_of(layout_, partition_, go);
 }
 
 BlockVersion BlockTraffic::version_of(const Team::Head& head) const {
@@ -91,7 +80,7 @@ void BlockTraffic::note(const BlockVersion& version) {
 }
 
 int BlockTraffic::next_rank(const BlockVersion& version) const {
-  return user_of(route_, partition_, final_users_, version);
+  return user_of(route_, partition_, version);
 }
 
 bool BlockTraffic::stays(const BlockVersion& version) const {
@@ -128,19 +117,15 @@ std::vector<std::uint64_t> BlockTraffic::sent_to() const {
 }
 
 void BlockTraffic::wait_for_output() {
-  std::int64_t blocks = 0;
-  for_each_index(layout_.grid(layout_.marches() - 1).blocks(), [&](Index3 block) {
-    if (final_users_.rank_of(block) == team_.rank()) ++blocks;
-  });
+  const std::int64_t blocks = layout_.grid(layout_.marches() - 1).blocks().product();
   std::unique_lock lock(mutex_);
   changed_.wait(lock, [&] { return final_blocks_ == blocks || arrivals_.error() != nullptr; });
   if (const auto error = arrivals_.error()) std::rethrow_exception(error);
 }
 
 std::vector<std::uint64_t> blocks_sent(const RunLayout& layout, const Partition& partition,
-                                       int ranks, FinalBlocksGo go) {
+                                       int ranks) {
   const BlockRoute route(layout);
-  const FinalUsers final_users = final_users_of(layout, partition, go);
   std::vector<std::uint64_t> out(static_cast<std::size_t>(ranks));
   for (std::uint32_t march = 0; march < layout.marches(); ++march) {
     const WindowGrid& grid = layout.grid(march);
@@ -148,7 +133,7 @@ std::vector<std::uint64_t> blocks_sent(const RunLayout& layout, const Partition&
       const WindowKey key{march, window};
       const int from = partition.rank_of(key);
       for (Index3 block : grid.blocks_of(window)) {
-        if (user_of(route, partition, final_users, {{march, block}, key}) != from) {
+        if (user_of(route, partition, {{march, block}, key}) != from) {
           ++out[static_cast<std::size_t>(from)];
         }
       }

@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: The mwmesh authors
 // SPDX-License-Identifier: Apache-2.0
-// Sends blocks between the processes of a run: each version goes to the one that needs it next.
+// Sends blocks between the processes of a run: each version goes to the one that needs it next,
+// which for those of the last march is rank 0.
 #pragma once
 
 #include <atomic>
@@ -47,24 +48,6 @@ class IncomingRooms : public std::enable_shared_from_this<IncomingRooms> {
   std::map<std::uint64_t, MemoryBudget::Reservation> rooms_;  ///< by ticket
 };
 
-/// Where the blocks of the last march go.
-enum class FinalBlocksGo : std::uint8_t {
-  kToFirst,   ///< rank 0 writes the mesh
-  kToOwners,  ///< the owners of lines (partition.h) write it together
-};
-
-/// Which rank gets each block of the last march.
-struct FinalUsers {
-  FinalBlocksGo go = FinalBlocksGo::kToFirst;
-  std::int64_t lines_y = 1;           ///< number of lines of blocks along y
-  std::vector<std::uint32_t> owners;  ///< by line; only with kToOwners
-
-  [[nodiscard]] int rank_of(Index3 block) const {
-    if (go == FinalBlocksGo::kToFirst) return 0;
-    return static_cast<int>(owners[static_cast<std::size_t>(block.z * lines_y + block.y)]);
-  }
-};
-
 /// What a process has sent.
 struct TrafficFacts {
   std::uint64_t blocks = 0;
@@ -98,11 +81,7 @@ class BlockTraffic : public BlockRouter {
   };
 
   /// Must be called before anything is committed.
-  void deal(Partition partition, FinalBlocksGo go);
-  /// Returns the owner of each line of final blocks.  REQUIRES: kToOwners.
-  [[nodiscard]] const std::vector<std::uint32_t>& line_owners() const {
-    return final_users_.owners;
-  }
+  void deal(Partition partition) { partition_ = std::move(partition); }
 
   [[nodiscard]] Arrivals& arrivals() { return arrivals_; }
   [[nodiscard]] bool is_mine(const WindowKey& key) const {
@@ -121,7 +100,7 @@ class BlockTraffic : public BlockRouter {
   /// Ends the march and the output of all ranks with this error.
   void end(std::exception_ptr error);
 
-  /// Waits until all blocks of the last march that go to this rank are in the store.
+  /// Waits until all blocks of the last march are in the store.  REQUIRES: this is rank 0.
   /// ERRORS: that of the rank that failed.
   void wait_for_output();
 
@@ -144,7 +123,6 @@ class BlockTraffic : public BlockRouter {
   BlockRoute route_;
   Team& team_;
   Partition partition_;
-  FinalUsers final_users_;
   Arrivals arrivals_;
   std::atomic<std::uint64_t> signalled_ = 0;
   std::atomic<std::uint64_t> received_ = 0;
@@ -159,7 +137,6 @@ class BlockTraffic : public BlockRouter {
 
 /// Predicts how many blocks each rank sends in a run.  A pure function.
 [[nodiscard]] std::vector<std::uint64_t> blocks_sent(const RunLayout& layout,
-                                                     const Partition& partition, int ranks,
-                                                     FinalBlocksGo go = FinalBlocksGo::kToFirst);
+                                                     const Partition& partition, int ranks);
 
 }  // namespace mw::engine

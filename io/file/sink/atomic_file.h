@@ -22,10 +22,10 @@ namespace mw::io {
 /// name in one step.  The destructor removes a partial file that was not committed.
 /// ERRORS (all members): mw::Error(kResource) when the disk is full; kUsage when the path cannot be
 /// written.  Thread safety: none.
-class AtomicFile : public PlacedOutput {
+class AtomicFile {
  public:
   explicit AtomicFile(const std::filesystem::path& target);
-  ~AtomicFile() override;
+  ~AtomicFile();
   AtomicFile(const AtomicFile&) = delete;
   AtomicFile& operator=(const AtomicFile&) = delete;
 
@@ -36,14 +36,12 @@ class AtomicFile : public PlacedOutput {
   void append_line(std::string_view line, std::string_view more = {});
   /// Writes bytes at offset, unbuffered, over what was appended there; does not move the place
   /// where append() writes.
-  void write_at(std::uint64_t offset, std::span<const std::byte> bytes) override;
+  void write_at(std::uint64_t offset, std::span<const std::byte> bytes);
   /// Fills out with the bytes of the file from offset on, and with zeros behind its end.  It sees
   /// what write_at() wrote, but not what append() still buffers.
   void read_at(std::uint64_t offset, std::span<std::byte> out) const;
   /// Cuts or extends the file.
   void resize(std::uint64_t bytes);
-  /// Returns where the file is until it has its name, for others to write into (JoinedPartial).
-  [[nodiscard]] const std::filesystem::path& partial() const { return partial_; }
   /// Number of bytes appended so far.
   [[nodiscard]] std::uint64_t appended() const { return flushed_ + buffer_.size(); }
   /// Flushes, syncs and renames.  REQUIRES: called once; nothing is written afterwards.

@@ -15,22 +15,6 @@
 
 namespace mw::io {
 
-/// Gives out the bytes of a file one behind the other.  Processes that ask for the same sizes in
-/// the same order get the same addresses.
-class Hdf5Rooms {
- public:
-  /// Reserves room for a data set and returns the address of its first byte.
-  [[nodiscard]] std::uint64_t reserve(std::uint64_t bytes) {
-    return std::exchange(end_, end_ + (bytes + 7) / 8 * 8);
-  }
-  /// Returns where the next room will begin, for data whose size is not known yet.
-  /// REQUIRES: that room is reserved once the data are written, and nothing else before it.
-  [[nodiscard]] std::uint64_t next() const { return end_; }
-
- private:
-  std::uint64_t end_ = kHdf5HeadBytes;  ///< end of what is reserved, a multiple of 8
-};
-
 /// A file with the data first, each set in one piece, then what tells of them.  It is written
 /// without the HDF5 library, which does not survive an allocation that fails; here that is
 /// std::bad_alloc.  Equal content gives equal bytes.
@@ -42,13 +26,14 @@ class Hdf5Output {
 
   [[nodiscard]] const std::string& name() const { return name_; }
 
-  [[nodiscard]] Hdf5Rooms& rooms() { return rooms_; }
-  [[nodiscard]] std::uint64_t reserve(std::uint64_t bytes) { return rooms_.reserve(bytes); }
-  /// Gives the file the size of what is reserved.
-  void extend() { file_.resize(rooms_.next()); }
+  /// Reserves room for a data set and returns the address of its first byte.
+  [[nodiscard]] std::uint64_t reserve(std::uint64_t bytes) {
+    return std::exchange(end_, end_ + (bytes + 7) / 8 * 8);
+  }
+  /// Returns where the next room will begin, for data whose size is not known yet.
+  /// REQUIRES: that room is reserved once the data are written, and nothing else before it.
+  [[nodiscard]] std::uint64_t next() const { return end_; }
   [[nodiscard]] AtomicFile& file() { return file_; }
-  /// Returns the path of the file until the commit.
-  [[nodiscard]] const std::filesystem::path& partial() const { return file_.partial(); }
 
   /// Writes the bytes of a data set, and returns the set with their address.
   [[nodiscard]] Hdf5DataSet add(Hdf5DataSet set, std::span<const std::byte> bytes) {
@@ -58,7 +43,7 @@ class Hdf5Output {
   }
   /// Writes a data set of kText.
   [[nodiscard]] Hdf5DataSet add_texts(const std::string& name, std::span<const std::string> texts) {
-    const Hdf5Texts all = hdf5_texts(texts, rooms_.next());
+    const Hdf5Texts all = hdf5_texts(texts, next());
     file_.write_at(reserve(all.heap.size()), std::as_bytes(std::span(all.heap)));
     return add({.name = name, .kind = Hdf5Kind::kText, .shape = {texts.size()}},
                std::as_bytes(std::span(all.positions)));
@@ -68,8 +53,8 @@ class Hdf5Output {
   void commit(const Hdf5Group& root) { finish(root).commit(); }
   /// Finishes the file without the commit, which may be one with other files (commit_together()).
   [[nodiscard]] AtomicFile& finish(const Hdf5Group& root) {
-    const Hdf5Metadata metadata = hdf5_metadata(root, rooms_.next());
-    file_.write_at(rooms_.next(), std::as_bytes(std::span(metadata.tail)));
+    const Hdf5Metadata metadata = hdf5_metadata(root, next());
+    file_.write_at(next(), std::as_bytes(std::span(metadata.tail)));
     file_.write_at(0, std::as_bytes(std::span(metadata.head)));
     return file_;
   }
@@ -77,7 +62,7 @@ class Hdf5Output {
  private:
   std::string name_;
   AtomicFile file_;
-  Hdf5Rooms rooms_;
+  std::uint64_t end_ = kHdf5HeadBytes;  ///< end of what is reserved, a multiple of 8
 };
 
 /// Writes what is left in a column; returns its data set.  REQUIRES: shape is for all its numbers.

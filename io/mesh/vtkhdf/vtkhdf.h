@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The mwmesh authors
 // SPDX-License-Identifier: Apache-2.0
-// Reads tetrahedral .vtkhdf files, and writes them by one process or by several together.
+// Reads and writes tetrahedral .vtkhdf files.
 // Format:
 // https://docs.vtk.org/en/latest/vtk_file_formats/vtkhdf_file_format/vtkhdf_specifications.html
 #pragma once
@@ -9,25 +9,14 @@
 #include <optional>
 #include <string>
 
-#include "io/file/sink/partial_file.h"
 #include "io/hdf5/hdf5_file.h"
 #include "io/mesh/element.h"
 #include "io/mesh/field_names.h"
 #include "io/mesh/grouped/grouped_mesh.h"
 #include "io/mesh/mesh_sink.h"
-#include "io/mesh/shared_mesh.h"
 #include "io/mesh/vtkhdf/hdf5_output.h"
 
 namespace mw::io {
-
-/// Reserves the first rooms of a file, for all columns but the points, whose room comes next.
-[[nodiscard]] ColumnPlaces place_vtkhdf(Hdf5Rooms& rooms, Element element,
-                                        const MeshHeader& header);
-
-/// Writes all that tells of the columns, and gives the file its name.
-/// REQUIRES: all rows are in the file, and the points' room is reserved.
-void commit_vtkhdf(Hdf5Output& output, const ColumnPlaces& places, Element element,
-                   const MeshHeader& header, std::uint64_t vertices);
 
 /// VTKHDF 1.0, one UnstructuredGrid of one partition, which VTK 9.1 and ParaView 5.11 read:
 ///   /VTKHDF              attributes Version = (1, 0), Type = "UnstructuredGrid"
@@ -55,39 +44,6 @@ class VtkhdfSink : public ColumnSink {
  private:
   Hdf5Output output_;
   ColumnPlaces places_;
-};
-
-/// Writes the bytes of VtkhdfSink from several processes, for tets of four nodes.  Each column is
-/// in one piece, so all processes know the place of every row once tets and vertices are counted.
-class VtkhdfShared : public SharedMesh {
- public:
-  /// Touches no file.
-  explicit VtkhdfShared(std::filesystem::path path) : path_(std::move(path)) {}
-
-  void create() override;
-  [[nodiscard]] std::string place() const override { return partial_.string(); }
-  void join(const std::string& place) override;
-  void lay_out(const MeshHeader& header, std::uint64_t vertices) override;
-  void begin(const MeshHeader& header) override;
-  void go_to(const RowPlace& rows) override { columns_.go_to(rows); }
-  void write_vertices(std::span<const Position> positions) override {
-    columns_.write_vertices(positions);
-  }
-  void write_tets(std::span<const TetRows> tets, std::span<const RawLabel> labels) override {
-    columns_.write_tets(tets, labels);
-  }
-  void sync() override;
-  void finish() override;
-  [[nodiscard]] std::uint64_t buffer_bytes() const override { return 4 << 20; }
-
- private:
-  std::filesystem::path path_;
-  std::optional<Hdf5Output> made_;  ///< by the maker
-  MeshHeader header_;               ///< the maker's
-  std::uint64_t vertices_ = 0;      ///< the maker's
-  std::filesystem::path partial_;
-  std::optional<JoinedPartial> part_;  ///< the file as this process writes rows into it
-  MeshColumns columns_;
 };
 
 /// Reads VTKHDF of type UnstructuredGrid, version 1 or 2 (one time step), with its partitions one

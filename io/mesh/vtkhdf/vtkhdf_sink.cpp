@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The mwmesh authors
 // SPDX-License-Identifier: Apache-2.0
-// Streams a mesh into a .vtkhdf file, from one process or from several that write it together.
+// Streams a mesh into a .vtkhdf file.
 #include "io/file/errors.h"
 #include "io/mesh/grouped/group_names.h"
 #include "io/mesh/mesh_sink.h"
@@ -54,26 +54,27 @@ Hdf5Group cell_data(const ColumnPlaces& places, const MeshHeader& header) {
   return out;
 }
 
-}  // namespace
-
-ColumnPlaces place_vtkhdf(Hdf5Rooms& rooms, Element element, const MeshHeader& header) {
+/// Reserves the first rooms of a file, for all columns but the points, whose room comes next.
+ColumnPlaces place_vtkhdf(Hdf5Output& output, Element element, const MeshHeader& header) {
   ColumnPlaces out;
   const std::uint64_t cells = cells_of(header);
-  out.connectivity = rooms.reserve(nodes_of_cells(header, element) * sizeof(std::uint64_t));
-  out.offsets = rooms.reserve((cells + 1) * sizeof(std::uint64_t));
-  out.types = rooms.reserve(cells);
-  out.labels = rooms.reserve(cells * sizeof(RawLabel));
+  out.connectivity = output.reserve(nodes_of_cells(header, element) * sizeof(std::uint64_t));
+  out.offsets = output.reserve((cells + 1) * sizeof(std::uint64_t));
+  out.types = output.reserve(cells);
+  out.labels = output.reserve(cells * sizeof(RawLabel));
   for (std::size_t i = 0; i < header.values.size(); ++i) {
-    out.values.push_back(rooms.reserve(cells * sizeof(double)));
+    out.values.push_back(output.reserve(cells * sizeof(double)));
   }
-  if (header.wedges.count > 0) out.cohesive = rooms.reserve(cells * sizeof(std::uint64_t));
+  if (header.wedges.count > 0) out.cohesive = output.reserve(cells * sizeof(std::uint64_t));
   for (std::size_t i = 0; i < header.record.masks.size(); ++i) {
-    out.masks.push_back(rooms.reserve(cells));
+    out.masks.push_back(output.reserve(cells));
   }
-  out.points = rooms.next();
+  out.points = output.next();
   return out;
 }
 
+/// Writes all that tells of the columns, and gives the file its name.
+/// REQUIRES: all rows are in the file, and the points' room is reserved.
 void commit_vtkhdf(Hdf5Output& output, const ColumnPlaces& places, Element element,
                    const MeshHeader& header, std::uint64_t vertices) {
   const std::uint64_t cells = cells_of(header), corners = nodes_of_cells(header, element);
@@ -94,8 +95,10 @@ void commit_vtkhdf(Hdf5Output& output, const ColumnPlaces& places, Element eleme
   output.commit(root);
 }
 
+}  // namespace
+
 void VtkhdfSink::begin(const MeshHeader& header) {
-  places_ = place_vtkhdf(output_.rooms(), element(), header);
+  places_ = place_vtkhdf(output_, element(), header);
   place_columns(header, output_.file(), places_);
 }
 
@@ -103,47 +106,6 @@ void VtkhdfSink::finish() {
   const std::uint64_t vertices = finish_columns(output_.name()).vertex;
   static_cast<void>(output_.reserve(vertices * sizeof(Position)));
   commit_vtkhdf(output_, places_, element(), header(), vertices);
-}
-
-void VtkhdfShared::create() {
-  made_.emplace(path_);
-  partial_ = std::filesystem::absolute(made_->partial());
-}
-
-void VtkhdfShared::join(const std::string& place) {
-  partial_ = place;
-  try {
-    const JoinedPartial reachable(partial_);
-  } catch (const Error& error) {
-    throw Error(error.kind(), text(error.what(), "; every process writes a part of this mesh"));
-  }
-}
-
-void VtkhdfShared::lay_out(const MeshHeader& header, std::uint64_t vertices) {
-  header_ = header;
-  vertices_ = vertices;
-  static_cast<void>(place_vtkhdf(made_->rooms(), Element::kTet4, header));
-  static_cast<void>(made_->reserve(vertices * sizeof(Position)));
-  made_->extend();
-}
-
-void VtkhdfShared::begin(const MeshHeader& header) {
-  Hdf5Rooms rooms;
-  part_.emplace(partial_);
-  columns_ =
-      MeshColumns(*part_, place_vtkhdf(rooms, Element::kTet4, header), Element::kTet4, header);
-}
-
-void VtkhdfShared::sync() {
-  columns_.flush();
-  part_->sync();
-  part_.reset();
-}
-
-void VtkhdfShared::finish() {
-  Hdf5Rooms rooms;
-  commit_vtkhdf(*made_, place_vtkhdf(rooms, Element::kTet4, header_), Element::kTet4, header_,
-                vertices_);
 }
 
 }  // namespace mw::io

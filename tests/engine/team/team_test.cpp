@@ -5,7 +5,6 @@
 
 #include <thread>
 
-#include "engine/team/shared_lists.h"
 #include "tests/engine/team/crowd.h"
 
 namespace mw::engine {
@@ -30,54 +29,6 @@ TEST(Team, GathersWhatEveryoneSaysAgainAndAgain) {
                 }
               });
   }
-}
-
-TEST(Team, TradesWhatEachSaysToEach) {
-  for (int ranks : {1, 2, 5}) {
-    for_ranks({.ranks = ranks, .seed = 3, .max_delay = std::chrono::microseconds(2000)},
-              [&](Team& team) {
-                for (int round = 0; round < 20; ++round) {
-                  std::vector<std::vector<std::byte>> mine;
-                  for (int to = 0; to < ranks; ++to) {
-                    const int size = round + to;
-                    mine.push_back(bytes(static_cast<std::size_t>(size), team.rank()));
-                  }
-                  const auto said = team.trade(std::move(mine));
-                  ASSERT_EQ(said.size(), static_cast<std::size_t>(ranks));
-                  const int size = round + team.rank();
-                  for (int from = 0; from < ranks; ++from) {
-                    EXPECT_EQ(said[static_cast<std::size_t>(from)],
-                              bytes(static_cast<std::size_t>(size), from));
-                  }
-                }
-              });
-  }
-}
-
-/// Lists of any length are swapped in messages of a few numbers.
-TEST(Team, SwapsListsByPieces) {
-  constexpr int kRanks = 4;
-  const auto list = [](int from, int to) {
-    const int size = 37 * from * to + from;
-    std::vector<std::uint64_t> out(static_cast<std::size_t>(size));
-    std::iota(out.begin(), out.end(), 1000 * static_cast<std::uint64_t>(from));
-    return out;
-  };
-  for_ranks({.ranks = kRanks, .seed = 8, .max_delay = std::chrono::microseconds(300)},
-            [&](Team& team) {
-              std::vector<std::vector<std::uint64_t>> mine;
-              std::uint64_t wanted = 0, expected = 0;
-              for (int other = 0; other < kRanks; ++other) {
-                mine.push_back(list(team.rank(), other));
-                wanted += list(other, team.rank()).size();
-              }
-              const auto came = swap_lists(
-                  team, mine, {.max_bytes = 50, .expect = [&](auto count) { expected = count; }});
-              EXPECT_EQ(expected, wanted);
-              for (int from = 0; from < kRanks; ++from) {
-                EXPECT_EQ(came[static_cast<std::size_t>(from)], list(from, team.rank()));
-              }
-            });
 }
 
 TEST(Team, ParcelsArriveOnceAlsoThoseThatCameTooEarly) {
