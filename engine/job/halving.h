@@ -14,7 +14,7 @@ namespace mw::engine {
 /// then.  in_image is the least size of the image, or infinity without one; what it asks for beyond
 /// io::kMostHalvings is left out.
 /// ERRORS: mw::Error(kUsage) when io::kMostHalvings cuts are not enough for another size, with the
-/// least size that can be kept; when several processes would have to cut.
+/// least size that can be kept.
 [[nodiscard]] int halvings_of(const io::VolumeInfo& volume, const MeshJob& job, double in_image);
 
 /// Returns the settings for marches whose tets are cut this often afterwards: larger sizes, and a

@@ -11,6 +11,7 @@
 #include "engine/keep/keep_options.h"
 #include "engine/labels/label_scan.h"
 #include "engine/labels/reading_tiles.h"
+#include "engine/run/processes.h"
 #include "engine/system/crew.h"
 #include "engine/verify/verify_mesh.h"
 #include "io/file/errors.h"
@@ -36,8 +37,7 @@ void check_changed(const std::vector<Box3>& changed) {
 KeptInput::KeptInput(const io::LabelVolume& opened, const MeshJob& job)
     : counted_(opened), memory_(job.run.store.memory) {
   const KeepOptions& options = job.run.keep;
-  const bool speaks = job.run.processes == nullptr || job.run.processes->speaks();
-  if (options.folder.empty() || !speaks) return;
+  if (options.folder.empty() || !speaks(job.run.processes)) return;
   check_changed(options.changed);
   folder_ = std::make_shared<KeepFolder>(options.folder, options.use);
   open_before(job);

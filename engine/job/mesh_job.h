@@ -10,7 +10,6 @@
 #include <vector>
 
 #include "engine/connect/connect_options.h"
-#include "engine/finish/finish_task.h"
 #include "engine/output/label_selection.h"
 #include "engine/report/run_report.h"
 #include "engine/run/run.h"
@@ -76,15 +75,6 @@ struct CertificatePlan {
 /// reader_bytes is that of the volume.  ERRORS: mw::Error(kUsage) when it is asked for and cannot
 /// be had.
 [[nodiscard]] CertificatePlan plan_certificate(const MeshJob& job, std::uint64_t reader_bytes = 0);
-
-/// Returns the pairs of labels that are written and whose interface has a size of its own, as
-/// ConnectOptions::watched has them.
-[[nodiscard]] std::vector<LabelPair> sized_interfaces(const MeshJob& job,
-                                                      const io::LabelTable& table);
-
-/// Returns the passes that only look at a mesh of that run, for one that several processes have
-/// written.  The run outlives the task.
-[[nodiscard]] FinishTask looking_task(const MeshJob& job, const report::FinishedRun& run);
 
 /// Meshes a volume; once the mesh is finished, each sink gets it from begin to finish, one after
 /// the other.  A certificate is made before, of the mesh before parts are left out and vertices

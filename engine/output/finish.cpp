@@ -61,10 +61,10 @@ VertexUses count(const FinalMesh& mesh, const LabelSelection& selection,
 }
 
 /// Makes the second pass.
-class Writer {
+class SecondPass {
  public:
-  Writer(const FinalMesh& mesh, const LabelSelection& selection, VertexUses uses,
-         io::MeshSink& sink, const OutputOptions& options)
+  SecondPass(const FinalMesh& mesh, const LabelSelection& selection, VertexUses uses,
+             io::MeshSink& sink, const OutputOptions& options)
       : mesh_(mesh),
         selection_(selection),
         rows_(std::move(uses)),
@@ -129,16 +129,16 @@ FinishedMesh finish(const FinalMesh& mesh, io::MeshSink& sink, const OutputOptio
     };
   }
   sink.begin(header);
-  Writer writer(mesh, selection, std::move(uses), sink, options);
+  SecondPass pass(mesh, selection, std::move(uses), sink, options);
   const Index3 blocks = mesh.grid.blocks();
   each_in_order<WrittenBlock>(
       options.work, static_cast<std::size_t>(blocks.product()),
-      [&](std::size_t i) { return writer.make(index_at(i, blocks)); },
+      [&](std::size_t i) { return pass.make(index_at(i, blocks)); },
       [&](std::size_t i, WrittenBlock&& made) {
-        writer.write(index_at(i, blocks), std::move(made));
+        pass.write(index_at(i, blocks), std::move(made));
       });
   sink.finish();
-  writer.report(out);
+  pass.report(out);
   return out;
 }
 

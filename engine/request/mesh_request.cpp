@@ -88,29 +88,8 @@ void add_keep_options(OptionSet& options, MeshRequest& request) {
                .assign = into(request.delta)});
 }
 
-void add_run_options(OptionSet& options, MeshRequest& request) {
-  add_resource_options(options, request.job.run.threads, request.memory, "bound for the process");
-  options.add({.name = "resume",
-               .help = "go on from the work of a run that was killed or interrupted",
-               .group = kRunGroup,
-               .kind = ValueKind::kSwitch,
-               .fallback = "false",
-               .assign = into(request.job.run.store.resume)});
-  add_keep_options(options, request);
-  options.add({.name = "workdir",
-               .value = "DIR",
-               .help = "work that memory does not hold, removed after success [OUTPUT.work]",
-               .group = kRunGroup,
-               .listed = Listed::kInHelpAll,
-               .assign = into(request.job.run.store.workdir)});
-  options.add({.name = "save-every",
-               .value = "SECONDS",
-               .help = "finished work is durable after that; a kill loses the rest",
-               .group = kRunGroup,
-               .kind = ValueKind::kNumber,
-               .fallback = "10",
-               .listed = Listed::kInHelpAll,
-               .assign = into(request.job.run.store.group.age, parse_delay)});
+/// Adds options that say how a run can be watched.
+void add_watch_options(OptionSet& options, MeshRequest& request) {
   options.add({.name = "progress",
                .help = "auto: a bar on a terminal; jsonl: lines on stderr",
                .group = kRunGroup,
@@ -135,6 +114,32 @@ void add_run_options(OptionSet& options, MeshRequest& request) {
                .face = Face::kProgram,
                .listed = Listed::kInHelpAll,
                .assign = into(request.trace)});
+}
+
+void add_run_options(OptionSet& options, MeshRequest& request) {
+  add_resource_options(options, request.job.run.threads, request.memory, "bound for the process");
+  options.add({.name = "resume",
+               .help = "go on from the work of a run that was killed or interrupted",
+               .group = kRunGroup,
+               .kind = ValueKind::kSwitch,
+               .fallback = "false",
+               .assign = into(request.job.run.store.resume)});
+  add_keep_options(options, request);
+  options.add({.name = "workdir",
+               .value = "DIR",
+               .help = "work that memory does not hold, removed after success [OUTPUT.work]",
+               .group = kRunGroup,
+               .listed = Listed::kInHelpAll,
+               .assign = into(request.job.run.store.workdir)});
+  options.add({.name = "save-every",
+               .value = "SECONDS",
+               .help = "finished work is durable after that; a kill loses the rest",
+               .group = kRunGroup,
+               .kind = ValueKind::kNumber,
+               .fallback = "10",
+               .listed = Listed::kInHelpAll,
+               .assign = into(request.job.run.store.group.age, parse_delay)});
+  add_watch_options(options, request);
   options.add({.name = "config",
                .value = "FILE.toml",
                .help = "a key for each option, '-' as '_'; MW_NAME and flags are stronger",
@@ -188,24 +193,8 @@ void add_format_options(OptionSet& options, MeshRequest& request) {
                .assign = into(request.extras.pairs)});
 }
 
-void add_output_options(OptionSet& options, MeshRequest& request) {
-  options.add({.name = "output",
-               .value = "OUTPUT",
-               .help = "mesh to write; its extension says the format",
-               .group = kOutputGroup,
-               .flags = "-o,--output",
-               .face = Face::kProgram,
-               .required = true,
-               .assign = into(request.output)});
-  options.add({.name = "element",
-               .value = "NAME",
-               .help = "tet4; tet10: also nodes on edges; tet10-curved: on curves",
-               .group = kOutputGroup,
-               .fallback = "tet4",
-               .choices = {"tet4", "tet10", "tet10-curved"},
-               .calls = kWriting,
-               .assign = into(request.element, parse_element)});
-  add_connect_options(options, request.job.connect);
+/// Adds options about what is told of a run.
+void add_report_options(OptionSet& options, MeshRequest& request) {
   options.add({.name = "report",
                .value = "FILE.json",
                .help = "writes figures of the run and of the finished mesh",
@@ -225,6 +214,27 @@ void add_output_options(OptionSet& options, MeshRequest& request) {
                .fallback = "true",
                .face = Face::kLibrary,
                .assign = into(request.is_measured)});
+}
+
+void add_output_options(OptionSet& options, MeshRequest& request) {
+  options.add({.name = "output",
+               .value = "OUTPUT",
+               .help = "mesh to write; its extension says the format",
+               .group = kOutputGroup,
+               .flags = "-o,--output",
+               .face = Face::kProgram,
+               .required = true,
+               .assign = into(request.output)});
+  options.add({.name = "element",
+               .value = "NAME",
+               .help = "tet4; tet10: also nodes on edges; tet10-curved: on curves",
+               .group = kOutputGroup,
+               .fallback = "tet4",
+               .choices = {"tet4", "tet10", "tet10-curved"},
+               .calls = kWriting,
+               .assign = into(request.element, parse_element)});
+  add_connect_options(options, request.job.connect);
+  add_report_options(options, request);
   options.add({.name = "write-values",
                .help = "writes the values of tets into a file",
                .group = kOutputGroup,

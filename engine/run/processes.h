@@ -124,6 +124,11 @@ class Processes {
   virtual void fail(const std::exception_ptr& error) = 0;
 };
 
+/// True for the process that speaks; null stands for one that is alone.
+[[nodiscard]] inline bool speaks(const Processes* processes) {
+  return processes == nullptr || processes->speaks();
+}
+
 /// Returns the one process of a run that is not divided.
 [[nodiscard]] Processes& one_process();
 
