@@ -138,6 +138,7 @@ void change(io::ScratchMesh& mesh, const ConvertJob& job) {
   }
   engine::FinishTask task{.labels = job.choice,
                           .connect = {.options = job.connect, .threads = engine::thread_count(0)}};
+  task.is_curved = job.element == io::Element::kCurvedTet10 && !header.in_parts;
   std::optional<engine::ImageSampler> sampler;
   if (!job.samples.empty()) {
     io::VolumeInfo world;

@@ -4,11 +4,13 @@
 
 #include <utility>
 
+#include "io/mesh/grouped/grouped_sink.h"
+
 namespace mw::engine {
 namespace {
 
-/// What GroupedSink::buffer_bytes() says of ten nodes with curves, and the next mesh's buffers.
-constexpr std::uint64_t kCutBytes = (std::uint64_t{136} << 20U) + io::ScratchMesh::kBufferBytes;
+/// The next mesh has buffers, too.
+constexpr std::uint64_t kCutBytes = io::GroupedSink::kMostBytes + io::ScratchMesh::kBufferBytes;
 
 }  // namespace
 

@@ -33,6 +33,7 @@ struct FinishTask {
   std::optional<VolumesTask> volumes{};
   std::optional<FiguresTask> figures{};
   bool leaves_values_out = false;
+  bool is_curved = false;                 ///< whether sinks of Element::kCurvedTet10 get the mesh
   std::function<void()> between = [] {};  ///< called often; may throw
 };
 

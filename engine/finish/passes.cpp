@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 
+#include "engine/finish/curve.h"
 #include "engine/finish/sample.h"
 #include "engine/finish/select_labels.h"
 
@@ -91,6 +92,11 @@ constexpr std::array kPasses{
          .bytes = [](const FinishTask&) { return std::uint64_t{0}; },
          .apply = [](io::ScratchMesh& mesh, const FinishTask&,
                      FinishFacts&) { mesh.drop_values(); }},
+    Pass{.name = "curves",
+         .is_asked = [](const FinishTask& task) { return task.is_curved; },
+         .bytes = [](const FinishTask&) { return bytes_to_curve(); },
+         .apply = [](io::ScratchMesh& mesh, const FinishTask& task,
+                     FinishFacts&) { curve(mesh, task.between); }},
 };
 
 }  // namespace

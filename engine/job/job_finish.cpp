@@ -17,6 +17,7 @@ FinishTask finish_task(const MeshJob& job, const report::FinishedRun& run) {
                              .threads = threads},
                  .finds_parts = job.finds_parts,
                  .leaves_values_out = job.leaves_values_out,
+                 .is_curved = job.is_curved,
                  .between = job.stop};
   out.connect.options.watched = sized_interfaces(job, run.labels);
   if (run.sizes.rules.any()) {

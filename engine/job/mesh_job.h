@@ -37,6 +37,7 @@ struct MeshJob {
   std::shared_ptr<const io::LabelVolume> size_image;  ///< SizeRules::image, opened
   std::vector<SampleImage> samples;                   ///< opened; their values go with the mesh
   bool leaves_values_out = false;  ///< whether they are looked for, and not written
+  bool is_curved = false;          ///< whether it is written with curved tets
   LabelChoice choice;
   /// Whether the volume ends around an object (io::OpenOptions::object), so that an edit may change
   /// its box.

@@ -319,6 +319,7 @@ void settle_job(MeshRequest& request) {
     job.choice.labels_option = "--object";
   }
   job.takes_images = request.force;
+  job.is_curved = request.element == io::Element::kCurvedTet10;
 }
 
 /// Opens an image beside the labels, by the form that --use-form chooses where it has that.

@@ -95,7 +95,7 @@ void ScratchMesh::add_vertices(std::span<const Position> positions) {
 }
 
 void ScratchMesh::add_tets(std::span<const TetRows> tets, std::span<const RawLabel> labels) {
-  MW_ASSERT(tets.size() == labels.size() && !facets_);
+  MW_ASSERT(tets.size() == labels.size() && !facets_ && !curved_nodes_);
   tets_.append(std::as_bytes(tets));
   labels_.append(std::as_bytes(labels));
 }

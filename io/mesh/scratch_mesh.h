@@ -43,8 +43,8 @@ struct MeshFacet {
 
 /// A whole mesh outside of memory.
 /// Memory: kBufferBytes; with facets 256 KiB more, and 16 bytes for each vertex that was doubled.
-/// Disk: 24 bytes a vertex, 40 a tet, and 8 for each of its values.  Facets take 80 bytes each,
-/// and 160 a tet while they are made.
+/// Disk: 24 bytes a vertex, 40 a tet, 8 for each of its values, and 24 a curved node.  Facets take
+/// 80 bytes each, and 160 a tet while they are made.
 /// ERRORS (all members): see ScratchFile.  Thread safety: see settle(); else none.
 class ScratchMesh {
  public:
@@ -85,6 +85,13 @@ class ScratchMesh {
                                             std::vector<double>& rows)>& add_row);
   /// Takes the values of all tets away.
   void drop_values();
+  /// Takes the places of the nodes that curved tets have: the vertices, then the middles of edges,
+  /// which ascend by their ends.  The straight mesh stays.  REQUIRES: no tet is added afterwards.
+  void curve(PagedArray<Position> nodes) { curved_nodes_.emplace(std::move(nodes)); }
+  /// Returns these places; null where there are none.
+  [[nodiscard]] PagedArray<Position>* curved_nodes() {
+    return curved_nodes_ ? &*curved_nodes_ : nullptr;
+  }
 
   /// Calls visit(std::span<const Position>) on all vertices in their order.
   template <class Visit>
@@ -115,6 +122,7 @@ class ScratchMesh {
   ScratchFile values_;
   std::optional<DoubledVertices> doubles_;
   std::optional<ScratchFile> facets_;
+  std::optional<PagedArray<Position>> curved_nodes_;
 };
 
 /// Looks up places of corners.  Several threads may have one each.

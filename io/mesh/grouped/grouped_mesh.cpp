@@ -21,7 +21,7 @@ GroupedMesh::GroupedMesh(const std::filesystem::path& folder)
       middles_(folder) {}
 
 Position GroupedMesh::node(std::uint64_t row) {
-  if (curved_) return curved_->get(row);
+  if (curved_nodes_ != nullptr) return curved_nodes_->get(row);
   if (row < vertex_count()) return source_->vertex(row);
   const auto [a, b] = edges_[row - vertex_count()];
   const Position p = source_->vertex(a);

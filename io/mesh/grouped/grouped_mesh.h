@@ -214,7 +214,7 @@ class GroupedMesh {
   std::vector<WedgeGroup> wedge_groups_;
   PagedFile<std::array<std::uint64_t, 2>> edges_;    ///< corners of each edge, with middles only
   PagedFile<std::array<std::uint64_t, 6>> middles_;  ///< by tet, with middles only
-  std::optional<PagedArray<Position>> curved_;       ///< all nodes, with curves only
+  PagedArray<Position>* curved_nodes_ = nullptr;     ///< null without curves
 };
 
 /// Calls visit(run) on the interfaces and on each side of the box, in the order of their facets: a

@@ -78,9 +78,9 @@ GroupedMesh& GroupedSink::view(ScratchMesh& mesh, const std::function<void()>& b
 }
 
 std::uint64_t GroupedSink::buffer_bytes() const {
-  constexpr std::uint64_t kOfCorners = 64 << 20;
   constexpr std::uint64_t kOfMiddles = 32 << 20;
   constexpr std::uint64_t kOfCurves = 40 << 20;
+  constexpr std::uint64_t kOfCorners = kMostBytes - kOfMiddles - kOfCurves;
   return kOfCorners + (has_middles(mesh_.element_) ? kOfMiddles : 0) + (curves_ ? kOfCurves : 0);
 }
 
@@ -92,11 +92,21 @@ void GroupedSink::group(const std::function<void()>& between) {
   number_facets(sort_facets(place_tets(between), between));
   find_wedges();
   if (has_middles(mesh_.element_)) find_middles();
+  if (mesh_.element_ == Element::kCurvedTet10) mesh_.curved_nodes_ = source().curved_nodes();
+  if (mesh_.curved_nodes_ != nullptr) return;
   if (parts_) {
-    mesh_.curved_.emplace(given_nodes());
+    own_nodes_.emplace(given_nodes());
   } else if (curves_) {
-    mesh_.curved_.emplace(curve_nodes(mesh_, folder_, *curves_));
+    own_nodes_.emplace(curve_nodes(mesh_, folder_, *curves_));
   }
+  if (own_nodes_) mesh_.curved_nodes_ = &*own_nodes_;
+}
+
+PagedArray<Position> GroupedSink::take_nodes() {
+  mesh_.curved_nodes_ = nullptr;
+  PagedArray<Position> out = std::move(own_nodes_).value();
+  own_nodes_.reset();
+  return out;
 }
 
 /// Returns the places of all nodes as they came.

@@ -22,9 +22,13 @@ namespace mw::io {
 /// has these again, each node where it was.
 class GroupedSink : public MeshSink {
  public:
+  /// The most that buffer_bytes() returns.
+  static constexpr std::uint64_t kMostBytes = std::uint64_t{136} << 20U;
+
   /// write may be empty where the caller takes the mesh.  With curves, nodes lie where
-  /// curve_nodes() places them; kCurvedTet10 has curves of its own.
-  /// REQUIRES: folder exists; curves: an element with middles.
+  /// curve_nodes() places them; kCurvedTet10 has those of the mesh (ScratchMesh::curved_nodes()),
+  /// or, where there are none, curves of its own. REQUIRES: folder exists; curves: an element with
+  /// middles.
   GroupedSink(const std::filesystem::path& folder, WriteGrouped write,
               Element element = Element::kTet4, std::optional<CurveRule> curves = {});
 
@@ -40,6 +44,9 @@ class GroupedSink : public MeshSink {
   /// Returns a view of a mesh that outlives the sink, in the place of begin() to finish().
   [[nodiscard]] GroupedMesh& view(
       ScratchMesh& mesh, const std::function<void()>& between = [] {});
+  /// Gives the places of all nodes away, for other views of the mesh (ScratchMesh::curve()).
+  /// REQUIRES: view() was called; nodes were placed here; nothing is asked of the mesh afterwards.
+  [[nodiscard]] PagedArray<Position> take_nodes();
   /// REQUIRES: finished.
   [[nodiscard]] GroupedMesh& mesh() { return mesh_; }
 
@@ -75,6 +82,7 @@ class GroupedSink : public MeshSink {
   std::optional<CurvedParts> parts_;                    ///< of such a mesh
   std::optional<ScratchMesh> from_parts_;               ///< corners of parts_
   std::optional<PagedArray<SixPlaces>> given_middles_;  ///< of parts_, by tet
+  std::optional<PagedArray<Position>> own_nodes_;       ///< curved ones that the mesh had not
 };
 
 }  // namespace mw::io

@@ -10,6 +10,7 @@
 #include "engine/finish/sample.h"
 #include "engine/finish/select_labels.h"
 #include "io/mesh/mesh_data.h"
+#include "io/mesh/open_mesh.h"
 #include "tests/engine/memory_run.h"
 #include "tests/io/mesh/mesh_digest.h"
 #include "tests/temp_folder.h"
@@ -19,6 +20,7 @@ namespace {
 
 using namespace audit::test;
 using namespace test;
+using ::mw::test::content_of;
 using ::mw::test::TempFolder;
 
 io::MeshData copied(io::ScratchMesh& mesh) {
@@ -103,6 +105,33 @@ TEST(Sample, GivesEachTetTheValueThatItHasAlone) {
                    std::vector{io::TetRows{0, 1, 2, 3}});
       EXPECT_EQ(found.values[1].numbers.at(t), expected.at(0)) << t;
     }
+  }
+}
+
+/// The files of a mesh that the pass has curved are those of a sink that finds the curves itself.
+TEST(Curve, GivesWritersTheNodesThatTheyWouldFind) {
+  std::mt19937 random(412);
+  const TempFolder folder;
+  for (std::uint32_t i = 0; i < 4; ++i) {
+    const Trial trial =
+        random_trial(random, random_volume_of(random, static_cast<VolumeKind>(i), {10, 9, 8}, 3));
+    io::MeshDataSink made;
+    run_into(made, trial);
+    const auto path = [&](const char* name) { return folder.path() / name; };
+    io::write_mesh(made.mesh(), *io::open_mesh_sink(path("a.vtu"), io::Element::kCurvedTet10));
+    io::ScratchMesh mesh(folder.path());
+    fill(mesh, made.mesh());
+    const auto curved = io::open_mesh_sink(path("b.vtu"), io::Element::kCurvedTet10);
+    io::MeshDataSink straight;
+    const std::array<io::MeshSink*, 2> sinks{&straight, &*curved};
+    FinishTask task;
+    task.is_curved = true;
+    static_cast<void>(apply_passes(mesh, task, sinks));
+    ASSERT_NE(mesh.curved_nodes(), nullptr);
+    EXPECT_GT(mesh.curved_nodes()->size(), mesh.vertex_count());
+    EXPECT_TRUE(content_of(path("a.vtu")) == content_of(path("b.vtu")));
+    EXPECT_EQ(straight.mesh().vertices, made.mesh().vertices);
+    EXPECT_FALSE(straight.mesh().record.curved);
   }
 }
 
