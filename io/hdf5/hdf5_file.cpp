@@ -89,6 +89,7 @@ haddr_t file_end(const H5FD_t* file, H5FD_mem_t) {
   return ours(file).source->bytes->size();
 }
 
+// More than five parameters, here and below: the library's table of functions has them.
 herr_t read(H5FD_t* file, H5FD_mem_t what, hid_t, haddr_t from, std::size_t size, void* buffer) {
   Hdf5Source& source = *ours(file).source;
   if (what == H5FD_MEM_DRAW && source.only_note_data) {

@@ -145,6 +145,7 @@ class PartReader {
 class RemoteBytes : public ByteSource {
  public:
   /// front has bytes from offset on that were read already.
+  // More than five parameters: where bytes are, how many, what they are called, and those at hand.
   RemoteBytes(std::shared_ptr<const PartReader> reader, std::string address, std::uint64_t offset,
               std::uint64_t size, std::string label, std::vector<std::byte> front = {})
       : reader_(std::move(reader)),

@@ -21,6 +21,7 @@ namespace mw {
 /// dimple goes where the interface bends less without it.
 class Unfolder {
  public:
+  // More than five parameters: what a flip is judged by, each kept by another class.
   Unfolder(TetMesh& mesh, const Metric& metric, const SurfaceWeights& weights, double quality_floor,
            DistanceGuard& guard, const TetDemands& demands = {})
       : mesh_(mesh),
