@@ -20,28 +20,15 @@ bool is_periodic(const MeshSettings& settings, unsigned axis) {
   return (settings.periodic >> axis & 1U) != 0;
 }
 
-std::int64_t along(Index3 v, unsigned axis) {
-  return axis == 0 ? v.x : axis == 1 ? v.y : v.z;
-}
-
 std::int64_t floor_div(std::int64_t v, std::int64_t size) {
   return (v < 0 ? v - size + 1 : v) / size;
 }
 
-Point moved(Point p, Index3 by) {
-  const auto units = [](std::int64_t voxels) {
-    return static_cast<std::int32_t>(voxels * kUnitsPerVoxel);
-  };
-  return {p.x - units(by.x), p.y - units(by.y), p.z - units(by.z)};
-}
-
 /// Returns the number of a corner in a volume (VertexId) from that in the volume with its margin.
 VertexId id_within(VertexId id, Index3 volume, Index3 margin) {
-  const auto at = static_cast<std::int64_t>(id);
-  const Index3 corners = volume + margin + margin + Index3{1, 1, 1};
-  const Index3 corner =
-      Index3{at % corners.x, at / corners.x % corners.y, at / corners.x / corners.y} - margin;
-  return static_cast<VertexId>((corner.z * (volume.y + 1) + corner.y) * (volume.x + 1) + corner.x);
+  const Index3 one{1, 1, 1};
+  const Index3 corner = index_at(id, volume + margin + margin + one) - margin;
+  return raster(corner, volume + one);
 }
 
 }  // namespace
@@ -134,7 +121,7 @@ BlockMesh without_margin(BlockMesh mesh, Index3 volume, Index3 margin) {
   if (margin == Index3{}) return mesh;
   for (BlockVertex& v : mesh.vertices) {
     v.id = id_within(v.id, volume, margin);
-    v.position = moved(v.position, margin);
+    v.position = moved(v.position, Index3{} - margin);
   }
   const Box3 inside{{0, 0, 0}, volume};
   std::vector<BlockSample> samples;

@@ -19,36 +19,26 @@ constexpr VertexId kMadeInWindow = VertexId{1} << 63U;
 constexpr unsigned kCopyShift = 57;
 constexpr VertexId kCorner = (VertexId{1} << kCopyShift) - 1;
 
-std::int64_t along(Index3 v, unsigned axis) {
-  return axis == 0 ? v.x : axis == 1 ? v.y : v.z;
-}
-
-Point moved(Point p, Index3 voxels) {
-  const auto units = [](std::int64_t v) { return static_cast<std::int32_t>(v * kUnitsPerVoxel); };
-  return {p.x + units(voxels.x), p.y + units(voxels.y), p.z + units(voxels.z)};
-}
-
 /// Gives vertices the ids that they have in a grid.
 class Ids {
  public:
   Ids(const WindowGrid& from, const WindowGrid& to)
       : volume_(to.volume()), corners_(volume_ + Index3{1, 1, 1}) {
     for (unsigned axis = 0; axis < 3; ++axis) {
-      begins_elsewhere_[axis] = mw::engine::along(to.first(), axis) > 0;
-      is_periodic_[axis] = begins_elsewhere_[axis] || mw::engine::along(from.first(), axis) > 0;
+      begins_elsewhere_[axis] = along(to.first(), axis) > 0;
+      is_periodic_[axis] = begins_elsewhere_[axis] || along(from.first(), axis) > 0;
     }
   }
 
   [[nodiscard]] VertexId at(VertexId id, Point place) const {
     if ((id & kMadeInWindow) != 0) return id;
-    const auto number = static_cast<std::int64_t>(id & kCorner);
-    std::array<std::int64_t, 3> corner{number % corners_.x, number / corners_.x % corners_.y,
-                                       number / corners_.x / corners_.y};
+    const Index3 in_volume = index_at(id & kCorner, corners_);
+    std::array<std::int64_t, 3> corner{in_volume.x, in_volume.y, in_volume.z};
     VertexId copy = 0;
     for (unsigned axis = 0; axis < 3; ++axis) {
       if (!is_periodic_[axis]) continue;
-      const std::int64_t volume = mw::engine::along(volume_, axis);
-      const std::int64_t units = mw::along(place, axis), end = volume * kUnitsPerVoxel;
+      const std::int64_t volume = along(volume_, axis);
+      const std::int64_t units = along(place, axis), end = volume * kUnitsPerVoxel;
       if (corner[axis] == volume) corner[axis] = 0;
       if (!begins_elsewhere_[axis]) {
         if (units == end) corner[axis] = volume;
@@ -56,8 +46,7 @@ class Ids {
         copy |= VertexId{units == 0 ? 1U : 2U} << 2 * axis;
       }
     }
-    return copy << kCopyShift |
-           static_cast<VertexId>((corner[2] * corners_.y + corner[1]) * corners_.x + corner[0]);
+    return copy << kCopyShift | raster({corner[0], corner[1], corner[2]}, corners_);
   }
 
  private:

@@ -63,14 +63,4 @@ class WindowGrid {
   Index3 windows_;
 };
 
-/// Returns the position of i in an x-fastest array of shape s.
-[[nodiscard]] inline std::size_t raster(Index3 i, Index3 s) {
-  return static_cast<std::size_t>((i.z * s.y + i.y) * s.x + i.x);
-}
-/// Returns the index of which raster() returns this place.
-[[nodiscard]] inline Index3 index_at(std::size_t place, Index3 s) {
-  const auto i = static_cast<std::int64_t>(place);
-  return {i % s.x, i / s.x % s.y, i / s.x / s.y};
-}
-
 }  // namespace mw::engine

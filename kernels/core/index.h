@@ -5,6 +5,7 @@
 #pragma once
 
 #include <algorithm>
+#include <cstddef>
 #include <cstdint>
 #include <span>
 
@@ -23,9 +24,25 @@ struct Index3 {
   [[nodiscard]] std::int64_t product() const { return x * y * z; }
 };
 
+/// The number along an axis (0 = x).
+[[nodiscard]] constexpr std::int64_t along(Index3 v, unsigned axis) {
+  return axis == 0 ? v.x : axis == 1 ? v.y : v.z;
+}
+
 /// A step along an axis (0 = x).
 [[nodiscard]] inline Index3 axis_vector(unsigned axis, std::int64_t length = 1) {
   return {axis == 0 ? length : 0, axis == 1 ? length : 0, axis == 2 ? length : 0};
+}
+
+/// Returns the position of i in an x-fastest array of shape s.
+[[nodiscard]] inline std::size_t raster(Index3 i, Index3 s) {
+  return static_cast<std::size_t>((i.z * s.y + i.y) * s.x + i.x);
+}
+
+/// Returns the index of which raster() returns this place.
+[[nodiscard]] inline Index3 index_at(std::size_t place, Index3 s) {
+  const auto i = static_cast<std::int64_t>(place);
+  return {i % s.x, i / s.x % s.y, i / s.x / s.y};
 }
 
 /// Half-open box of voxels: lo is inside, hi is not.

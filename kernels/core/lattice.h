@@ -53,6 +53,12 @@ struct LatticeBox {
   return p;
 }
 
+/// The position so many voxels further on.  REQUIRES: it is in the range of coordinates.
+[[nodiscard]] constexpr Point moved(Point p, Index3 voxels) {
+  const auto units = [](std::int64_t v) { return static_cast<std::int32_t>(v * kUnitsPerVoxel); };
+  return {p.x + units(voxels.x), p.y + units(voxels.y), p.z + units(voxels.z)};
+}
+
 /// Six times the signed volume of tetrahedron (a, b, c, d) in cubic lattice units: the
 /// determinant of (b - a, c - a, d - a); positive in the orientation that VTK asks for.
 /// REQUIRES: extents within kMaxTetExtent.  ENSURES: exact.

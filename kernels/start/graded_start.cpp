@@ -227,10 +227,8 @@ class StartBuilder {
   void triangulate(Index3 voxel, CellFace face) {
     const Cell cell = cell_at(voxel);
     triangles_.clear();
-    const auto along = [&face](Index3 v) {
-      return face.axis == 0 ? v.x : face.axis == 1 ? v.y : v.z;
-    };
-    const bool outer = along(voxel) == along(cell.lo) + (face.high ? cell.size() - 1 : 0);
+    const bool outer =
+        along(voxel, face.axis) == along(cell.lo, face.axis) + (face.high ? cell.size() - 1 : 0);
     if (!outer) return triangulate_middle(cell, face.axis);
     for (const NodeTriangle& t : template_of(cell).on(face)) {
       triangles_.push_back(placed(cell, t));
