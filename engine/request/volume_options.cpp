@@ -185,7 +185,7 @@ void add_step_options(OptionSet& options, VolumeRequest& request) {
                .assign = into(request.steps.weld, parse_labels)});
   options.add({.name = "names",
                .value = "FILE",
-               .help = "names and colours: ITK-SNAP, FreeSurfer, Slicer, or CSV id,name",
+               .help = "names: ITK-SNAP, FreeSurfer, Slicer, CSV, dataset.json, class map",
                .group = kLabelGroup,
                .calls = kOpening,
                .assign = into(request.names)});
