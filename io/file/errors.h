@@ -17,6 +17,9 @@ namespace mw::io {
 inline void append_piece(std::string& out, std::string_view piece) {
   out.append(piece);
 }
+inline void append_piece(std::string& out, char letter) {
+  out.push_back(letter);
+}
 template <std::integral T>
 void append_piece(std::string& out, T number) {
   out.append(std::to_string(number));

@@ -308,6 +308,11 @@ bool is_read_mesh_path(const std::filesystem::path& path) {
   return format != nullptr && format->is_read();
 }
 
+bool takes_static_deck(const std::filesystem::path& path) {
+  const MeshFormat* const format = find_format(path);
+  return format != nullptr && format->takes_deck;
+}
+
 bool is_mesh_path(const std::filesystem::path& path) {
   return find_format(path) != nullptr;
 }

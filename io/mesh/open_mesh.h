@@ -23,6 +23,9 @@ namespace mw::io {
 /// True if read_mesh() reads meshes with this extension.
 [[nodiscard]] bool is_read_mesh_path(const std::filesystem::path& path);
 
+/// Returns whether Deck::kStatic makes a job of a mesh in the format of this name.
+[[nodiscard]] bool takes_static_deck(const std::filesystem::path& path);
+
 /// ERRORS: mw::Error(kUsage) for a format that has no place for numbers of tets
 /// (MeshHeader::values).
 void require_place_for_values(const std::filesystem::path& path);

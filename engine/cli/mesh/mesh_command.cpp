@@ -246,6 +246,27 @@ std::string giver_of(const std::string& flag, const OptionSet& options) {
   return flag;
 }
 
+/// What words of the summary mean.
+constexpr const char* kWords =
+    "In the summary a tet is a tetrahedron, its radius ratio three times the radius of the sphere "
+    "in\n"
+    "it by that of the sphere around it; a part is what tets with common faces make; axes are "
+    "turned\n"
+    "where those of voxels are not those of coordinates (ras, lps: to right or left, to front or "
+    "back,\n"
+    "up).  P1 topology and P8 volumes: labels keep those of their voxels; P2 fit: tets fill the "
+    "box\n"
+    "face to face; P3 radius ratio and P4 distance to voxels: within --quality-floor and\n"
+    "--max-distance.\n";
+
+/// Says how the mesh becomes a job where its format has jobs and none was asked.
+void tell_deck(const MeshRequest& request) {
+  if (request.extras.deck != io::Deck::kNone || !io::takes_static_deck(request.output)) return;
+  std::cout << "note        " << request.output.string()
+            << " is a mesh alone: --deck static makes it a job that runs, with placeholders for "
+               "materials, supports and a load\n";
+}
+
 int mesh(MeshRequest& request, const OptionSet& options) {
   watch_interrupts();
   const io::WaitStop::Stop stop = stop_if_interrupted;
@@ -277,6 +298,7 @@ int mesh(MeshRequest& request, const OptionSet& options) {
   log_processes(run.engine);
   deliver_rest(request, run, files, options);
   print_warnings(run);
+  tell_deck(request);
   std::cout << report::attention_text(facts);
   if (!std::cout.flush()) {
     throw Error(ErrorKind::kResource, "cannot write the summary to standard output; " +
@@ -317,7 +339,7 @@ Command mesh_command() {
       .about = "meshes a labelled volume",
       .options = {},
       .run = [request](const OptionSet& options) { return run_mesh(*request, options); },
-      .note = volume_note() + "OUTPUT: " + io::mesh_extensions() + ".\n",
+      .note = volume_note() + "OUTPUT: " + io::mesh_extensions() + ".\n" + kWords,
       .names = [request] { return names_of(request->volume); }};
   add_mesh_options(command.options, *request);
   return command;

@@ -72,7 +72,7 @@ Command serve_command() {
   const auto job = std::make_shared<ServeJob>();
   Command command{
       .name = "serve",
-      .about = "serves precomputed meshes on this machine, and prints a link to them",
+      .about = "shows precomputed surfaces in neuroglancer: serves them, and prints a link",
       .options = {},
       .run = [job](const OptionSet&) { return run_serve(*job); },
       .note =

@@ -129,6 +129,7 @@ class SurfaceJob {
     surface.write(facts);
     const bool of_labels = plans.front().label.has_value();
     summary_.add({.name = name, .facts = facts.facts(), .of_labels = of_labels});
+    if (!request_.pair && request_.labels.empty() && !of_labels) summary_.note_all();
     if (plans.size() > 1 && request_.joined == io::Joined::kByPlace) summary_.note_joined();
   }
 

@@ -74,6 +74,10 @@ void SurfaceSummary::print() const {
              "file for each\n";
     }
     std::cout << "surface     " << words(first_.front(), unit_) << "\n";
+    if (is_of_all_ && !first_.front().facts.is_closed()) {
+      std::cout << "note        interfaces of all labels are no closed surface: --labels A,B or "
+                   "--each writes closed ones\n";
+    }
     return;
   }
   for (const WrittenSurface& surface : first_) {

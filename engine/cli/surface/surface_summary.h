@@ -26,6 +26,8 @@ class SurfaceSummary {
   void add(WrittenSurface surface);
   /// Notes that readers join what touches of several labels in a file.
   void note_joined() { is_joined_ = true; }
+  /// Notes that no labels were chosen, so that a file has the interfaces of all.
+  void note_all() { is_of_all_ = true; }
   /// Prints a line for each of the first few surfaces where there are several, and last one about
   /// all: "surface     closed, manifold, 59.10 mL, 312 triangles".
   void print() const;
@@ -39,6 +41,7 @@ class SurfaceSummary {
   io::SurfaceFacts all_;  ///< sums
   bool of_labels_ = true;
   bool is_joined_ = false;
+  bool is_of_all_ = false;
 };
 
 }  // namespace mw::cli

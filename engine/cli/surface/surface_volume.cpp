@@ -41,7 +41,6 @@ bool are_of_voxels(const MeshRequest& request, const std::vector<RawLabel>& labe
 }
 
 void choose(MeshRequest& request, const std::vector<RawLabel>& labels) {
-  request.job.choice.keeps_zero = labels.empty();
   if (labels.empty()) return;
   if (are_of_voxels(request, labels)) {
     request.volume.open.object = labels;
@@ -122,6 +121,7 @@ void mesh_volume(MeshRequest& request, const std::vector<RawLabel>& labels, io::
   const report::FinishedRun run = engine::mesh(*volume, request.job, std::array{&sink});
   std::cout << "meshed      " << with_commas(run.engine.tets) << " tets";
   if (!request.volume.open.object.empty()) std::cout << ", all other labels taken for one";
+  if (run.leaves_out_zero) std::cout << ", without label 0, as the names say that it is nothing";
   std::cout << std::endl;
 }
 

@@ -191,6 +191,14 @@ class Decks(unittest.TestCase):
         refused(["--deck is for .inp, .feb"], "mesh", "bar.npy", "-o", "bar.vtu", "--deck", "static",
                 code=2)
 
+    def test_a_mesh_alone_says_how_it_becomes_a_job(self):
+        hint = "is a mesh alone: --deck static makes it a job"
+        for name, options, says in (("a.inp", (), True), ("a.feb", (), True), ("a.vtu", (), False),
+                                    ("b.inp", ("--deck", "static"), False)):
+            with self.subTest(name=name):
+                said = run("mesh", "bar.npy", "-o", name, *options)
+                self.assertEqual(hint in said, says, said)
+
     def test_there_is_none_with_cohesive_wedges(self):
         run("mesh", "bar.npy", "-o", "wedges.vtu", "--cohesive", "1|2")
         for first in (("mesh", "bar.npy", "-o", "no.inp", "--cohesive", "1|2"),

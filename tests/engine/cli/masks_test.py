@@ -7,6 +7,7 @@ import json
 import os
 import re
 import sys
+import tempfile
 import unittest
 import xml.etree.ElementTree
 
@@ -223,6 +224,23 @@ class Masks(unittest.TestCase):
         self.assertEqual(told("--merge", "3=9"), LABELS_OF | {"vessel": [9]})
         self.assertEqual(told("--background", "0"), LABELS_OF)
         self.assertEqual(told("--object", "4"), {"Leber, links": [4], "tumour/x": [4]})
+
+    def test_surfaces_are_of_what_has_a_name(self):
+        with tempfile.TemporaryDirectory() as folder:
+            for name, mask in masks().items():
+                save_mask(f"{folder}/{name.replace(',', '')}.nrrd", mask)
+            said = run("surface", folder, "--overlap", "first", "-o", f"{folder}/{{name}}.stl",
+                       "--each")
+            self.assertIn("without label 0", said)
+            self.assertEqual(sum(name.endswith(".stl") for name in os.listdir(folder)), 3)
+            said = run("surface", folder, "--overlap", "first", "-o", f"{folder}/all.vtp")
+        self.assertIn("note        interfaces of all labels are no closed surface: --labels", said)
+
+    def test_thick_slices_name_their_axis(self):
+        np.save("thick.npy", np.ones((6, 8, 8), np.uint8))
+        for axis, spacing in zip("xyz", ("3,1,1", "1,3,1", "1,1,3")):
+            said = run("mesh", "thick.npy", "-o", "thick.vtu", "--spacing", spacing)
+            self.assertIn(f"slices along {axis} are 3 times as thick", said)
 
     def test_names_that_others_have(self):
         """A mask can be called as the group of another one, or have no letter that is allowed."""
