@@ -1,10 +1,10 @@
 #!/usr/bin/python3
 # SPDX-FileCopyrightText: The mwmesh authors
 # SPDX-License-Identifier: Apache-2.0
-"""The pictures of README.md: `--surface voxel` and `--surface smooth` of a ball and of a brain.
+"""Pictures of bench/README.md: `--surface voxel` and `--surface smooth` of a ball and of a brain.
 
 Usage: xvfb-run -a bench/pictures/pictures.py [ball] [organ] [cut] [cell] [plate] [junction]
-Writes bench/pictures/*.png; without names the first four, which README.md and bench/README.md show.
+Writes bench/pictures/*.png; without names the first four, which bench/README.md and the manual show.
 The others are weak spots, for a comparison before and after a change: a plate of one voxel, which has
 dents, and a grain of a polycrystal, whose edges have knots of small triangles.
 MW_PROGRAM is the program (default: build/release/mwmesh).

@@ -2,6 +2,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """What documents tell users to type works: commands and Python of README.md, options elsewhere;
 the manual names each option, and io/FORMATS.md each format."""
+import json
 import os
 import pathlib
 import re
@@ -124,9 +125,24 @@ class Documents(unittest.TestCase):
         edited[4:7, 4:7, 3:6] = 0
         for name, array in (("brain", labels), ("edited", edited)):
             nibabel.save(nibabel.Nifti1Image(array, np.diag([1.0, 1, 1, 1])), f"{name}.nii.gz")
+        return labels
+
+    def make_volumes_of_others(self, labels):
+        """A folder of masks as TotalSegmentator writes it, a Zarr array, an array of grains."""
+        os.mkdir("totalseg")
+        for name, label in (("liver", 5), ("heart", 17)):
+            mask = nibabel.Nifti1Image((labels == label).astype(np.uint8), np.eye(4))
+            nibabel.save(mask, f"totalseg/{name}.nii.gz")
+        os.mkdir("neurons.zarr")
+        shape = list(labels.shape)
+        pathlib.Path("neurons.zarr/.zarray").write_text(json.dumps(
+            {"zarr_format": 2, "shape": shape, "chunks": shape, "dtype": "|u1", "order": "C",
+             "compressor": None, "filters": None, "fill_value": 0}))
+        pathlib.Path("neurons.zarr/0.0.0").write_bytes(labels.tobytes())
+        np.save("grains.npy", np.where(labels == 0, 1, labels)[:20, :20, :16])
 
     def test_commands_of_the_readme_work(self):
-        self.make_volumes()
+        self.make_volumes_of_others(self.make_volumes())
         kept = start("mesh", "brain.nii.gz", "-o", "first.vtu", "--keep", "kept")
         self.assertEqual(kept.returncode, 0, kept.stderr)
         readme = (ROOT / "README.md").read_text()
@@ -137,8 +153,8 @@ class Documents(unittest.TestCase):
             done = start(*words)
             self.assertEqual(done.returncode, 0, (words, done.stderr))
             ran += 1
-        self.assertEqual(ran, 6)
-        for name in ("brain.vtu", "thalamus.stl", "brain.png"):
+        self.assertEqual(ran, 9)
+        for name in ("brain.vtu", "thalamus.stl", "brain.png", "torso.inp", "rve.inp"):
             self.assertGreater(os.path.getsize(name), 500)
 
     def test_python_of_the_readme_works(self):
