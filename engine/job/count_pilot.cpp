@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The mwmesh authors
 // SPDX-License-Identifier: Apache-2.0
-// Trial meshes of the volume or of cubes of it, and the search for a factor.
+// Trial meshes of the volume or of parts of it, and the search for a factor.
 #include "engine/job/count_pilot.h"
 
 #include <algorithm>
@@ -10,6 +10,7 @@
 #include <optional>
 #include <vector>
 
+#include "engine/job/pilot_sample.h"
 #include "engine/labels/label_regions.h"
 #include "engine/labels/prepared_labels.h"
 #include "engine/labels/voxel_lattice.h"
@@ -30,14 +31,10 @@ constexpr double kNearEnough = 0.05;
 /// From a trial with this error the next factor is near enough without a mesh: from the first one,
 /// whose slope is taken to be the usual one, and from later ones.
 constexpr double kNearForOne = 0.16, kNearForMore = 0.3;
-constexpr std::int64_t kCube = 64;
-constexpr std::int64_t kHalo = 16;
-constexpr std::int64_t kLeastCubes = 4;
-constexpr std::int64_t kMostCubes = 16;
-/// Voxels weigh as this many faces, since a cube of one label has some tets, too.
-constexpr double kFacesPerVoxel = 0.01;
 /// The size, in voxels, beyond which no limit on edges matters.
 constexpr double kLargestSize = 64.0;
+/// Exponents between two meshes of the whole, where cells of the start mesh may have grown.
+constexpr double kSteepestAtJump = -8, kFlattestOfWhole = -0.5;
 
 /// Returns the sizes that the factor is meant for.
 SizeRules base_rules(const SizeRules& rules) {
@@ -74,101 +71,25 @@ bool have_all_sizes(const PilotTask& task, const SizeRules& rules) {
   return all;
 }
 
-/// A part of the volume that is meshed, and what of it counts.
-struct Cube {
-  Box3 voxels;  ///< of the volume, with the halo
-  Box3 within;  ///< what counts, in the lattice of these voxels
-  double weight = 0.0;
-};
+/// Returns the ends of what factors may be, as logarithms.
+std::array<double, 2> logarithms_of_scales(const io::DenseVolume& labels,
+                                           const MeshSettings& settings) {
+  const VoxelLattice lattice(labels);
+  const auto& spacing = lattice.info().space.spacing;
+  const double voxel = *std::min_element(spacing.begin(), spacing.end());
+  const double diagonal = std::hypot(spacing[0], spacing[1], spacing[2]);
+  const SizeRules rules = base_rules(settings.sizes.rules);
+  const double least = std::isfinite(rules.least()) ? rules.least() : voxel;
+  constexpr double kRoundedUp = 1.0 + 1e-9;
+  return {std::log(kRoundedUp * diagonal / SizeRules::kContracted / least),
+          std::log(kLargestSize * voxel / least)};
+}
 
 /// Passes on what is below, so that a view can own it.
 class Whole : public io::VolumeView {
  public:
   explicit Whole(const io::LabelVolume& volume) : VolumeView(volume) {}
   void read(const Box3& box, std::span<RawLabel> out) const override { below().read(box, out); }
-};
-
-/// Draws the cubes that are meshed, with chances in proportion to their weights: along the sum of
-/// all weights, each odd multiple of half a step draws the cube that it lies in.
-class Sample {
- public:
-  Sample(const PilotTask& task, const VoxelLattice& lattice, const PreparedLabels& labels)
-      : task_(task), lattice_(lattice), labels_(labels) {
-    const Index3 shape = lattice.info().shape;
-    cubes_ = cells_of({{0, 0, 0}, shape}, cube_edges());
-    for_each_index(cubes_, [&](Index3 c) { weights_.push_back(weight_of(box_of(c))); });
-    for (const double weight : weights_) total_ += weight;
-  }
-
-  [[nodiscard]] std::vector<Cube> drawn() const {
-    const std::int64_t voxels = lattice_.info().shape.product();
-    const std::int64_t edge = kCube + 2 * kHalo;
-    const std::int64_t wanted =
-        std::clamp(voxels / (4 * edge * edge * edge), kLeastCubes, kMostCubes);
-    const double step = total_ / static_cast<double>(wanted);
-    std::vector<Cube> out;
-    double before = 0;
-    std::size_t i = 0;
-    for_each_index(cubes_, [&](Index3 c) {
-      const double weight = weights_[i++];
-      const double draws =
-          std::floor((before + weight) / step + 0.5) - std::floor(before / step + 0.5);
-      before += weight;
-      if (draws > 0 && weight > 0) out.push_back(cube_at(c, draws * step / weight));
-    });
-    return out;
-  }
-
- private:
-  /// Returns multiples of the layers, so that a cube is of whole voxels.
-  [[nodiscard]] Index3 cube_edges() const {
-    const Index3 layers = lattice_.layers();
-    const auto rounded = [](std::int64_t n) { return std::max<std::int64_t>(1, kCube / n) * n; };
-    return {rounded(layers.x), rounded(layers.y), rounded(layers.z)};
-  }
-  [[nodiscard]] Box3 box_of(Index3 c) const {
-    const Index3 e = cube_edges();
-    const Index3 lo{c.x * e.x, c.y * e.y, c.z * e.z};
-    return intersection({lo, lo + e}, {{0, 0, 0}, lattice_.info().shape});
-  }
-
-  /// Returns a weight for the faces between labels, and for the voxels, of labels that are written.
-  [[nodiscard]] double weight_of(const Box3& box) const {
-    const LabelSelection kept(wanted_labels(task_.job.choice, lattice_.volume().table()),
-                              lattice_.volume().table());
-    const LabelBox labels = labels_.original({box.lo, box.hi + Index3{1, 1, 1}});
-    std::int64_t faces = 0, voxels = 0;
-    for_each_index(box, [&](Index3 v) {
-      const Label own = labels.at(v);
-      const bool is_written = kept.keeps(own);
-      voxels += is_written ? 1 : 0;
-      for (unsigned axis = 0; axis < 3; ++axis) {
-        const Label next = labels.at(v + axis_vector(axis));
-        if (next == own || next == kExterior) continue;
-        faces += is_written || kept.keeps(next) ? 1 : 0;
-      }
-    });
-    return static_cast<double>(faces) + kFacesPerVoxel * static_cast<double>(voxels);
-  }
-
-  [[nodiscard]] Cube cube_at(Index3 c, double weight) const {
-    const Index3 layers = lattice_.layers(), shape = lattice_.info().shape;
-    const Box3 counted = box_of(c);
-    const Box3 around = intersection(grown(counted, kHalo), {{0, 0, 0}, shape});
-    const Box3 voxels{
-        {around.lo.x / layers.x, around.lo.y / layers.y, around.lo.z / layers.z},
-        {(around.hi.x + layers.x - 1) / layers.x, (around.hi.y + layers.y - 1) / layers.y,
-         (around.hi.z + layers.z - 1) / layers.z}};
-    const Index3 first{voxels.lo.x * layers.x, voxels.lo.y * layers.y, voxels.lo.z * layers.z};
-    return {voxels, {counted.lo - first, counted.hi - first}, weight};
-  }
-
-  const PilotTask& task_;
-  const VoxelLattice& lattice_;
-  const PreparedLabels& labels_;
-  Box3 cubes_;
-  std::vector<double> weights_;
-  double total_ = 0;
 };
 
 /// Makes one trial after the other, each at a logarithm of the factor.
@@ -179,21 +100,17 @@ class Pilot {
     const VoxelLattice lattice(task.labels);
     const auto& spacing = lattice.info().space.spacing;
     const double voxel = *std::min_element(spacing.begin(), spacing.end());
-    const double diagonal = std::hypot(spacing[0], spacing[1], spacing[2]);
     const SizeRules rules = base_rules(settings.sizes.rules);
     // Sizes of an image alone are taken to be about those of its voxels.
     const double least = std::isfinite(rules.least()) ? rules.least() : voxel;
-    constexpr double kRoundedUp = 1.0 + 1e-9;
-    range_ = {std::log(kRoundedUp * diagonal / SizeRules::kContracted / least),
-              std::log(kLargestSize * voxel / least)};
-    const Index3 shape = lattice.info().shape;
+    range_ = logarithms_of_scales(task.labels, settings);
+    const double volume =
+        static_cast<double>(lattice.info().shape.product()) * spacing[0] * spacing[1] * spacing[2];
     const double cubes = cubes_of_size(task, rules);
-    first_ = cubes > 0 ? std::log(std::cbrt(SizeRules::kTetsACube * cubes / asked()))
-                       : std::log(std::cbrt(static_cast<double>(shape.product()) * spacing[0] *
-                                            spacing[1] * spacing[2] / (kTetVolume * asked())) /
-                                  least);
+    // Where no label has a size the whole counts as if regular tets of the least size filled it.
+    look_at_labels(lattice, cubes > 0 ? cubes : volume / std::pow(least, 3),
+                   cubes > 0 ? SizeRules::kTetsACube : 1 / kTetVolume);
     all_have_sizes_ = have_all_sizes(task, rules);
-    cubes_ = find_cubes(lattice);
   }
 
   report::CountFacts search() {
@@ -217,6 +134,7 @@ class Pilot {
             .expected = static_cast<std::uint64_t>(best.tets + 0.5),
             .is_least = is_at_end(trials_.back()) && best.tets > asked(),
             .is_most = is_at_end(trials_.back()) && best.tets < asked(),
+            .may_be_off = !parts_.empty() && !is_at_end(trials_.back()),
             .trials = static_cast<int>(trials_.size()),
             .voxels = voxels_};
   }
@@ -224,6 +142,9 @@ class Pilot {
  private:
   /// The volume of a regular tet with edges of 1.
   static constexpr double kTetVolume = 0.1178511301977579;
+  /// Tets that a square of faces between labels adds where its edges are as long as the size,
+  /// about.
+  static constexpr double kTetsAFace = 4;
   /// Exponents of the size in the count: the flattest, the steepest, and the usual one.
   static constexpr double kFlattest = -0.3, kSteepest = -3.5, kUsual = -2.4;
   /// The flattest one where sizes are to grow: the count hardly falls any more where other bounds
@@ -274,32 +195,51 @@ class Pilot {
     return last.at - error_of(last) / slope;
   }
 
-  [[nodiscard]] std::vector<Cube> find_cubes(const VoxelLattice& lattice) {
-    if (lattice.info().shape.product() <= task_.max_whole) return {};
+  /// Guesses the first factor, from `cubes` of the sizes with `tets` each and from the faces
+  /// between labels, and chooses the parts that stand for the whole.
+  void look_at_labels(const VoxelLattice& lattice, double cubes, double tets) {
     MeshSettings plain = task_.job.settings;
     plain.start = StartMesh::kDense;
     plain.sizes = {};
     const PreparedLabels labels(lattice.labels(), plain, thread_count(task_.job.run.threads),
                                 io::scratch_folder());
     inner_quality_ = inner_quality_for(labels.counts().faces);
-    return Sample(task_, lattice, labels).drawn();
+    const io::LabelTable& table = task_.labels.table();
+    const LabelSelection kept(wanted_labels(task_.job.choice, table), table);
+    const PilotSample sample(lattice, labels, kept, task_.max_one_part);
+    const auto voxels = static_cast<double>(std::max<std::int64_t>(1, sample.content().voxels));
+    const double a_voxel = tets * cubes / voxels;  // tets in one at a factor of 1
+    const double a_face = kTetsAFace * std::pow(cubes / voxels, 2.0 / 3);
+    first_ = first_guess(a_voxel * voxels, a_face * static_cast<double>(sample.content().faces));
+    parts_ = sample.parts(a_voxel / (a_face * std::exp(first_)));
+  }
+
+  /// Returns where inner / x^3 + faces / x^2 are the tets that are asked for, x being the factor.
+  [[nodiscard]] double first_guess(double inner, double faces) const {
+    double low = range_[0], high = range_[1];
+    for (int i = 0; i < 60; ++i) {
+      const double middle = (low + high) / 2, factor = std::exp(middle);
+      const double tets = (inner / factor + faces) / (factor * factor);
+      (tets > asked() ? low : high) = middle;
+    }
+    return low;
   }
 
   double tets_at(double scale) {
     MeshSettings settings = with_scale(task_.job.settings, scale);
     settings.sizes.count = 0;
-    if (cubes_.empty()) {
+    if (parts_.empty()) {
       const Index3 shape = task_.labels.info().shape;
       return static_cast<double>(mesh(task_.labels, settings, scale, std::nullopt, shape).tets);
     }
     settings.periodic = 0;  // a part of a cell does not repeat itself
     if (!settings.inner_quality) settings.inner_quality = inner_quality_;
     double sum = 0;
-    for (const Cube& cube : cubes_) {
-      const io::CroppedVolume part(std::make_unique<Whole>(task_.labels.raw()), cube.voxels, true);
-      const RunReport report = mesh(io::DenseVolume(part, task_.labels.table()), settings, scale,
-                                    cube.within, cube.voxels.shape());
-      sum += cube.weight * static_cast<double>(report.tets_within);
+    for (const PilotPart& part : parts_) {
+      const io::CroppedVolume cut(std::make_unique<Whole>(task_.labels.raw()), part.voxels, true);
+      const RunReport report = mesh(io::DenseVolume(cut, task_.labels.table()), settings, scale,
+                                    part.within, part.voxels.shape());
+      sum += part.weight * static_cast<double>(report.tets_within);
     }
     return sum;
   }
@@ -337,7 +277,7 @@ class Pilot {
   std::array<double, 2> range_{};  ///< of the logarithm of the factor
   double first_ = 0;
   bool all_have_sizes_ = false;
-  std::vector<Cube> cubes_;  ///< empty: the volume is meshed whole
+  std::vector<PilotPart> parts_;  ///< empty: the volume is meshed whole
   double inner_quality_ = 0;
   std::vector<Trial> trials_;
   std::int64_t voxels_ = 0;  ///< how many were meshed in all
@@ -353,6 +293,21 @@ MeshSettings with_scale(const MeshSettings& settings, double scale) {
 
 report::CountFacts scale_for_count(const PilotTask& task) {
   return Pilot(task).search();
+}
+
+double next_scale(const report::CountFacts& count, std::uint64_t tets,
+                  const io::DenseVolume& labels, const MeshSettings& settings) {
+  const auto tets_here = static_cast<double>(std::max<std::uint64_t>(1, tets));
+  const double off = std::log(tets_here / static_cast<double>(count.asked));
+  // The exponent of sizes in a count is -1.7 where bounds keep many tets, -2.7 where few.
+  double slope = -2.1;
+  if (count.earlier_tets > 0 && count.earlier_scale != count.scale) {
+    slope = std::log(tets_here / static_cast<double>(count.earlier_tets)) /
+            std::log(count.scale / count.earlier_scale);
+    slope = std::clamp(slope, kSteepestAtJump, kFlattestOfWhole);
+  }
+  const auto [least, most] = logarithms_of_scales(labels, settings);
+  return std::exp(std::clamp(std::log(count.scale) - off / slope, least, most));
 }
 
 }  // namespace mw::engine

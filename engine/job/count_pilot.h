@@ -11,8 +11,9 @@
 
 namespace mw::engine {
 
-/// A pilot meshes volumes of up to this many voxels of the lattice whole.
-inline constexpr std::int64_t kMaxWholePilot = std::int64_t{1} << 23;
+/// One part stands for volumes of up to this many voxels of the lattice, several for larger ones;
+/// up to here a mesh that misses the number is made again.
+inline constexpr std::int64_t kMaxOnePart = std::int64_t{1} << 23;
 
 /// What a pilot works on.  All of it outlives the call.
 struct PilotTask {
@@ -21,19 +22,18 @@ struct PilotTask {
   const SizeImage* image = nullptr;
   std::uint64_t memory = 0;                 ///< bytes that it may take
   std::uint64_t memory_beside = 0;          ///< see StoreOptions
-  std::int64_t max_whole = kMaxWholePilot;  ///< voxels
+  std::int64_t max_one_part = kMaxOnePart;  ///< voxels
 };
 
 /// Finds the factor on all sizes with which the mesh that is written has about SizeSettings::count
 /// tets.  Where no size is given, all labels have size 1.
 ///
-/// It meshes at up to six factors, the first by the volume of labels, the others each by a secant
-/// through the logarithms of two counts, until a count is so near that the secant tells the rest. A
-/// volume of up to max_whole voxels is meshed whole, which tells the count exactly.  In a larger
-/// one some cubes of 64 voxels are meshed, with 16 voxels around them whose tets are not counted.
-/// Cubes are drawn evenly along the volume, without any random number, with a chance that grows
-/// with their faces between labels and their voxels that are written; a count is then the mean of
-/// tets per chance.  So it is a function of volume and settings, for any number of threads.
+/// It meshes at up to six factors, the first by the volume of labels and the faces between them,
+/// the others each by a secant through the logarithms of two counts, until a count is so near that
+/// the secant tells the rest.  A volume too small for parts (PilotSample) is meshed whole, which
+/// tells the count exactly.  Of a larger one parts are meshed, a tenth or so of it, and a count is
+/// that of the parts times what they stand for.  So it is a function of volume and settings, for
+/// any number of threads.
 ///
 /// Where no factor gives the count, the factor is at an end of its range: the least sizes that
 /// voxels allow, or sizes of 64 voxels, with which only the bound on the distance, the topology and
@@ -42,6 +42,10 @@ struct PilotTask {
 /// REQUIRES: count > 0.
 /// ERRORS: those of mesh_volume(), and what the job's functions throw.
 [[nodiscard]] report::CountFacts scale_for_count(const PilotTask& task);
+
+/// Returns the factor for another mesh where one with count.scale has so many tets.
+[[nodiscard]] double next_scale(const report::CountFacts& count, std::uint64_t tets,
+                                const io::DenseVolume& labels, const MeshSettings& settings);
 
 /// Returns the settings with all sizes multiplied; without any, all labels get size `scale`.
 [[nodiscard]] MeshSettings with_scale(const MeshSettings& settings, double scale);

@@ -15,16 +15,27 @@ namespace mw::engine {
 namespace {
 
 constexpr const char* kCountScale = "count scale";
+constexpr const char* kMayBeOff = "count may be off";
+constexpr const char* kEarlierScale = "count missed with scale";
+constexpr const char* kEarlierTets = "count missed with tets";
 
 /// Returns the scale that the run found whose work this one goes on with, if there is such a run.
 std::optional<report::CountFacts> saved_count(const MeshJob& job, report::FinishedRun run) {
   if (!job.run.store.resume) return std::nullopt;
-  const auto text = saved_value(job.run.store.workdir, kCountScale);
-  double scale = 0;
-  if (!text || !read_all(*text, scale) || !(scale > 0)) return std::nullopt;
-  run.count = {.asked = static_cast<std::uint64_t>(job.settings.sizes.count), .scale = scale};
+  const std::filesystem::path& folder = job.run.store.workdir;
+  const auto read = [&](const char* name, auto& number) {
+    const std::optional<std::string> text = saved_value(folder, name);
+    return text && read_all(*text, number);
+  };
+  report::CountFacts count{.asked = static_cast<std::uint64_t>(job.settings.sizes.count),
+                           .may_be_off = saved_value(folder, kMayBeOff) == "yes"};
+  if (!read(kCountScale, count.scale) || !(count.scale > 0)) return std::nullopt;
+  const bool has_missed =
+      read(kEarlierScale, count.earlier_scale) && read(kEarlierTets, count.earlier_tets);
+  if (!has_missed) count.earlier_tets = 0;
+  run.count = count;
   const std::string identity =
-      identity_of(run) + identity_text(run.volume, with_scale(job.settings, scale));
+      identity_of(run) + identity_text(run.volume, with_scale(job.settings, count.scale));
   if (!is_identity_of(job.run.store.workdir, identity)) return std::nullopt;
   return run.count;
 }
@@ -46,7 +57,14 @@ std::uint64_t labels_without_size(const MeshJob& job, const io::LabelTable& tabl
 std::string identity_of(const report::FinishedRun& run) {
   std::string out = io::text("version = ", version(), "\nresults = ", results_id(),
                              "\nlabel fingerprint = ", run.fingerprint, "\n");
-  if (run.count) out += io::text(kCountScale, " = ", run.count->scale, "\n");
+  if (!run.count) return out;
+  const report::CountFacts& count = *run.count;
+  out += io::text(kCountScale, " = ", count.scale, "\n", kMayBeOff, " = ",
+                  count.may_be_off ? "yes" : "no", "\n");
+  if (count.earlier_tets > 0) {
+    out += io::text(kEarlierScale, " = ", count.earlier_scale, "\n", kEarlierTets, " = ",
+                    count.earlier_tets, "\n");
+  }
   return out;
 }
 

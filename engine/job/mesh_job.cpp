@@ -4,6 +4,7 @@
 #include "engine/job/mesh_job.h"
 
 #include <algorithm>
+#include <cmath>
 #include <optional>
 #include <utility>
 
@@ -18,6 +19,7 @@
 #include "engine/job/kept_input.h"
 #include "engine/labels/reading_tiles.h"
 #include "engine/labels/score_crossings.h"
+#include "engine/labels/voxel_lattice.h"
 #include "engine/run/processes.h"
 #include "engine/settings/promises.h"
 #include "engine/system/crew.h"
@@ -67,13 +69,7 @@ class MeshRun {
     if (asked_.settings.sizes.count > 0) find_count(labels);
     check_interfaces(job_.connect, run_.labels);
     plan_check(labels);
-    const FinishTask task = passes(labels);
-    io::ScratchMesh mesh(job_.folder.empty() ? "." : job_.folder);
-    std::optional<FinishFacts> facts;
-    const auto finish = [&] { facts = apply_passes(mesh, task, sinks); };
-    io::ScratchMeshSink sink(mesh, finish, bytes_to_finish(task, sinks));
-    march_into(sink, labels);
-    if (facts) run_.take(*facts);
+    while (!finish_into(sinks, labels)) scale_again(labels);
     leave_for_later();
     tell();
     return std::move(run_);
@@ -118,10 +114,59 @@ class MeshRun {
                               .memory = memory(),
                               .memory_beside = job_.run.store.memory_beside},
                              run_);
+    take_scale(run_.count->scale);
+  }
+
+  /// Settles sizes by the count's scale, which is this many times the one before.
+  void take_scale(double more) {
     job_.settings = with_scale(asked_.settings, run_.count->scale);
     run_.sizes = job_.settings.sizes;
-    if (sizes_.image) sizes_.image.emplace(sizes_.image->scaled(run_.count->scale));
+    if (sizes_.image) sizes_.image.emplace(sizes_.image->scaled(more));
     check(input_.volume().info(), job_.settings);
+  }
+
+  /// Returns whether a mesh of so many tets is made again, with a scale that follows from it.
+  [[nodiscard]] bool misses_count(std::uint64_t tets, const io::DenseVolume& labels) const {
+    constexpr double kMost = 0.09;
+    const bool is_alone = job_.run.processes == nullptr || job_.run.processes->count() == 1;
+    if (!run_.count || !run_.count->may_be_off || !is_alone) return false;
+    if (VoxelLattice(labels).info().shape.product() > kMaxOnePart) return false;
+    const auto asked = static_cast<double>(run_.count->asked);
+    return std::abs(static_cast<double>(tets) - asked) > kMost * asked;
+  }
+
+  void scale_again(const io::DenseVolume& labels) {
+    report::CountFacts& count = *run_.count;
+    const double before = count.scale;
+    count.scale = next_scale(count, run_.engine.tets, labels, asked_.settings);
+    count.expected = count.asked;
+    count.may_be_off = count.earlier_tets == 0;
+    count.earlier_scale = before;
+    count.earlier_tets = run_.engine.tets;
+    ++count.trials;
+    count.voxels += labels.info().shape.product();
+    count.seconds = meter_.read().wall_seconds - run_.labels_seconds;
+    if (run_.engine.work != nullptr) run_.engine.work->discard();
+    run_.engine.work.reset();
+    job_.run.store.resume = false;
+    take_scale(count.scale / before);
+  }
+
+  /// Marches, and gives the mesh to the sinks, unless it is to be made again.  Returns whether they
+  /// have it.
+  bool finish_into(std::span<io::MeshSink* const> sinks, const io::DenseVolume& labels) {
+    const FinishTask task = passes(labels);
+    io::ScratchMesh mesh(job_.folder.empty() ? "." : job_.folder);
+    std::optional<FinishFacts> facts;
+    bool is_missed = false;
+    const auto finish = [&] {
+      is_missed = misses_count(mesh.tet_count(), labels);
+      if (!is_missed) facts = apply_passes(mesh, task, sinks);
+    };
+    io::ScratchMeshSink sink(mesh, finish, bytes_to_finish(task, sinks));
+    march_into(sink, labels);
+    if (facts) run_.take(*facts);
+    return !is_missed;
   }
 
   void plan_check(const io::DenseVolume& labels) {

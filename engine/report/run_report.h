@@ -28,10 +28,16 @@ struct CountFacts {
   std::uint64_t expected = 0;  ///< tets that the pilot found at that scale; 0: an earlier run did
   bool is_least = false;       ///< fewer cannot be had
   bool is_most = false;        ///< more cannot be had
+  /// Whether a mesh that misses the number is made again: the factor was found on parts of the
+  /// volume, and not yet by two meshes of the whole.
+  bool may_be_off = false;
+  double earlier_scale = 0;        ///< of the mesh that missed last; 0: none did
+  std::uint64_t earlier_tets = 0;  ///< of that mesh
   /// Labels that are written and have no size, while others or interfaces have one.  An image
   /// of sizes is taken to reach all labels.
   std::uint64_t labels_without_size = 0;
-  int trials = 0;           ///< meshes that the pilot made; 0 if an earlier run made them
+  /// Meshes that the pilot made, and one that missed the number; 0 if an earlier run made them.
+  int trials = 0;
   std::int64_t voxels = 0;  ///< voxels of these meshes in all
   double seconds = 0.0;     ///< on the clock
 };

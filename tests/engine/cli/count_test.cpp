@@ -23,6 +23,15 @@ class CountTest : public ProgramTest {
     expect_done("mesh v.npy -o v.vtkhdf --report r.json " + options);
     return json::parse(read("r.json"));
   }
+  void expect_same_for_threads(const std::string& count,
+                               const std::vector<std::string>& numbers) const {
+    const json one = report_of(count + "--threads 1");
+    for (const std::string& threads : numbers) {
+      const json other = report_of(count + "--threads " + threads);
+      EXPECT_EQ(other["digest"], one["digest"]) << threads;
+      EXPECT_EQ(other["size"]["count"]["scale"], one["size"]["count"]["scale"]) << threads;
+    }
+  }
   [[nodiscard]] std::uint64_t tets_of(const std::string& options) const {
     return report_of(options)["output"]["tets"];
   }
@@ -38,7 +47,12 @@ TEST_F(CountTest, IsMetWithinATenth) {
       {"spheres", "--shape 64,64,64 --labels 4 --seed 3", "20000", "--size '2=1,*=2'"},
       {"spheres", "--shape 40,40,80 --labels 9 --seed 4", "20000", "--background 0 --gradation 1"},
       {"tubes", "--shape 56,56,56 --labels 5 --seed 5", "30000", "--max-distance 1"},
-      {"tubes", "--shape 64,48,32 --labels 3 --seed 6", "50000", "--spacing 1,1,2"}};
+      {"tubes", "--shape 64,48,32 --labels 3 --seed 6", "50000", "--spacing 1,1,2"},
+      // From here on parts stand for the whole, and some miss the number at first.
+      {"voronoi", "--shape 64,64,64 --labels 30 --seed 1", "20000", ""},
+      {"voronoi", "--shape 64,64,64 --labels 30 --seed 1", "60000", ""},
+      {"spheres", "--shape 90,60,60 --labels 9 --seed 2", "40000", "--background 0"},
+      {"tubes", "--shape 60,60,40 --labels 5 --seed 5", "30000", "--spacing 1,1,2"}};
   for (const Case& c : cases) {
     SCOPED_TRACE(c.kind + " " + c.volume + " " + c.options);
     synth(c.kind, c.volume);
@@ -55,15 +69,47 @@ TEST_F(CountTest, IsMetWithinATenth) {
 
 TEST_F(CountTest, IsTheSameForAnyNumberOfThreads) {
   synth("voronoi", "--shape 40,40,40 --labels 10 --seed 7");
-  const std::string count = "--count 12000 --across 3 ";
-  const json one = report_of(count + "--threads 1");
-  for (const std::string threads : {"2", "3", "4"}) {
-    const json other = report_of(count + "--threads " + threads);
-    EXPECT_EQ(other["digest"], one["digest"]) << threads;
-    EXPECT_EQ(other["size"]["count"]["scale"], one["size"]["count"]["scale"]) << threads;
-  }
+  expect_same_for_threads("--count 12000 --across 3 ", {"2", "3", "4"});
+  synth("voronoi", "--shape 64,64,64 --labels 30 --seed 1");
+  expect_same_for_threads("--count 20000 ", {"2"});
 }
 
+/// Parts of a volume stand for it, so that pilots take less than meshing it once does.
+TEST_F(CountTest, MeshesPartsOfAVolume) {
+  synth("voronoi", "--shape 72,72,72 --labels 20 --seed 3");
+  const json pilot = report_of("--count 60000")["size"]["count"]["pilot"];
+  EXPECT_LE(pilot["voxels"].get<double>(), 0.4 * 72 * 72 * 72);
+}
+
+/// A mesh that misses the number is made again, by a resumed run, too.
+TEST_F(CountTest, ComesAgainWhereItMissed) {
+  synth("voronoi", "--shape 64,64,64 --labels 30 --seed 1");
+  const std::string mesh = "mesh v.npy -o v.vtu --report r.json --html p.html --count 20000";
+  const ProgramRun stopped = run(mesh, "sh -c '(sleep 1; mkdir p.html) & exec \"$0\" \"$@\"'");
+  ASSERT_EQ(stopped.code, 2) << stopped.err;
+  const json whole = json::parse(read("r.json"));
+  EXPECT_GT(whole["size"]["count"]["pilot"]["voxels"].get<double>(), 64 * 64 * 64);
+  const std::string vtu = read("v.vtu");
+  std::filesystem::remove(folder() / "p.html");
+  expect_done(mesh + " --resume");
+  EXPECT_EQ(json::parse(read("r.json"))["size"]["count"]["scale"], whole["size"]["count"]["scale"]);
+  EXPECT_EQ(read("v.vtu"), vtu);
+}
+
+/// A run that is killed while it makes the first mesh, which misses, ends as one that was not.
+TEST_F(CountTest, ComesAgainAfterAKill) {
+  synth("voronoi", "--shape 64,64,64 --labels 30 --seed 1");
+  const std::string mesh = "mesh v.npy --count 20000 --save-every 0 -o ";
+  expect_done(mesh + "whole.vtu");
+  for (const std::string seconds : {"0.9", "1.8", "2.7"}) {
+    SCOPED_TRACE(seconds);
+    const ProgramRun killed = run(mesh + "v.vtu", "timeout -s KILL " + seconds);
+    if (!files().contains("v.vtu.work")) continue;
+    expect_done(mesh + "v.vtu --resume");
+    EXPECT_EQ(read("v.vtu"), read("whole.vtu"));
+    std::filesystem::remove(folder() / "v.vtu");
+  }
+}
 TEST_F(CountTest, SaysWhatCannotBeHad) {
   synth("voronoi", "--shape 24,24,24 --labels 8 --seed 8");
   for (const auto& [count, key, words] : {std::tuple{"10", "is_least", "fewer tets than"},
