@@ -3,10 +3,11 @@
 # SPDX-License-Identifier: Apache-2.0
 """Pictures of bench/README.md: `--surface voxel` and `--surface smooth` of a ball and of a brain.
 
-Usage: xvfb-run -a bench/pictures/pictures.py [ball] [organ] [cut] [cell] [plate] [junction]
-Writes bench/pictures/*.png; without names the first four, which bench/README.md and the manual show.
-The others are weak spots, for a comparison before and after a change: a plate of one voxel, which has
-dents, and a grain of a polycrystal, whose edges have knots of small triangles.
+Usage: xvfb-run -a bench/pictures/pictures.py [NAME]...
+Writes bench/pictures/NAME.png; without names those that bench/README.md and the manual
+show: ball, organ, cut, cell, kidney, teeth, spine and shell.  The others, plate and
+junction, are for a comparison before and after a change: a plate of one voxel, and a grain of a
+polycrystal.
 MW_PROGRAM is the program (default: build/release/mwmesh).
 apt-get install python3-numpy python3-pil python3-vtk9 xvfb xauth libgl1-mesa-dri mricron-data
 VTK of Debian 12 draws through an X server only; any DISPLAY will do, xvfb-run gives one.
@@ -34,6 +35,7 @@ BACKGROUND = "eeeeee"
 LARGE = 1000  # voxels of a label whose volume is promised
 BALL_RADIUS = 20  # voxels
 PLATE_EDGE = 24  # voxels
+SHELL_RADIUS = 26  # voxels
 GRAINS_EDGE, GRAINS = 56, 16  # voxels, and how many
 CELL_EDGE, CELL_GRAINS = 48, 12
 # Of the right half of the brain: caudate, thalamus, hippocampus, amygdala.
@@ -99,10 +101,44 @@ def draw_junction(png, folder):
     scene.draw(png, halves, colours([middle]), ((1, 0.6, 0.5), 1.5))
 
 
+def draw_kidney(png, folder):
+    runs = (("default", ()), ("--preset fine", ("--preset", "fine")))
+    draw_runs(png, folder, volumes.kidney(), runs, [1], ((-0.9, 1, 0.35), 1.12))
+
+
+def draw_teeth(png, folder):
+    runs = (("--size 2", ("--size", "2")), ("--size 1", ("--size", "1")))
+    draw_runs(png, folder, volumes.teeth(), runs, [2, 3, 4], ((0.35, -1, 0.4), 1.3))
+
+
+def draw_shell(png, folder):
+    runs = (("--surface voxel", ("--surface", "voxel")), ("default", ()))
+    draw_runs(png, folder, volumes.shell(SHELL_RADIUS, 1), runs, [1], ((1, -1, 0.8), 1.6))
+
+
+def draw_spine(png, folder):
+    size = ("--spacing", "1,1,6", "--size", "3")
+    runs = (("--size 3", size),
+            ("--size 3 --interpolate-slices", (*size, "--interpolate-slices")))
+    draw_runs(png, folder, volumes.spine(), runs, range(1, 6), ((1, -0.4, 0.35), 1.3))
+
+
+def draw_runs(png, folder, volume, runs, labels, view):
+    """Some labels of a volume as two runs have them.  `runs`: pairs of a name and options."""
+    numpy.save(folder / "volume.npy", volume)
+    halves = []
+    for number, (name, options) in enumerate(runs):
+        file, report = mesh(folder / "volume.npy", folder / str(number), *options)
+        halves.append(
+            ([scene.surface(file, label) for label in labels], caption(report, labels, name))
+        )
+    scene.draw(png, halves, colours(labels), view)
+
+
 def draw_cell(png, folder):
     """A polycrystal that repeats itself, and eight of it in a cube."""
     numpy.save(folder / "volume.npy", volumes.cell(CELL_EDGE, CELL_GRAINS))
-    file, report = mesh(folder / "volume.npy", "smooth", folder / "cell", "--periodic", "xyz")
+    file, report = mesh(folder / "volume.npy", folder / "cell", "--periodic", "xyz")
     halves = [
         ([scene.whole(file)], f"--periodic xyz\n{report['output']['tets']:,} tets"),
         ([scene.tiled(file, CELL_EDGE)], "2 x 2 x 2 of it\nfaces are flat, and match node for node"),
@@ -119,26 +155,28 @@ def colours(labels):
 def mesh_both(volume, folder):
     """Mesh and report for each surface."""
     numpy.save(folder / "volume.npy", volume)
-    return [mesh(folder / "volume.npy", surface, folder / surface) for surface in SURFACES]
+    return [
+        mesh(folder / "volume.npy", folder / surface, "--surface", surface) for surface in SURFACES
+    ]
 
 
-def mesh(volume, surface, stem, *options):
+def mesh(volume, stem, *options):
     program = os.environ.get("MW_PROGRAM", HERE.parent.parent / "build" / "release" / "mwmesh")
     file, report = stem.with_suffix(".vtu"), stem.with_suffix(".json")
-    command = [program, "mesh", volume, "--surface", surface, "-o", file, "--report", report,
-               *options]
+    command = [program, "mesh", volume, "-o", file, "--report", report, *options]
     subprocess.run(command, check=True, stdout=subprocess.DEVNULL)
     return file, json.loads(report.read_text())
 
 
-def caption(report, labels):
-    """The volume is that of the label that is worst off."""
+def caption(report, labels, name=None):
+    """The volume is that of the label that is worst off.  The name is by default the surface's."""
     shape = report["shape"]
     mine = [row for row in shape["per_label"] if row["label"] in labels]
     rows = [row for row in mine if large(row)] or mine
     worst = max((row["volume_error"] for row in rows), key=abs)
     text = (
-        f"--surface {report['settings']['surface']}\n{report['output']['vertices']:,} vertices,  "
+        f"{name or '--surface ' + report['settings']['surface']}\n"
+        f"{report['output']['vertices']:,} vertices,  "
         f"volume {100 * worst:+.2f} %,  sharp edges {100 * shape['sharp_share']:.1f} %"
     )
     print(text.replace("\n", ": "))
@@ -149,8 +187,9 @@ def large(row):
     return row["voxels"] >= LARGE
 
 
-SHOWN = ["ball", "organ", "cut", "cell"]
+SHOWN = ["ball", "organ", "cut", "cell", "kidney", "teeth", "spine", "shell"]
 PICTURES = {"ball": draw_ball, "organ": draw_organ, "cut": draw_cut, "cell": draw_cell,
+            "kidney": draw_kidney, "teeth": draw_teeth, "spine": draw_spine, "shell": draw_shell,
             "plate": draw_plate, "junction": draw_junction}
 
 
