@@ -26,9 +26,13 @@ constexpr double kFreeNeedle = 1.8;
 /// smallest edges of a voxel (bench/parameters.md, "Constants").
 constexpr double kMostOwed = 0.125;
 
-/// How much bends count between two labels of which one is thin, and how much where such labels
-/// keep their volume (bench/parameters.md, "Constants").
-constexpr double kBendOfThin = 0.6, kBendOfKept = 0.25;
+/// How much terms count between two labels of which one is thin (bench/parameters.md, "Thin
+/// labels").
+struct ThinShares {
+  double area, bend, needle;
+};
+constexpr ThinShares kAtThin{1.0, 0.6, 1.0}, kAtKept{1.0, 0.25, 1.0}, kAtSheet{1.5, 0.4, 1.0},
+    kAtThread{0.1, 0.1, 1.0}, kAtSpeck{0.0, 0.0, 0.0};
 
 /// A factor that exceeds the rounding of squared distances.
 constexpr double kRoundedUp = 1.0 + 1e-9;
@@ -240,13 +244,10 @@ void SurfaceEnergy::collect(const TetMesh& mesh, const Metric& metric, const Sur
   area_weight_ = on_box ? 0.0 : two_labels ? weights_.area : weights_.junction_area;
   bend_weight_ = weights_.bend / kUsualSpokes;
   needle_weight_ = weights_.needle / kUsualSpokes;
-  const bool is_thin =
-      (two_labels || weights_.keep_thin) && is_at(is_thin_at, mesh.position(v), guard);
-  if (is_thin && two_labels) yield_to_thin(is_at(is_speck_at, mesh.position(v), guard));
+  const bool is_kept = yield_to_thin(mesh.position(v), guard, two_labels);
   if (curvature != nullptr && area_weight_ > 0.0) find_pressure(*curvature);
   if (debts != nullptr && mass_ > 0.0) {
     take_debts(*debts);
-    const bool is_kept = is_thin && weights_.keep_thin;
     if (is_kept) remember(*debts);
     if (!is_kept && two_labels) yield_to(*debts);
   }
@@ -409,13 +410,33 @@ void SurfaceEnergy::yield_to(const VolumeDebts& debts) {
   bend_weight_ /= 1.0 + square * square * square * square;
 }
 
-/// Lowers the weight of what would pull a thin label to nothing.
-void SurfaceEnergy::yield_to_thin(bool is_speck) {
-  if (is_speck && area_weight_ > 0.0) {
-    area_weight_ = bend_weight_ = needle_weight_ = 0.0;
-  } else {
-    bend_weight_ *= weights_.keep_thin ? kBendOfKept : kBendOfThin;
+/// Changes the weights of what would pull a thin label to nothing.  Returns whether debts add up.
+bool SurfaceEnergy::yield_to_thin(Point place, const DistanceGuard& guard, bool two_labels) {
+  if (!is_at(is_thin_at, place, guard)) return false;
+  std::vector<Label> thin;
+  for (const Balance& b : balances_) {
+    for (const Label label : {b.low, b.high}) {
+      const bool is_known = std::find(thin.begin(), thin.end(), label) != thin.end();
+      if (!is_known && is_thin_at(guard.labels(), place, label)) thin.push_back(label);
+    }
   }
+  const auto any_is = [&](LabelTest* test) {
+    return std::any_of(thin.begin(), thin.end(),
+                       [&](Label label) { return test(guard.labels(), place, label); });
+  };
+  const bool is_sheet = any_is(is_sheet_at), is_thread = !is_sheet && any_is(is_thread_at);
+  if (two_labels) {
+    const bool is_speck = area_weight_ > 0.0 && any_is(is_speck_at);
+    const ThinShares& shares = is_speck             ? kAtSpeck
+                               : is_sheet           ? kAtSheet
+                               : is_thread          ? kAtThread
+                               : weights_.keep_thin ? kAtKept
+                                                    : kAtThin;
+    area_weight_ *= shares.area;
+    bend_weight_ *= shares.bend;
+    needle_weight_ *= shares.needle;
+  }
+  return is_sheet || is_thread || weights_.keep_thin;
 }
 
 /// Keeps what v owed before its visit.

@@ -67,7 +67,8 @@ struct SurfaceWeights {
   /// voxels long, what is sharper than a ball of a few voxels is otherwise a step and not a shape.
   double max_curvature = 0.5;
   bool with_pressure = true;
-  /// Debts add up where a label is thin, until they are paid, at the cost of shapes and bends.
+  /// Debts add up wherever a label is thin, until they are paid, at the cost of shapes and bends;
+  /// otherwise on sheets and threads alone.
   bool keep_thin = false;
 };
 
@@ -93,8 +94,8 @@ struct SurfaceWeights {
 ///
 /// Thin labels.  A sheet of one voxel whose voxels touch along edges is held there, so what is
 /// between these places has to be thicker than the sheet, and bends count less at a label that
-/// is_thin_at().  With keep_thin, debts there are added to those that vertices had before, and
-/// bends count still less.
+/// is_thin_at().  Where it is_sheet_at() or is_thread_at(), and with keep_thin everywhere, debts
+/// are added to those that vertices had before, and bends count still less.
 ///
 /// Specks.  Area, bends and needles of a part of one to three voxels say nothing, and would pull it
 /// to nothing.  They are left out where a vertex is between two labels, one of which is_speck_at().
@@ -173,7 +174,7 @@ class SurfaceEnergy {
   void find_pressure(const CurvatureField& curvature);
   void take_debts(const VolumeDebts& debts);
   void yield_to(const VolumeDebts& debts);
-  void yield_to_thin(bool is_speck);
+  bool yield_to_thin(Point place, const DistanceGuard& guard, bool two_labels);
   void remember(const VolumeDebts& debts);
   [[nodiscard]] bool is_at(LabelTest* test, Point place, const DistanceGuard& guard) const;
   [[nodiscard]] double raw_value_at(const Vec3& x) const;

@@ -1,7 +1,11 @@
 // SPDX-FileCopyrightText: The mwmesh authors
 // SPDX-License-Identifier: Apache-2.0
-// Tries all cubes.
+// Tries all cubes, and counts voxels.
 #include "kernels/surface/thin_label.h"
+
+#include <algorithm>
+#include <array>
+#include <bit>
 
 #include "kernels/core/index.h"
 
@@ -32,18 +36,80 @@ bool is_cube_of(const LabelBox& labels, Index3 lowest, Label label) {
   return true;
 }
 
-}  // namespace
-
-bool is_thin_at(const LabelBox& labels, Point place, Label label) {
-  const Index3 at = nearest_corner(place);
-  for (std::int64_t z = -2; z < 1; ++z) {
-    for (std::int64_t y = -2; y < 1; ++y) {
-      for (std::int64_t x = -2; x < 1; ++x) {
-        if (is_cube_of(labels, at + Index3{x, y, z}, label)) return false;
+/// True if no cube of 2^3 voxels that is within `reach` of the corner has that label alone.
+bool is_without_cubes(const LabelBox& labels, Index3 corner, std::int64_t reach, Label label) {
+  for (std::int64_t z = -reach; z < reach - 1; ++z) {
+    for (std::int64_t y = -reach; y < reach - 1; ++y) {
+      for (std::int64_t x = -reach; x < reach - 1; ++x) {
+        if (is_cube_of(labels, corner + Index3{x, y, z}, label)) return false;
       }
     }
   }
   return true;
+}
+
+/// How many voxels away from a corner the cube around it reaches.
+constexpr std::int64_t kAround = 4;
+
+/// The voxels of a label in the cube around a corner.
+struct Surroundings {
+  int voxels = 0;
+  std::array<unsigned, 3> layers{};  ///< a bit for each layer across an axis that has some
+
+  /// True if there are some in every layer across some axis.
+  [[nodiscard]] bool go_through() const {
+    constexpr unsigned kAll = (1U << 2 * kAround) - 1;
+    return std::any_of(layers.begin(), layers.end(), [](unsigned some) { return some == kAll; });
+  }
+  /// True if all are in one layer across some axis.
+  [[nodiscard]] bool are_flat() const {
+    return std::any_of(layers.begin(), layers.end(),
+                       [](unsigned some) { return std::has_single_bit(some); });
+  }
+};
+
+/// Looks at rows of voxels, as this is done at every thin vertex.
+Surroundings look_around(const LabelBox& labels, Index3 corner, Label label) {
+  Surroundings out;
+  const Box3 cube = voxels_around(corner, kAround), box = intersection(cube, labels.box);
+  if (box.lo.x >= box.hi.x) return out;
+  for (std::int64_t z = box.lo.z; z < box.hi.z; ++z) {
+    for (std::int64_t y = box.lo.y; y < box.hi.y; ++y) {
+      const Label* row =
+          &labels.labels[static_cast<std::size_t>(labels.box.offset({box.lo.x, y, z}))];
+      unsigned found = 0;
+      for (std::int64_t x = box.lo.x; x < box.hi.x; ++x) {
+        found |= (without_side(*row++) == label ? 1U : 0U) << (x - cube.lo.x);
+      }
+      if (found == 0) continue;
+      out.voxels += std::popcount(found);
+      out.layers[0] |= found;
+      out.layers[1] |= 1U << (y - cube.lo.y);
+      out.layers[2] |= 1U << (z - cube.lo.z);
+    }
+  }
+  return out;
+}
+
+}  // namespace
+
+bool is_thin_at(const LabelBox& labels, Point place, Label label) {
+  return is_without_cubes(labels, nearest_corner(place), 2, label);
+}
+
+bool is_sheet_at(const LabelBox& labels, Point place, Label label) {
+  constexpr std::int64_t kReach = 5;
+  constexpr int kLeast = 56;
+  const Index3 corner = nearest_corner(place);
+  const Surroundings around = look_around(labels, corner, label);
+  return around.voxels >= kLeast && !around.are_flat() &&
+         is_without_cubes(labels, corner, kReach, label);
+}
+
+bool is_thread_at(const LabelBox& labels, Point place, Label label) {
+  constexpr int kMost = 20;
+  const Surroundings around = look_around(labels, nearest_corner(place), label);
+  return around.voxels <= kMost && around.go_through() && is_thin_at(labels, place, label);
 }
 
 bool is_speck_at(const LabelBox& labels, Point place, Label label) {

@@ -13,6 +13,15 @@ namespace mw {
 /// have it.
 [[nodiscard]] bool is_thin_at(const LabelBox& labels, Point place, Label label);
 
+/// Returns true if the label is a wide sheet of about one voxel there: at least 56 of the 8^3
+/// voxels around that corner have it (of a flat sheet 64 do), and no cube of 2^3 voxels within five
+/// voxels of the corner has it alone.
+[[nodiscard]] bool is_sheet_at(const LabelBox& labels, Point place, Label label);
+
+/// Returns true if the label is a thread of about one voxel that goes on there: it is thin, and at
+/// most 20 of the 8^3 voxels around that corner have it, some in every layer across some axis.
+[[nodiscard]] bool is_thread_at(const LabelBox& labels, Point place, Label label);
+
 /// Returns true if the label is thin there, and none of the voxels in the layer beyond three voxels
 /// away from that corner has it: what is there of it is one of a few voxels, or several such.
 [[nodiscard]] bool is_speck_at(const LabelBox& labels, Point place, Label label);

@@ -3,6 +3,11 @@
 // Thin labels and specks, against sets of voxels that are looked at one by one.
 #include "kernels/surface/thin_label.h"
 
+#include <algorithm>
+#include <array>
+#include <set>
+#include <vector>
+
 #include "kernels/core/index.h"
 #include "tests/oracle/small_volumes.h"
 #include "tests/testing.h"
@@ -87,6 +92,60 @@ TEST(ThinLabel, HasNoCubeOfEightVoxelsWithinTwo) {
   EXPECT_GT(specks, 100);
   EXPECT_GT(thin, specks + 100);
   EXPECT_LT(thin, 1950);
+}
+
+/// Puts a sheet across an axis, with holes, or a thread along it, that may both be bent and end
+/// somewhere, into the label 1.
+LabelBox random_sheet_or_thread(std::mt19937& random, bool is_thread) {
+  LabelBox out = empty_box();
+  const std::int64_t axis = below(random, 3), bends = below(random, 4), wide = 1 + below(random, 2);
+  const std::int64_t end = 8 + below(random, 8);
+  const auto along = [&](Index3 v, std::int64_t k) {
+    const std::array<std::int64_t, 3> from{v.x - out.box.lo.x, v.y - out.box.lo.y,
+                                           v.z - out.box.lo.z};
+    return from[static_cast<std::size_t>((axis + k) % 3)];
+  };
+  for_each_index(out.box, [&](Index3 v) {
+    const std::int64_t height = along(v, 0), a = along(v, 1), b = along(v, 2);
+    const std::int64_t rise = bends == 0 ? 0 : a / (2 * bends);
+    const bool is_near = height - 6 - rise >= 0 && height - 6 - rise < (a < 7 ? 1 : wide);
+    if (is_near && a < end && (is_thread ? b == 6 : below(random, 12) > 0)) at(out, v) = 1;
+  });
+  return out;
+}
+
+/// The axes across which voxels are in so many layers.
+std::vector<std::size_t> layers_of(const std::vector<Index3>& voxels, std::size_t count) {
+  std::array<std::set<std::int64_t>, 3> layers;
+  for (const Index3 v : voxels) {
+    layers[0].insert(v.x);
+    layers[1].insert(v.y);
+    layers[2].insert(v.z);
+  }
+  std::vector<std::size_t> out;
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    if (layers[axis].size() == count) out.push_back(axis);
+  }
+  return out;
+}
+
+TEST(ThinLabel, IsASheetOrAThreadWhereItGoesOn) {
+  std::mt19937 random(61);
+  std::array<int, 3> found{};  // neither, thread, sheet
+  for (int i = 0; i < 1500; ++i) {
+    const LabelBox labels =
+        i % 3 == 0 ? random_boxes(random) : random_sheet_or_thread(random, i % 3 == 1);
+    const Index3 around = in_the_middle(random, labels.box);
+    const std::vector<Index3> near = voxels_near(labels, around, 4);
+    const bool is_sheet = near.size() >= 56 && layers_of(near, 1).empty() &&
+                          !has_cube(voxels_near(labels, around, 5));
+    const bool is_thread = near.size() <= 20 && !layers_of(near, 8).empty() &&
+                           !has_cube(voxels_near(labels, around, 2));
+    EXPECT_EQ(is_sheet_at(labels, corner(around), 1), is_sheet) << i;
+    EXPECT_EQ(is_thread_at(labels, corner(around), 1), is_thread) << i;
+    ++found[is_sheet ? 2 : is_thread ? 1 : 0];
+  }
+  for (const int count : found) EXPECT_GT(count, 50);
 }
 
 /// The corner nearest to a place decides.
