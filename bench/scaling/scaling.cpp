@@ -37,7 +37,7 @@ WindowOrder order_of(Index3 windows, Order order) {
 std::vector<double> by_rank(const MarchTrace& march, const WindowOrder& order) {
   std::vector<double> out(march.seconds.size());
   for (std::uint64_t rank = 0; rank < out.size(); ++rank) {
-    out[rank] = march.seconds[engine::raster(order.window(rank), march.windows)];
+    out[rank] = march.seconds[raster(order.window(rank), march.windows)];
   }
   return out;
 }

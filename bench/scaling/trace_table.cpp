@@ -49,7 +49,7 @@ MarchTrace table(const std::vector<Visit>& visits) {
                                        std::to_string(visits.size()) + " visits of " +
                                        std::to_string(out.seconds.size()) + " windows");
   }
-  for (const Visit& v : visits) out.seconds[engine::raster(v.window, out.windows)] = v.seconds;
+  for (const Visit& v : visits) out.seconds[raster(v.window, out.windows)] = v.seconds;
   return out;
 }
 

@@ -49,7 +49,7 @@ std::vector<double> traced_seconds(const RunFlow& flow, const std::vector<MarchT
   for (std::uint32_t w = 0; w < flow.windows(); ++w) {
     const engine::WindowKey key = flow.key(w);
     const MarchTrace& march = trace[key.march];
-    out[w] = march.seconds[engine::raster(key.window, march.windows)];
+    out[w] = march.seconds[raster(key.window, march.windows)];
   }
   return out;
 }

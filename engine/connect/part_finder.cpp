@@ -24,10 +24,12 @@ bool is_alone(const WorkInOrder& work) {
   return work.threads == 1 || work.at_once == 1;
 }
 
-/// Returns the sort of tets by ranges, which works on all threads where chunks are.
+/// Returns the sort of tets by ranges, which works on all threads where chunks and ranges are.
 io::ExternalSort<2> range_sort(const std::filesystem::path& folder, const ConnectTask& task) {
   const std::size_t bytes = task.memory_bytes / 2;
-  if (is_alone(work_within(task, TetChunk::kBytes))) return {folder, bytes};
+  const bool has_threads = !is_alone(work_within(task, TetChunk::kBytes)) &&
+                           !is_alone(work_within(task, StarRange::kBytes));
+  if (!has_threads) return {folder, bytes};
   return {folder, bytes, [](std::span<RangeTet> held) { tbb_sort(held); }};
 }
 

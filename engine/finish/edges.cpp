@@ -41,36 +41,26 @@ void write_meetings(io::ScratchMesh& mesh, const io::LabelTable& table, io::Scra
   out.flush();
 }
 
-/// Takes tets one by one.
-class EdgeMeter {
- public:
-  explicit EdgeMeter(const EdgesTask& task) : task_(task) {
-    out_.longest.resize(task.table.size());
-  }
+/// The edges of some tets.
+struct TetEdges {
+  EdgeRatios ratios;
+  std::vector<std::pair<Label, double>> longest;  ///< by tet: its label, and its longest edge
+};
 
-  /// meet: at which corners labels meet.
-  void add(const std::array<io::Position, 4>& corners, Label label,
-           const std::array<bool, 4>& meet) {
-    const double size = task_.sizes[label];
-    for (std::size_t i = 0; i < 4; ++i) {
-      for (std::size_t j = i + 1; j < 4; ++j) {
-        const double edge = norm(minus(corners[j], corners[i]));
-        out_.longest[label] = std::max(out_.longest[label], edge);
-        if (size > 0.0) out_.ratios.add(edge / size, meet[i] && meet[j]);
-      }
+/// Adds a tet; meet says at which of its corners labels meet, and size is that of its label, or 0.
+void add_tet(const std::array<io::Position, 4>& corners, const std::array<bool, 4>& meet,
+             std::pair<Label, double> label_and_size, TetEdges& out) {
+  const auto [label, size] = label_and_size;
+  double longest = 0;
+  for (std::size_t i = 0; i < 4; ++i) {
+    for (std::size_t j = i + 1; j < 4; ++j) {
+      const double edge = norm(minus(corners[j], corners[i]));
+      longest = std::max(longest, edge);
+      if (size > 0.0) out.ratios.add(edge / size, meet[i] && meet[j]);
     }
   }
-  void add(const EdgeMeter& other) {
-    std::transform(out_.longest.begin(), out_.longest.end(), other.out_.longest.begin(),
-                   out_.longest.begin(), [](double a, double b) { return std::max(a, b); });
-    out_.ratios.add(other.out_.ratios);
-  }
-  [[nodiscard]] EdgeFigures& figures() { return out_; }
-
- private:
-  const EdgesTask& task_;
-  EdgeFigures out_;
-};
+  out.longest.emplace_back(label, longest);
+}
 
 }  // namespace
 
@@ -91,23 +81,30 @@ void EdgeRatios::add(const EdgeRatios& other) {
 EdgeFigures measure_edges(io::ScratchMesh& mesh, const EdgesTask& task, const TetWork& work) {
   io::ScratchFile meetings(mesh.folder());
   write_meetings(mesh, task.table, meetings);
-  EdgeMeter meter(task);
-  each_tet_range<EdgeMeter>(
+  EdgeFigures out;
+  out.longest.resize(task.table.size());
+  each_tet_range<TetEdges>(
       mesh, work,
       [&](const TetRange& range, io::CornerReader& corners) {
-        EdgeMeter of_range(task);
+        TetEdges of_range;
         io::RecordPages<std::byte, 16> pages;
         for (std::size_t t = 0; t < range.tets.size(); ++t) {
           std::array<bool, 4> meet{};
           for (std::size_t i = 0; i < 4; ++i) {
             meet[i] = pages.at(meetings, range.tets[t][i]) != std::byte{0};
           }
-          of_range.add(corners.corners(range.tets[t]), task.table.dense(range.labels[t]), meet);
+          const Label label = task.table.dense(range.labels[t]);
+          add_tet(corners.corners(range.tets[t]), meet, {label, task.sizes[label]}, of_range);
         }
         return of_range;
       },
-      [&](EdgeMeter&& of_range) { meter.add(of_range); });
-  return std::move(meter.figures());
+      [&](TetEdges&& of_range) {
+        out.ratios.add(of_range.ratios);
+        for (const auto& [label, edge] : of_range.longest) {
+          out.longest[label] = std::max(out.longest[label], edge);
+        }
+      });
+  return out;
 }
 
 std::uint64_t bytes_of_edges() {

@@ -37,7 +37,7 @@ struct EdgeFigures {
 };
 
 /// Measures the edges of all tets.
-/// Memory: bytes_of_edges() before the work on ranges, and 8 bytes a label for each of these.
+/// Memory: bytes_of_edges(), then the work on ranges; and 8 bytes a label.
 /// Disk: 9 bytes a vertex.  ERRORS: those of ScratchMesh.
 [[nodiscard]] EdgeFigures measure_edges(io::ScratchMesh& mesh, const EdgesTask& task,
                                         const TetWork& work = {});

@@ -113,6 +113,13 @@ class Pilot {
     all_have_sizes_ = have_all_sizes(task, rules);
   }
 
+  /// Returns the tets of the whole mesh.
+  std::uint64_t whole(double scale) {
+    MeshSettings settings = with_scale(task_.job.settings, scale);
+    settings.sizes.count = 0;
+    return mesh(task_.labels, settings, scale, std::nullopt).tets;
+  }
+
   report::CountFacts search() {
     double at = std::clamp(first_, range_[0], range_[1]);
     bool is_told = false;  // by trials elsewhere
@@ -134,7 +141,7 @@ class Pilot {
             .expected = static_cast<std::uint64_t>(best.tets + 0.5),
             .is_least = is_at_end(trials_.back()) && best.tets > asked(),
             .is_most = is_at_end(trials_.back()) && best.tets < asked(),
-            .may_be_off = !parts_.empty() && !is_at_end(trials_.back()),
+            .may_be_off = !parts_.empty(),
             .trials = static_cast<int>(trials_.size()),
             .voxels = voxels_};
   }
@@ -211,6 +218,9 @@ class Pilot {
     const double a_voxel = tets * cubes / voxels;  // tets in one at a factor of 1
     const double a_face = kTetsAFace * std::pow(cubes / voxels, 2.0 / 3);
     first_ = first_guess(a_voxel * voxels, a_face * static_cast<double>(sample.content().faces));
+    // One part does not stand for a small volume whose sizes differ from place to place.
+    const bool is_small = lattice.info().shape.product() <= task_.max_one_part;
+    if (task_.image != nullptr && is_small) return;
     parts_ = sample.parts(a_voxel / (a_face * std::exp(first_)));
   }
 
@@ -226,31 +236,28 @@ class Pilot {
   }
 
   double tets_at(double scale) {
+    if (parts_.empty()) return static_cast<double>(whole(scale));
     MeshSettings settings = with_scale(task_.job.settings, scale);
     settings.sizes.count = 0;
-    if (parts_.empty()) {
-      const Index3 shape = task_.labels.info().shape;
-      return static_cast<double>(mesh(task_.labels, settings, scale, std::nullopt, shape).tets);
-    }
     settings.periodic = 0;  // a part of a cell does not repeat itself
     if (!settings.inner_quality) settings.inner_quality = inner_quality_;
     double sum = 0;
     for (const PilotPart& part : parts_) {
       const io::CroppedVolume cut(std::make_unique<Whole>(task_.labels.raw()), part.voxels, true);
-      const RunReport report = mesh(io::DenseVolume(cut, task_.labels.table()), settings, scale,
-                                    part.within, part.voxels.shape());
+      const RunReport report =
+          mesh(io::DenseVolume(cut, task_.labels.table()), settings, scale, part);
       sum += part.weight * static_cast<double>(report.tets_within);
     }
     return sum;
   }
 
   RunReport mesh(const io::DenseVolume& labels, const MeshSettings& settings, double scale,
-                 const std::optional<Box3>& within, Index3 shape) {
+                 const std::optional<PilotPart>& part) {
     const MeshJob& job = task_.job;
     RunHooks hooks{.threads = job.run.threads};
     hooks.progress = [&](const RunProgress& /*at*/) { job.stop(); };
     hooks.output.wanted = wanted_labels(job.choice, labels.table());
-    hooks.output.within = within;
+    if (part) hooks.output.within = part->within;
     hooks.store.memory = task_.memory;
     hooks.store.memory_beside = task_.memory_beside;
     hooks.owns_process = job.run.owns_process;
@@ -262,10 +269,13 @@ class Pilot {
       hooks.store.group = kNeverDurable;
     }
     std::optional<SizeImage> image;
-    if (task_.image != nullptr) image.emplace(task_.image->scaled(scale));
+    if (task_.image != nullptr) {
+      const SizeImage sizes = task_.image->scaled(scale);
+      image.emplace(part ? sizes.part(part->voxels) : sizes);
+    }
     hooks.sizes = image ? &*image : nullptr;
     io::NoSink sink;
-    voxels_ += shape.product();
+    voxels_ += labels.info().shape.product();
     return mesh_volume(labels, settings, sink, hooks);
   }
 
@@ -293,6 +303,10 @@ MeshSettings with_scale(const MeshSettings& settings, double scale) {
 
 report::CountFacts scale_for_count(const PilotTask& task) {
   return Pilot(task).search();
+}
+
+std::uint64_t count_whole(const PilotTask& task, double scale) {
+  return Pilot(task).whole(scale);
 }
 
 double next_scale(const report::CountFacts& count, std::uint64_t tets,

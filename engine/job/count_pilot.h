@@ -30,8 +30,8 @@ struct PilotTask {
 ///
 /// It meshes at up to six factors, the first by the volume of labels and the faces between them,
 /// the others each by a secant through the logarithms of two counts, until a count is so near that
-/// the secant tells the rest.  A volume too small for parts (PilotSample) is meshed whole, which
-/// tells the count exactly.  Of a larger one parts are meshed, a tenth or so of it, and a count is
+/// the secant tells the rest.  A volume too small for parts (PilotSample), or whose sizes are
+/// those of an image, is meshed whole, which tells the count exactly.  Of a larger one parts are meshed, a tenth or so of it, and a count is
 /// that of the parts times what they stand for.  So it is a function of volume and settings, for
 /// any number of threads.
 ///
@@ -42,6 +42,9 @@ struct PilotTask {
 /// REQUIRES: count > 0.
 /// ERRORS: those of mesh_volume(), and what the job's functions throw.
 [[nodiscard]] report::CountFacts scale_for_count(const PilotTask& task);
+
+/// Returns how many tets the marches make with the factor.  ERRORS: as scale_for_count().
+[[nodiscard]] std::uint64_t count_whole(const PilotTask& task, double scale);
 
 /// Returns the factor for another mesh where one with count.scale has so many tets.
 [[nodiscard]] double next_scale(const report::CountFacts& count, std::uint64_t tets,

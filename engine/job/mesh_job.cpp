@@ -69,7 +69,7 @@ class MeshRun {
     if (asked_.settings.sizes.count > 0) find_count(labels);
     check_interfaces(job_.connect, run_.labels);
     plan_check(labels);
-    while (!finish_into(sinks, labels)) scale_again(labels);
+    while (!finish_into(sinks, labels)) scale_again(run_.engine.tets, labels);
     leave_for_later();
     tell();
     return std::move(run_);
@@ -108,48 +108,66 @@ class MeshRun {
   }
 
   void find_count(const io::DenseVolume& labels) {
-    run_.count = count_facts({.labels = labels,
-                              .job = asked_,
-                              .image = sizes_.image ? &*sizes_.image : nullptr,
-                              .memory = memory(),
-                              .memory_beside = job_.run.store.memory_beside},
-                             run_);
-    take_scale(run_.count->scale);
+    unscaled_ = sizes_.image;
+    const PilotTask task{.labels = labels,
+                         .job = asked_,
+                         .image = unscaled_ ? &*unscaled_ : nullptr,
+                         .memory = memory(),
+                         .memory_beside = job_.run.store.memory_beside};
+    run_.count = count_facts(task, run_);
+    take_scale();
+    if (is_alone()) return;
+    // Each of several processes finds for itself what one alone would see at its meshes.
+    while (run_.count->may_be_off) {
+      const std::uint64_t tets = count_whole(task, run_.count->scale);
+      if (!misses_count(tets, labels)) return;
+      scale_again(tets, labels);
+    }
   }
 
-  /// Settles sizes by the count's scale, which is this many times the one before.
-  void take_scale(double more) {
-    job_.settings = with_scale(asked_.settings, run_.count->scale);
+  [[nodiscard]] bool is_alone() const {
+    return job_.run.processes == nullptr || job_.run.processes->count() == 1;
+  }
+
+  /// Settles sizes by the count's scale.
+  void take_scale() {
+    const double scale = run_.count->scale;
+    job_.settings = with_scale(asked_.settings, scale);
     run_.sizes = job_.settings.sizes;
-    if (sizes_.image) sizes_.image.emplace(sizes_.image->scaled(more));
+    if (unscaled_) sizes_.image.emplace(unscaled_->scaled(scale));
     check(input_.volume().info(), job_.settings);
   }
 
   /// Returns whether a mesh of so many tets is made again, with a scale that follows from it.
-  [[nodiscard]] bool misses_count(std::uint64_t tets, const io::DenseVolume& labels) const {
+  [[nodiscard]] bool misses_count(std::uint64_t tets, const io::DenseVolume& labels) {
     constexpr double kMost = 0.09;
-    const bool is_alone = job_.run.processes == nullptr || job_.run.processes->count() == 1;
-    if (!run_.count || !run_.count->may_be_off || !is_alone) return false;
+    if (!run_.count || !run_.count->may_be_off) return false;
     if (VoxelLattice(labels).info().shape.product() > kMaxOnePart) return false;
-    const auto asked = static_cast<double>(run_.count->asked);
-    return std::abs(static_cast<double>(tets) - asked) > kMost * asked;
+    report::CountFacts& count = *run_.count;
+    const double off = static_cast<double>(tets) - static_cast<double>(count.asked);
+    count.is_least = count.is_most = false;
+    if (std::abs(off) <= kMost * static_cast<double>(count.asked)) return false;
+    if (next_scale(count, tets, labels, asked_.settings) != count.scale) return true;
+    count.is_least = off > 0;
+    count.is_most = off < 0;
+    return false;
   }
 
-  void scale_again(const io::DenseVolume& labels) {
+  void scale_again(std::uint64_t tets, const io::DenseVolume& labels) {
     report::CountFacts& count = *run_.count;
     const double before = count.scale;
-    count.scale = next_scale(count, run_.engine.tets, labels, asked_.settings);
+    count.scale = next_scale(count, tets, labels, asked_.settings);
     count.expected = count.asked;
     count.may_be_off = count.earlier_tets == 0;
     count.earlier_scale = before;
-    count.earlier_tets = run_.engine.tets;
+    count.earlier_tets = tets;
     ++count.trials;
     count.voxels += labels.info().shape.product();
     count.seconds = meter_.read().wall_seconds - run_.labels_seconds;
     if (run_.engine.work != nullptr) run_.engine.work->discard();
     run_.engine.work.reset();
     job_.run.store.resume = false;
-    take_scale(count.scale / before);
+    take_scale();
   }
 
   /// Marches, and gives the mesh to the sinks, unless it is to be made again.  Returns whether they
@@ -160,7 +178,7 @@ class MeshRun {
     std::optional<FinishFacts> facts;
     bool is_missed = false;
     const auto finish = [&] {
-      is_missed = misses_count(mesh.tet_count(), labels);
+      is_missed = is_alone() && misses_count(mesh.tet_count(), labels);
       if (!is_missed) facts = apply_passes(mesh, task, sinks);
     };
     io::ScratchMeshSink sink(mesh, finish, bytes_to_finish(task, sinks));
@@ -246,6 +264,7 @@ class MeshRun {
   MeshJob job_;  ///< with the settings of the marches
   CertificatePlan plan_;
   JobSizes sizes_;
+  std::optional<SizeImage> unscaled_;  ///< the image of sizes before the count's scale
   StoppableVolume from_file_;
   KeptInput kept_;
   io::SpeckLimits limits_;

@@ -15,7 +15,7 @@ constexpr std::int64_t kHalo = 8;
 constexpr double kMoreAtCuts = 1.04;
 /// The edges of boxes: at least, and of a large lattice.
 constexpr std::int64_t kLeastEdge = 28, kLargeEdge = 80;
-constexpr std::int64_t kFewBoxes = 8, kTooFewBoxes = 6;
+constexpr std::int64_t kFewBoxes = 8, kFewestOfFew = 6, kFewestOfMany = 4;
 /// One of so many voxels is meshed, in this many boxes.
 constexpr std::int64_t kShare = 10, kFewestDrawn = 2, kMostDrawn = 16;
 
@@ -33,23 +33,28 @@ Index3 index_of(const Axes& v) {
   return {v[0], v[1], v[2]};
 }
 
-/// Returns into how many pieces each axis is cut so that there are some eight boxes.
-Axes few_pieces(const Axes& shape) {
+/// Returns into how many pieces each axis is cut so that there are some eight boxes.  None is
+/// thinner than a voxel of the volume, which has so many layers.
+Axes few_pieces(const Axes& shape, const Axes& layers) {
   Axes out{1, 1, 1};
   while (index_of(out).product() < kFewBoxes) {
     unsigned longest = 0;
     for (unsigned axis = 1; axis < 3; ++axis) {
       if (shape[axis] * out[longest] > shape[longest] * out[axis]) longest = axis;
     }
-    if (shape[longest] < kLeastEdge * (out[longest] + 1)) break;
+    const std::int64_t edge = std::max(kLeastEdge, layers[longest]);
+    if (shape[longest] < edge * (out[longest] + 1)) break;
     ++out[longest];
   }
   return out;
 }
 
-Axes many_pieces(const Axes& shape) {
-  const auto pieces = [](std::int64_t n) { return std::max<std::int64_t>(1, n / kLargeEdge); };
-  return {pieces(shape[0]), pieces(shape[1]), pieces(shape[2])};
+Axes many_pieces(const Axes& shape, const Axes& layers) {
+  Axes out{};
+  for (unsigned axis = 0; axis < 3; ++axis) {
+    out[axis] = std::max<std::int64_t>(1, shape[axis] / std::max(kLargeEdge, layers[axis]));
+  }
+  return out;
 }
 
 /// Returns a piece of the lattice, which begins and ends between voxels of the volume.
@@ -70,7 +75,7 @@ Box3 without_halo(const Box3& box, const Axes& shape) {
   Axes lo = axes_of(box.lo), hi = axes_of(box.hi);
   for (unsigned axis = 0; axis < 3; ++axis) {
     if (lo[axis] > 0) lo[axis] += kHalo;
-    if (hi[axis] < shape[axis]) hi[axis] -= kHalo;
+    if (hi[axis] < shape[axis]) hi[axis] = std::max(lo[axis], hi[axis] - kHalo);
   }
   return {index_of(lo), index_of(hi)};
 }
@@ -83,7 +88,7 @@ PilotSample::PilotSample(const VoxelLattice& lattice, const PreparedLabels& labe
   const Index3 shape = lattice.info().shape;
   is_cut_in_few_ = shape.product() <= max_cut;
   const Axes edges = axes_of(shape), layers = axes_of(lattice.layers());
-  const Axes pieces = is_cut_in_few_ ? few_pieces(edges) : many_pieces(edges);
+  const Axes pieces = is_cut_in_few_ ? few_pieces(edges, layers) : many_pieces(edges, layers);
   for_each_index(Box3{{0, 0, 0}, index_of(pieces)}, [&](Index3 piece) {
     const Box3 box = box_at(edges, axes_of(piece), pieces, layers);
     const Box3 within = without_halo(box, edges);
@@ -93,7 +98,8 @@ PilotSample::PilotSample(const VoxelLattice& lattice, const PreparedLabels& labe
 }
 
 std::vector<PilotPart> PilotSample::parts(double faces_a_voxel) const {
-  if (static_cast<std::int64_t>(boxes_.size()) < kTooFewBoxes) return {};
+  const std::int64_t fewest = is_cut_in_few_ ? kFewestOfFew : kFewestOfMany;
+  if (static_cast<std::int64_t>(boxes_.size()) < fewest) return {};
   if (!is_cut_in_few_) return drawn(faces_a_voxel);
   const Box* const box = most_typical(faces_a_voxel);
   if (box == nullptr) return {};
@@ -101,6 +107,16 @@ std::vector<PilotPart> PilotSample::parts(double faces_a_voxel) const {
 }
 
 BoxContent PilotSample::content_of(const Box3& box) const {
+  constexpr std::int64_t kSlab = 16;
+  BoxContent out;
+  for (Box3 slab = box; slab.lo.z < box.hi.z; slab.lo.z = slab.hi.z) {
+    slab.hi.z = std::min(box.hi.z, slab.lo.z + kSlab);
+    out += content_of_slab(slab);
+  }
+  return out;
+}
+
+BoxContent PilotSample::content_of_slab(const Box3& box) const {
   BoxContent out;
   const LabelBox labels = labels_.original({box.lo, box.hi + Index3{1, 1, 1}});
   for_each_index(box, [&](Index3 v) {

@@ -38,7 +38,7 @@ struct PilotPart {
 /// in which faces and voxels are mixed most as in the whole, among those that have half of their
 /// share or more.  A larger one is cut into boxes of 80 voxels, and up to 16 of them are drawn,
 /// evenly along the volume and without any random number, with chances in proportion to what they
-/// hold. Tets within 8 voxels of a cut do not count.
+/// hold.  Tets within 8 voxels of a cut do not count.
 class PilotSample {
  public:
   /// REQUIRES: all that is given outlives the object.
@@ -59,6 +59,7 @@ class PilotSample {
   };
 
   [[nodiscard]] BoxContent content_of(const Box3& box) const;
+  [[nodiscard]] BoxContent content_of_slab(const Box3& box) const;
   [[nodiscard]] PilotPart part_of(const Box& box, double weight) const;
   [[nodiscard]] const Box* most_typical(double faces_a_voxel) const;
   [[nodiscard]] std::vector<PilotPart> drawn(double faces_a_voxel) const;

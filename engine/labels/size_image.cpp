@@ -52,13 +52,20 @@ SizeImage SizeImage::scaled(double factor) const {
   return out;
 }
 
+SizeImage SizeImage::part(const Box3& voxels) const {
+  SizeImage out = *this;
+  out.first_ = first_ + voxels.lo;
+  out.shape_ = voxels.shape();
+  return out;
+}
+
 std::vector<double> SizeImage::read(const Box3& box, Index3 lattice) const {
   const Index3 layers{lattice.x / shape_.x, lattice.y / shape_.y, lattice.z / shape_.z};
   const Box3 below{{box.lo.x / layers.x, box.lo.y / layers.y, box.lo.z / layers.z},
                    {(box.hi.x - 1) / layers.x + 1, (box.hi.y - 1) / layers.y + 1,
                     (box.hi.z - 1) / layers.z + 1}};
   std::vector<double> coarse(static_cast<std::size_t>(below.voxels()));
-  numbers_->read_numbers(below, coarse);
+  numbers_->read_numbers({first_ + below.lo, first_ + below.hi}, coarse);
   std::vector<double> out;
   out.reserve(static_cast<std::size_t>(box.voxels()));
   for_each_index(box, [&](Index3 v) {

@@ -22,6 +22,8 @@ class SizeImage {
   SizeImage(const io::LabelVolume& image, const io::VolumeInfo& labels, std::string file);
   /// Returns the image with each size multiplied.
   [[nodiscard]] SizeImage scaled(double factor) const;
+  /// Returns the sizes of these voxels alone, for a volume that has no others.
+  [[nodiscard]] SizeImage part(const Box3& voxels) const;
 
   /// Returns the sizes in a box, x fastest, in physical units; infinity where the image has no
   /// positive number.  lattice is the shape of the lattice, a multiple of that of the labels.
@@ -38,6 +40,7 @@ class SizeImage {
   void each_size(Visit visit) const;
 
   const io::NumberVolume* numbers_;
+  Index3 first_{};  ///< the first voxel of the image that counts
   Index3 shape_;
   double factor_ = 1.0;
 };

@@ -5,7 +5,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <condition_variable>
 #include <limits>
+#include <memory>
+#include <mutex>
 
 #include "engine/labels/reading_tiles.h"
 #include "engine/system/crew.h"
@@ -63,6 +66,35 @@ struct LoadedVoxels {
 Box3 scaled(const Box3& box, Index3 by) {
   return {layered_shape(box.lo, by), layered_shape(box.hi, by)};
 }
+
+/// Memory that threads share: one that finds too little waits for others to give some back, and
+/// where it is alone it may have any amount.
+class SharedMemory {
+ public:
+  explicit SharedMemory(std::uint64_t bytes) : all_(bytes) {}
+
+  /// Calls work once there is memory for it.
+  template <class Work>
+  void with(std::uint64_t bytes, Work work) {
+    {
+      std::unique_lock lock(mutex_);
+      given_back_.wait(lock, [&] { return taken_ == 0 || taken_ + bytes <= all_; });
+      taken_ += bytes;
+    }
+    const std::shared_ptr<void> held(nullptr, [&](void*) {
+      const std::lock_guard lock(mutex_);
+      taken_ -= bytes;
+      given_back_.notify_all();
+    });
+    work();
+  }
+
+ private:
+  std::mutex mutex_;
+  std::condition_variable given_back_;
+  std::uint64_t all_;
+  std::uint64_t taken_ = 0;
+};
 
 class VolumeStage {
  public:
@@ -333,11 +365,12 @@ class VolumeStage {
   /// Lets samples that found nothing of their label look farther, if there is something at all.
   void conclude_distances() {
     const std::vector<bool> is_found = found_labels();
+    SharedMemory memory(task_.memory_bytes);
     double reach = std::numeric_limits<double>::infinity();
     each_in_order<Farther>(
         {task_.threads}, far_.size(),
         [&](std::size_t i) {
-          return look_farther(far_[i], std::move(far_distances_[i]), is_found);
+          return look_farther(far_[i], std::move(far_distances_[i]), is_found, memory);
         },
         [&](std::size_t, Farther&& farther) {
           reach = std::min(reach, farther.reach);
@@ -365,7 +398,8 @@ class VolumeStage {
 
   /// Looks as far as memory lets it.
   [[nodiscard]] Farther look_farther(std::uint32_t tile, TileDistances&& distances,
-                                     const std::vector<bool>& is_found) const {
+                                     const std::vector<bool>& is_found,
+                                     SharedMemory& memory) const {
     constexpr double kStep = 4;
     constexpr std::uint64_t kBytesAVoxel = 32;
     const Box3 box = grid_.box(tile);
@@ -375,7 +409,8 @@ class VolumeStage {
       const auto voxels = static_cast<std::uint64_t>(farther.voxels() * layers_.product());
       if (voxels > task_.memory_bytes / kBytesAVoxel) return out;
       out.reach *= kStep;
-      out.distances = measure(box, out.reach, load(farther));
+      memory.with(kBytesAVoxel * voxels,
+                  [&] { out.distances = measure(box, out.reach, load(farther)); });
     }
     out.reach = std::numeric_limits<double>::infinity();
     return out;

@@ -137,8 +137,8 @@ const Room kRooms[] = {
       "engine/output/", "engine/settings/", "engine/store/", "engine/system/", "engine/window/"}},
     // What implements that interface for many processes; nobody but their program includes it.
     {kTeam,
-     {"engine/forecast/", "engine/labels/", "engine/march/", "engine/output/", "engine/run/",
-      "engine/settings/", "engine/store/", "engine/window/"}},
+     {"engine/forecast/", "engine/labels/", "engine/march/", "engine/run/", "engine/settings/",
+      "engine/store/", "engine/window/"}},
     // What of a mesh is seen, and from where: commands, pages and the library have it drawn.
     {"engine/picture/", {"engine/report/figures.h"}},
     // The main job as program and library start it.

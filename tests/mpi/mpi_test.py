@@ -107,6 +107,15 @@ class SharedRuns(unittest.TestCase):
                 self.expect_same(ranks, expected, "--order", order, "--threads", str(2 * ranks),
                                  "--certify", "off")
 
+    def test_a_count_is_met_by_the_mesh_of_one_process(self):
+        self.synth("voronoi", "64,64,64", 30)
+        options = ["--count", "20000", "--certify", "off"]  # the first mesh misses it
+        report = self.folder / "r.json"
+        expected = self.alone("--count", "20000", "--report", report)
+        pilot = json.loads(report.read_text())["size"]["count"]["pilot"]
+        self.assertGreater(pilot["voxels"], 64 ** 3)
+        self.expect_same(2, expected, *options)
+
     def test_passes_and_formats_are_those_of_one_process(self):
         self.synth("spheres", "24,24,40", 6)
         for output, options in (
@@ -147,7 +156,7 @@ class SharedRuns(unittest.TestCase):
                 self.assertEqual(shared["shape"], shape)
         self.assertTrue((self.folder / "page.html").exists())
         self.assertIn("longest_edge", json.dumps(shape["per_label"]))
-        self.assertTrue(shared["certificate"])
+        self.assertTrue(shared["certificate"]["made"])
 
     def limit_files(self, run, rank, size):
         """From now on that rank of a run cannot write beyond `size` bytes of any file."""

@@ -4,6 +4,8 @@
 // messages arrive.  Processes are played by threads here; those of MPI are in tests/mpi.
 #include <gmock/gmock.h>
 
+#include <numeric>
+
 #include "engine/labels/prepared_labels.h"
 #include "engine/run/run.h"
 #include "engine/team/team_processes.h"

@@ -27,7 +27,7 @@ class GroupedSink : public MeshSink {
 
   /// write may be empty where the caller takes the mesh.  With curves, nodes lie where
   /// curve_nodes() places them; kCurvedTet10 has those of the mesh (ScratchMesh::curved_nodes()),
-  /// or, where there are none, curves of its own. REQUIRES: folder exists; curves: an element with
+  /// or, where there are none, curves of its own.  REQUIRES: folder exists; curves: an element with
   /// middles.
   GroupedSink(const std::filesystem::path& folder, WriteGrouped write,
               Element element = Element::kTet4, std::optional<CurveRule> curves = {});

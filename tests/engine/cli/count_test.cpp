@@ -101,15 +101,40 @@ TEST_F(CountTest, ComesAgainAfterAKill) {
   synth("voronoi", "--shape 64,64,64 --labels 30 --seed 1");
   const std::string mesh = "mesh v.npy --count 20000 --save-every 0 -o ";
   expect_done(mesh + "whole.vtu");
-  for (const std::string seconds : {"0.9", "1.8", "2.7"}) {
+  int killed = 0;
+  for (const std::string seconds : {"0.5", "0.9", "1.8", "2.7", "6"}) {
     SCOPED_TRACE(seconds);
-    const ProgramRun killed = run(mesh + "v.vtu", "timeout -s KILL " + seconds);
+    run(mesh + "v.vtu --force", "timeout -s KILL " + seconds);
     if (!files().contains("v.vtu.work")) continue;
+    ++killed;
     expect_done(mesh + "v.vtu --resume");
     EXPECT_EQ(read("v.vtu"), read("whole.vtu"));
     std::filesystem::remove(folder() / "v.vtu");
   }
+  EXPECT_GT(killed, 0);
 }
+
+TEST_F(CountTest, MeetsItWithAnImageOfSizes) {
+  synth("voronoi", "--shape 64,64,64 --labels 9 --seed 4");
+  expect_done("mesh v.npy -o v.vtu --report r.json --size @v.npy --count 12000");
+  EXPECT_NEAR(json::parse(read("r.json"))["output"]["tets"].get<double>(), 12000, 1200);
+}
+
+/// A part is never thinner than a slice, whatever the number of its layers.
+TEST_F(CountTest, MeshesWithThickSlices) {
+  synth("voronoi", "--shape 40,40,3 --labels 5 --seed 6");
+  expect_done("mesh v.npy -o v.vtu --report r.json --spacing 1,1,50 --count 20000");
+  EXPECT_NEAR(json::parse(read("r.json"))["output"]["tets"].get<double>(), 20000, 4000);
+}
+
+TEST_F(CountTest, SaysOfALargerVolumeWhatCannotBeHad) {
+  synth("tubes", "--shape 64,64,64 --labels 5 --seed 8");
+  const ProgramRun done = run("mesh v.npy -o v.vtu --report r.json --count 100");
+  EXPECT_EQ(done.code, 0) << done.err;
+  EXPECT_NE(done.err.find("fewer tets than"), std::string::npos) << done.err;
+  EXPECT_TRUE(json::parse(read("r.json"))["size"]["count"]["is_least"]);
+}
+
 TEST_F(CountTest, SaysWhatCannotBeHad) {
   synth("voronoi", "--shape 24,24,24 --labels 8 --seed 8");
   for (const auto& [count, key, words] : {std::tuple{"10", "is_least", "fewer tets than"},

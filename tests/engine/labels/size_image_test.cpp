@@ -75,5 +75,20 @@ TEST(SizeImage, ReadsAllByPiecesInTheSameOrder) {
   }
 }
 
+TEST(SizeImage, APartHasTheSizesOfItsVoxels) {
+  const NumberedImage image({9, 8, 7});
+  const Box3 voxels{{2, 3, 1}, {7, 8, 5}};
+  const SizeImage part = SizeImage(image, image.info(), "sizes.npy").scaled(2).part(voxels);
+  const Index3 layers{1, 2, 3}, lattice{5, 10, 12};
+  const Box3 box{{1, 3, 2}, {5, 10, 11}};
+  const std::vector<double> found = part.read(box, lattice);
+  for_each_index(box, [&](Index3 v) {
+    const Index3 voxel = voxels.lo + Index3{v.x, v.y / layers.y, v.z / layers.z};
+    const double n = NumberedImage::number(voxel);
+    const double size = n > 0 ? 2 * n : std::numeric_limits<double>::infinity();
+    EXPECT_EQ(found[static_cast<std::size_t>(box.offset(v))], size);
+  });
+}
+
 }  // namespace
 }  // namespace mw::engine

@@ -70,7 +70,7 @@ TEST(Crew, AProcessBoundToOneCoreTakesOneThread) {
   cpu_set_t all, one;
   ASSERT_EQ(::sched_getaffinity(0, sizeof all, &all), 0);
   CPU_ZERO(&one);
-  for (int core = 0; CPU_COUNT(&one) == 0; ++core) {
+  for (std::size_t core = 0; CPU_COUNT(&one) == 0; ++core) {
     if (CPU_ISSET(core, &all)) CPU_SET(core, &one);
   }
   ASSERT_EQ(::sched_setaffinity(0, sizeof one, &one), 0);
