@@ -31,9 +31,9 @@ struct PilotTask {
 /// It meshes at up to six factors, the first by the volume of labels and the faces between them,
 /// the others each by a secant through the logarithms of two counts, until a count is so near that
 /// the secant tells the rest.  A volume too small for parts (PilotSample), or whose sizes are
-/// those of an image, is meshed whole, which tells the count exactly.  Of a larger one parts are meshed, a tenth or so of it, and a count is
-/// that of the parts times what they stand for.  So it is a function of volume and settings, for
-/// any number of threads.
+/// those of an image, is meshed whole, which tells the count exactly.  Of a larger one parts are
+/// meshed, a tenth or so of it, and a count is that of the parts times what they stand for.  So it
+/// is a function of volume and settings, for any number of threads.
 ///
 /// Where no factor gives the count, the factor is at an end of its range: the least sizes that
 /// voxels allow, or sizes of 64 voxels, with which only the bound on the distance, the topology and
