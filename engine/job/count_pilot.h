@@ -46,7 +46,7 @@ struct PilotTask {
 /// Returns how many tets the marches make with the factor.  ERRORS: as scale_for_count().
 [[nodiscard]] std::uint64_t count_whole(const PilotTask& task, double scale);
 
-/// Returns the factor for another mesh where one with count.scale has so many tets.
+/// Returns the factor for another mesh where the one with count.scale has `tets` tets.
 [[nodiscard]] double next_scale(const report::CountFacts& count, std::uint64_t tets,
                                 const io::DenseVolume& labels, const MeshSettings& settings);
 

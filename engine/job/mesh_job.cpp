@@ -138,7 +138,7 @@ class MeshRun {
     check(input_.volume().info(), job_.settings);
   }
 
-  /// Returns whether a mesh of so many tets is made again, with a scale that follows from it.
+  /// Returns whether a mesh of `tets` tets is made again, with a scale that follows from it.
   [[nodiscard]] bool misses_count(std::uint64_t tets, const io::DenseVolume& labels) {
     constexpr double kMost = 0.09;
     if (!run_.count || !run_.count->may_be_off) return false;

@@ -16,7 +16,7 @@ constexpr double kMoreAtCuts = 1.04;
 /// The edges of boxes: at least, and of a large lattice.
 constexpr std::int64_t kLeastEdge = 28, kLargeEdge = 80;
 constexpr std::int64_t kFewBoxes = 8, kFewestOfFew = 6, kFewestOfMany = 4;
-/// One of so many voxels is meshed, in this many boxes.
+/// One in kShare voxels is meshed, in a number of boxes between these bounds.
 constexpr std::int64_t kShare = 10, kFewestDrawn = 2, kMostDrawn = 16;
 
 double weight_of(const BoxContent& content, double faces_a_voxel) {
@@ -34,7 +34,7 @@ Index3 index_of(const Axes& v) {
 }
 
 /// Returns into how many pieces each axis is cut so that there are some eight boxes.  None is
-/// thinner than a voxel of the volume, which has so many layers.
+/// thinner than a voxel of the volume, which is cut into `layers`.
 Axes few_pieces(const Axes& shape, const Axes& layers) {
   Axes out{1, 1, 1};
   while (index_of(out).product() < kFewBoxes) {

@@ -48,7 +48,7 @@ class PilotSample {
   /// Returns what the whole lattice holds.
   [[nodiscard]] const BoxContent& content() const { return total_; }
   /// Returns the parts that are meshed; none where the lattice is too small for any but the whole.
-  /// A voxel counts as so many faces.
+  /// A voxel counts as `faces_a_voxel` faces.
   [[nodiscard]] std::vector<PilotPart> parts(double faces_a_voxel) const;
 
  private:

@@ -53,7 +53,7 @@ struct LatticeBox {
   return p;
 }
 
-/// The position so many voxels further on.  REQUIRES: it is in the range of coordinates.
+/// The position that is `voxels` further on.  REQUIRES: it is in the range of coordinates.
 [[nodiscard]] constexpr Point moved(Point p, Index3 voxels) {
   const auto units = [](std::int64_t v) { return static_cast<std::int32_t>(v * kUnitsPerVoxel); };
   return {p.x + units(voxels.x), p.y + units(voxels.y), p.z + units(voxels.z)};

@@ -51,7 +51,7 @@ TEST(PilotSample, IsAFewPartsOfALargerOne) {
     const Box3 mine{{0, 0, 0}, part.voxels.shape()};
     EXPECT_EQ(intersection(part.within, mine), part.within);
     EXPECT_EQ(one.content.voxels, shape.product());
-    // All is alike, so a part stands for the whole by its share, but for what cuts add.
+    // All is alike, so a part stands for the whole by its share, except for what cuts add.
     const double share = static_cast<double>(part.within.voxels()) * part.weight;
     EXPECT_NEAR(share / static_cast<double>(shape.product()), 1.0, 0.1);
   }

@@ -114,7 +114,7 @@ LabelBox random_sheet_or_thread(std::mt19937& random, bool is_thread) {
   return out;
 }
 
-/// The axes across which voxels are in so many layers.
+/// The axes across which voxels are in `count` layers.
 std::vector<std::size_t> layers_of(const std::vector<Index3>& voxels, std::size_t count) {
   std::array<std::set<std::int64_t>, 3> layers;
   for (const Index3 v : voxels) {
