@@ -248,16 +248,9 @@ std::string giver_of(const std::string& flag, const OptionSet& options) {
 
 /// What words of the summary mean.
 constexpr const char* kWords =
-    "In the summary a tet is a tetrahedron, its radius ratio three times the radius of the sphere "
-    "in\n"
-    "it by that of the sphere around it; a part is what tets with common faces make; axes are "
-    "turned\n"
-    "where those of voxels are not those of coordinates (ras, lps: to right or left, to front or "
-    "back,\n"
-    "up).  P1 topology and P8 volumes: labels keep those of their voxels; P2 fit: tets fill the "
-    "box\n"
-    "face to face; P3 radius ratio and P4 distance to voxels: within --quality-floor and\n"
-    "--max-distance.\n";
+    "Summary: the radius ratio of a regular tetrahedron is 1, of a flat one 0; a part is what "
+    "faces\n"
+    "join; ras, lps: axes to right or left, to front or back, up.  README.md has P1 to P8.\n";
 
 /// Says how the mesh becomes a job where its format has jobs and none was asked.
 void tell_deck(const MeshRequest& request) {
