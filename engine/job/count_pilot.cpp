@@ -208,6 +208,7 @@ class Pilot {
     MeshSettings plain = task_.job.settings;
     plain.start = StartMesh::kDense;
     plain.sizes = {};
+    plain.periodic = 0;  // the lattice here is that of a volume that does not repeat itself
     const PreparedLabels labels(lattice.labels(), plain, thread_count(task_.job.run.threads),
                                 io::scratch_folder());
     inner_quality_ = inner_quality_for(labels.counts().faces);

@@ -127,6 +127,14 @@ TEST_F(CountTest, MeshesWithThickSlices) {
   EXPECT_NEAR(json::parse(read("r.json"))["output"]["tets"].get<double>(), 20000, 4000);
 }
 
+TEST_F(CountTest, MeetsItInACellOfOddShape) {
+  synth("voronoi", "--shape 15,17,13 --labels 4 --seed 3");
+  for (const std::string axes : {"x", "xyz"}) {
+    expect_done("mesh v.npy -o v.vtu --report r.json --count 4000 --force --periodic " + axes);
+    EXPECT_NEAR(json::parse(read("r.json"))["output"]["tets"].get<double>(), 4000, 400) << axes;
+  }
+}
+
 TEST_F(CountTest, SaysOfALargerVolumeWhatCannotBeHad) {
   synth("tubes", "--shape 64,64,64 --labels 5 --seed 8");
   const ProgramRun done = run("mesh v.npy -o v.vtu --report r.json --count 100");
