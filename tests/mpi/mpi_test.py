@@ -108,10 +108,10 @@ class SharedRuns(unittest.TestCase):
                                  "--certify", "off")
 
     def test_a_count_is_met_by_the_mesh_of_one_process(self):
-        self.synth("voronoi", "64,64,64", 30)
-        options = ["--count", "20000", "--certify", "off"]  # the first mesh misses it
+        self.synth("voronoi", "64,64,64", 60)
+        options = ["--count", "8000", "--certify", "off"]  # the first mesh misses it
         report = self.folder / "r.json"
-        expected = self.alone("--count", "20000", "--report", report)
+        expected = self.alone("--count", "8000", "--report", report)
         pilot = json.loads(report.read_text())["size"]["count"]["pilot"]
         self.assertGreater(pilot["voxels"], 64 ** 3)
         self.expect_same(2, expected, *options)
