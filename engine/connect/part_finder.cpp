@@ -15,20 +15,14 @@ namespace {
 
 /// Returns how things of this size are worked on in the memory that there is for them.
 WorkInOrder work_within(const ConnectTask& task, std::size_t bytes_each) {
-  const WorkInOrder most{.threads = task.threads};
-  const std::size_t fit = task.work_bytes / bytes_each;
-  return {.threads = task.threads, .at_once = std::clamp<std::size_t>(fit, 1, most.at_once)};
-}
-
-bool is_alone(const WorkInOrder& work) {
-  return work.threads == 1 || work.at_once == 1;
+  return WorkInOrder::within(task.threads, task.work_bytes, bytes_each);
 }
 
 /// Returns the sort of tets by ranges, which works on all threads where chunks and ranges are.
 io::ExternalSort<2> range_sort(const std::filesystem::path& folder, const ConnectTask& task) {
   const std::size_t bytes = task.memory_bytes / 2;
-  const bool has_threads = !is_alone(work_within(task, TetChunk::kBytes)) &&
-                           !is_alone(work_within(task, StarRange::kBytes));
+  const bool has_threads = !work_within(task, TetChunk::kBytes).is_alone() &&
+                           !work_within(task, StarRange::kBytes).is_alone();
   if (!has_threads) return {folder, bytes};
   return {folder, bytes, [](std::span<RangeTet> held) { tbb_sort(held); }};
 }

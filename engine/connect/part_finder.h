@@ -34,8 +34,8 @@ struct CopiedCorner {
 
 /// Finds parts and hinges, and counts facets that open where the options ask for some.
 /// Memory: `memory_bytes` for sorts, `work_bytes` for what threads look at, 0.3 MiB, and 40 bytes a
-/// piece.  Disk: 4 bytes a tet in `folder`, and some 24 more during find().
-/// ENSURES: what is found depends on the mesh alone.  Cost: 0.4 us a tet, most of it on several
+/// piece.  Disk: 4 bytes a tet in `folder`, and some 26 more during find().
+/// ENSURES: what is found depends on the mesh alone.  Cost: 0.7 us a tet, most of it on several
 /// threads.
 class PartFinder {
  public:
@@ -105,8 +105,8 @@ class PartFinder {
   WorkInOrder range_work_;
   std::vector<std::uint32_t> first_pieces_;  ///< the first piece of each chunk
   std::vector<Piece> pieces_;
-  io::ExternalSort<2> ranges_;                         ///< range of rows, tet
-  std::optional<std::array<std::uint64_t, 2>> ahead_;  ///< behind the range that was taken last
+  io::ExternalSort<2> ranges_;     ///< range of rows, tet
+  std::optional<RangeTet> ahead_;  ///< behind the range that was taken last
   io::ExternalSort<6> pinched_;
   io::ExternalSort<2> insides_;  ///< label; 1 for a vertex inside, 0 for a tet
   io::ExternalSort<3> copied_;   ///< tet, row, copy

@@ -14,7 +14,8 @@ namespace {
 
 /// Returns how passes look at tets, in the memory that parts have for the same.
 TetWork tet_work(const FinishTask& task) {
-  return {.how = TetWork::within(task.connect.work_bytes, task.connect.threads),
+  return {.how = WorkInOrder::within(task.connect.threads, task.connect.work_bytes,
+                                     TetWork::kRangeBytes),
           .between = task.between};
 }
 

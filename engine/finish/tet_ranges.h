@@ -23,12 +23,6 @@ struct TetWork {
 
   /// Memory of one range of tets, with the reader of its corners.
   static constexpr std::uint64_t kRangeBytes = std::uint64_t{1} << 20U;
-  /// Returns the work of this many threads, or of fewer that have room in `bytes`.
-  [[nodiscard]] static WorkInOrder within(std::uint64_t bytes, int threads) {
-    const WorkInOrder most{.threads = threads};
-    return {.threads = threads,
-            .at_once = std::clamp<std::size_t>(bytes / kRangeBytes, 1, most.at_once)};
-  }
 };
 
 /// Tets that follow one another.

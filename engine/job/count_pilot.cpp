@@ -92,6 +92,45 @@ class Whole : public io::VolumeView {
   void read(const Box3& box, std::span<RawLabel> out) const override { below().read(box, out); }
 };
 
+constexpr const char* kFolderEnding = ".pilot";
+constexpr GroupCommit kNeverDurable{.windows = 1 << 30, .age = std::chrono::hours(1 << 16)};
+
+/// Meshes the volume, or a part of it that `labels` are of, and writes nothing.
+RunReport trial_mesh(const PilotTask& task, const io::DenseVolume& labels,
+                     const MeshSettings& settings, double scale,
+                     const std::optional<PilotPart>& part) {
+  const MeshJob& job = task.job;
+  RunHooks hooks{.threads = job.run.threads};
+  hooks.progress = [&](const RunProgress& /*at*/) { job.stop(); };
+  hooks.output.wanted = wanted_labels(job.choice, labels.table());
+  if (part) hooks.output.within = part->within;
+  hooks.store.memory = task.memory;
+  hooks.store.memory_beside = task.memory_beside;
+  hooks.owns_process = job.run.owns_process;
+  hooks.store.is_scratch = true;
+  // Several processes, which all do the same, would meet in one folder.
+  const bool is_alone = job.run.processes == nullptr || job.run.processes->count() == 1;
+  if (is_alone && !job.run.store.workdir.empty()) {
+    hooks.store.workdir = job.run.store.workdir.string() + kFolderEnding;
+    hooks.store.group = kNeverDurable;
+  }
+  std::optional<SizeImage> image;
+  if (task.image != nullptr) {
+    const SizeImage sizes = task.image->scaled(scale);
+    image.emplace(part ? sizes.part(part->voxels) : sizes);
+  }
+  hooks.sizes = image ? &*image : nullptr;
+  io::NoSink sink;
+  return mesh_volume(labels, settings, sink, hooks);
+}
+
+/// Returns the settings of a mesh at this factor.
+MeshSettings trial_settings(const PilotTask& task, double scale) {
+  MeshSettings out = with_scale(task.job.settings, scale);
+  out.sizes.count = 0;
+  return out;
+}
+
 /// Makes one trial after the other, each at a logarithm of the factor.
 class Pilot {
  public:
@@ -111,13 +150,6 @@ class Pilot {
     look_at_labels(lattice, cubes > 0 ? cubes : volume / std::pow(least, 3),
                    cubes > 0 ? SizeRules::kTetsACube : 1 / kTetVolume);
     all_have_sizes_ = have_all_sizes(task, rules);
-  }
-
-  /// Returns the tets of the whole mesh.
-  std::uint64_t whole(double scale) {
-    MeshSettings settings = with_scale(task_.job.settings, scale);
-    settings.sizes.count = 0;
-    return mesh(task_.labels, settings, scale, std::nullopt).tets;
   }
 
   report::CountFacts search() {
@@ -237,52 +269,23 @@ class Pilot {
   }
 
   double tets_at(double scale) {
-    if (parts_.empty()) return static_cast<double>(whole(scale));
-    MeshSettings settings = with_scale(task_.job.settings, scale);
-    settings.sizes.count = 0;
+    if (parts_.empty()) {
+      voxels_ += task_.labels.info().shape.product();
+      return static_cast<double>(count_whole(task_, scale));
+    }
+    MeshSettings settings = trial_settings(task_, scale);
     settings.periodic = 0;  // a part of a cell does not repeat itself
     if (!settings.inner_quality) settings.inner_quality = inner_quality_;
     double sum = 0;
     for (const PilotPart& part : parts_) {
       const io::CroppedVolume cut(std::make_unique<Whole>(task_.labels.raw()), part.voxels, true);
       const RunReport report =
-          mesh(io::DenseVolume(cut, task_.labels.table()), settings, scale, part);
+          trial_mesh(task_, io::DenseVolume(cut, task_.labels.table()), settings, scale, part);
+      voxels_ += part.voxels.voxels();
       sum += part.weight * static_cast<double>(report.tets_within);
     }
     return sum;
   }
-
-  RunReport mesh(const io::DenseVolume& labels, const MeshSettings& settings, double scale,
-                 const std::optional<PilotPart>& part) {
-    const MeshJob& job = task_.job;
-    RunHooks hooks{.threads = job.run.threads};
-    hooks.progress = [&](const RunProgress& /*at*/) { job.stop(); };
-    hooks.output.wanted = wanted_labels(job.choice, labels.table());
-    if (part) hooks.output.within = part->within;
-    hooks.store.memory = task_.memory;
-    hooks.store.memory_beside = task_.memory_beside;
-    hooks.owns_process = job.run.owns_process;
-    hooks.store.is_scratch = true;
-    // Several processes, which all do the same, would meet in one folder.
-    const bool is_alone = job.run.processes == nullptr || job.run.processes->count() == 1;
-    if (is_alone && !job.run.store.workdir.empty()) {
-      hooks.store.workdir = job.run.store.workdir.string() + kFolderEnding;
-      hooks.store.group = kNeverDurable;
-    }
-    std::optional<SizeImage> image;
-    if (task_.image != nullptr) {
-      const SizeImage sizes = task_.image->scaled(scale);
-      image.emplace(part ? sizes.part(part->voxels) : sizes);
-    }
-    hooks.sizes = image ? &*image : nullptr;
-    io::NoSink sink;
-    voxels_ += labels.info().shape.product();
-    return mesh_volume(labels, settings, sink, hooks);
-  }
-
-  static constexpr const char* kFolderEnding = ".pilot";
-  static constexpr GroupCommit kNeverDurable{.windows = 1 << 30,
-                                             .age = std::chrono::hours(1 << 16)};
 
   const PilotTask& task_;
   std::array<double, 2> range_{};  ///< of the logarithm of the factor
@@ -293,6 +296,22 @@ class Pilot {
   std::vector<Trial> trials_;
   std::int64_t voxels_ = 0;  ///< how many were meshed in all
 };
+
+/// Returns the factor for another mesh where the one with count.scale has `tets` tets.
+double next_scale(const report::CountFacts& count, std::uint64_t tets,
+                  const io::DenseVolume& labels, const MeshSettings& settings) {
+  const auto tets_here = static_cast<double>(std::max<std::uint64_t>(1, tets));
+  const double off = std::log(tets_here / static_cast<double>(count.asked));
+  // The exponent of sizes in a count is -1.7 where bounds keep many tets, -2.7 where few.
+  double slope = -2.1;
+  if (count.earlier_tets > 0 && count.earlier_scale != count.scale) {
+    slope = std::log(tets_here / static_cast<double>(count.earlier_tets)) /
+            std::log(count.scale / count.earlier_scale);
+    slope = std::clamp(slope, kSteepestAtJump, kFlattestOfWhole);
+  }
+  const auto [least, most] = logarithms_of_scales(labels, settings);
+  return std::exp(std::clamp(std::log(count.scale) - off / slope, least, most));
+}
 
 }  // namespace
 
@@ -307,22 +326,33 @@ report::CountFacts scale_for_count(const PilotTask& task) {
 }
 
 std::uint64_t count_whole(const PilotTask& task, double scale) {
-  return Pilot(task).whole(scale);
+  return trial_mesh(task, task.labels, trial_settings(task, scale), scale, std::nullopt).tets;
 }
 
-double next_scale(const report::CountFacts& count, std::uint64_t tets,
-                  const io::DenseVolume& labels, const MeshSettings& settings) {
-  const auto tets_here = static_cast<double>(std::max<std::uint64_t>(1, tets));
-  const double off = std::log(tets_here / static_cast<double>(count.asked));
-  // The exponent of sizes in a count is -1.7 where bounds keep many tets, -2.7 where few.
-  double slope = -2.1;
-  if (count.earlier_tets > 0 && count.earlier_scale != count.scale) {
-    slope = std::log(tets_here / static_cast<double>(count.earlier_tets)) /
-            std::log(count.scale / count.earlier_scale);
-    slope = std::clamp(slope, kSteepestAtJump, kFlattestOfWhole);
+bool may_be_remade(const report::CountFacts& count, const io::DenseVolume& labels) {
+  return count.may_be_off && VoxelLattice(labels).info().shape.product() <= kMaxOnePart;
+}
+
+bool take_next_scale(report::CountFacts& count, std::uint64_t tets, const io::DenseVolume& labels,
+                     const MeshSettings& settings) {
+  constexpr double kMost = 0.09;
+  const double off = static_cast<double>(tets) - static_cast<double>(count.asked);
+  count.is_least = count.is_most = false;
+  if (std::abs(off) <= kMost * static_cast<double>(count.asked)) return false;
+  const double next = next_scale(count, tets, labels, settings);
+  if (next == count.scale) {
+    count.is_least = off > 0;
+    count.is_most = off < 0;
+    return false;
   }
-  const auto [least, most] = logarithms_of_scales(labels, settings);
-  return std::exp(std::clamp(std::log(count.scale) - off / slope, least, most));
+  count.may_be_off = count.earlier_tets == 0;
+  count.earlier_scale = count.scale;
+  count.earlier_tets = tets;
+  count.scale = next;
+  count.expected = count.asked;
+  ++count.trials;
+  count.voxels += labels.info().shape.product();
+  return true;
 }
 
 }  // namespace mw::engine

@@ -46,9 +46,15 @@ struct PilotTask {
 /// Returns how many tets the marches make with the factor.  ERRORS: as scale_for_count().
 [[nodiscard]] std::uint64_t count_whole(const PilotTask& task, double scale);
 
-/// Returns the factor for another mesh where the one with count.scale has `tets` tets.
-[[nodiscard]] double next_scale(const report::CountFacts& count, std::uint64_t tets,
-                                const io::DenseVolume& labels, const MeshSettings& settings);
+/// True if a mesh that misses the count may be made again: parts told the factor, the volume is not
+/// too large, and no more than one mesh was made again.
+[[nodiscard]] bool may_be_remade(const report::CountFacts& count, const io::DenseVolume& labels);
+
+/// Sets the factor for another mesh where the one with count.scale has `tets` tets and misses the
+/// count by more than 9 %.  Returns whether it did; where no other factor is nearer, it notes that
+/// the number cannot be had.  REQUIRES: may_be_remade().
+[[nodiscard]] bool take_next_scale(report::CountFacts& count, std::uint64_t tets,
+                                   const io::DenseVolume& labels, const MeshSettings& settings);
 
 /// Returns the settings with all sizes multiplied; without any, all labels get size `scale`.
 [[nodiscard]] MeshSettings with_scale(const MeshSettings& settings, double scale);

@@ -4,7 +4,6 @@
 #include "engine/job/mesh_job.h"
 
 #include <algorithm>
-#include <cmath>
 #include <optional>
 #include <utility>
 
@@ -19,7 +18,6 @@
 #include "engine/job/kept_input.h"
 #include "engine/labels/reading_tiles.h"
 #include "engine/labels/score_crossings.h"
-#include "engine/labels/voxel_lattice.h"
 #include "engine/run/processes.h"
 #include "engine/settings/promises.h"
 #include "engine/system/crew.h"
@@ -69,7 +67,7 @@ class MeshRun {
     if (asked_.settings.sizes.count > 0) find_count(labels);
     check_interfaces(job_.connect, run_.labels);
     plan_check(labels);
-    while (!finish_into(sinks, labels)) scale_again(run_.engine.tets, labels);
+    while (!finish_into(sinks, labels)) begin_again();
     leave_for_later();
     tell();
     return std::move(run_);
@@ -118,10 +116,10 @@ class MeshRun {
     take_scale();
     if (is_alone()) return;
     // Each of several processes finds for itself what one alone would see at its meshes.
-    while (run_.count->may_be_off) {
+    while (may_be_remade(*run_.count, labels)) {
       const std::uint64_t tets = count_whole(task, run_.count->scale);
-      if (!misses_count(tets, labels)) return;
-      scale_again(tets, labels);
+      if (!take_next_scale(*run_.count, tets, labels, asked_.settings)) return;
+      take_scale();
     }
   }
 
@@ -138,32 +136,9 @@ class MeshRun {
     check(input_.volume().info(), job_.settings);
   }
 
-  /// Returns whether a mesh of `tets` tets is made again, with a scale that follows from it.
-  [[nodiscard]] bool misses_count(std::uint64_t tets, const io::DenseVolume& labels) {
-    constexpr double kMost = 0.09;
-    if (!run_.count || !run_.count->may_be_off) return false;
-    if (VoxelLattice(labels).info().shape.product() > kMaxOnePart) return false;
-    report::CountFacts& count = *run_.count;
-    const double off = static_cast<double>(tets) - static_cast<double>(count.asked);
-    count.is_least = count.is_most = false;
-    if (std::abs(off) <= kMost * static_cast<double>(count.asked)) return false;
-    if (next_scale(count, tets, labels, asked_.settings) != count.scale) return true;
-    count.is_least = off > 0;
-    count.is_most = off < 0;
-    return false;
-  }
-
-  void scale_again(std::uint64_t tets, const io::DenseVolume& labels) {
-    report::CountFacts& count = *run_.count;
-    const double before = count.scale;
-    count.scale = next_scale(count, tets, labels, asked_.settings);
-    count.expected = count.asked;
-    count.may_be_off = count.earlier_tets == 0;
-    count.earlier_scale = before;
-    count.earlier_tets = tets;
-    ++count.trials;
-    count.voxels += labels.info().shape.product();
-    count.seconds = meter_.read().wall_seconds - run_.labels_seconds;
+  /// Makes ready for another mesh, with the count's next scale.
+  void begin_again() {
+    run_.count->seconds = meter_.read().wall_seconds - run_.labels_seconds;
     if (run_.engine.work != nullptr) run_.engine.work->discard();
     run_.engine.work.reset();
     job_.run.store.resume = false;
@@ -178,7 +153,8 @@ class MeshRun {
     std::optional<FinishFacts> facts;
     bool is_missed = false;
     const auto finish = [&] {
-      is_missed = is_alone() && misses_count(mesh.tet_count(), labels);
+      is_missed = is_alone() && run_.count && may_be_remade(*run_.count, labels) &&
+                  take_next_scale(*run_.count, mesh.tet_count(), labels, asked_.settings);
       if (!is_missed) facts = apply_passes(mesh, task, sinks);
     };
     io::ScratchMeshSink sink(mesh, finish, bytes_to_finish(task, sinks));

@@ -5,7 +5,9 @@
 
 #include <tbb/parallel_pipeline.h>
 
+#include <algorithm>
 #include <cstddef>
+#include <cstdint>
 #include <functional>
 #include <memory>
 #include <optional>
@@ -20,6 +22,16 @@ namespace mw::engine {
 struct WorkInOrder {
   int threads = 1;
   std::size_t at_once = 2 * static_cast<std::size_t>(threads);
+
+  /// Returns the work of this many threads on items of `bytes_each` that fit into `bytes`.
+  [[nodiscard]] static WorkInOrder within(int threads, std::uint64_t bytes,
+                                          std::uint64_t bytes_each) {
+    const WorkInOrder most{.threads = threads};
+    return {.threads = threads,
+            .at_once = std::clamp<std::size_t>(bytes / bytes_each, 1, most.at_once)};
+  }
+  /// True if one thread does all.
+  [[nodiscard]] bool is_alone() const { return threads == 1 || at_once == 1; }
 };
 
 /// Calls merge(work(item)) for each item that take() returns, until it returns none.  Several
@@ -32,7 +44,7 @@ void items_in_order(WorkInOrder how,
                     const std::type_identity_t<std::function<std::optional<Item>()>>& take,
                     const std::type_identity_t<std::function<Result(Item&&)>>& work,
                     const std::type_identity_t<std::function<void(Result&&)>>& merge) {
-  if (how.threads == 1 || how.at_once == 1) {
+  if (how.is_alone()) {
     while (std::optional<Item> item = take()) merge(work(std::move(*item)));
     return;
   }
