@@ -1,16 +1,18 @@
 // SPDX-FileCopyrightText: The mwmesh authors
 // SPDX-License-Identifier: Apache-2.0
 // Where it would go on more cores: measured durations of windows, simulated schedules.
-//   mwmesh mesh VOLUME -o OUT.vtu --threads 1 --trace T.csv
-//   mw_scaling T.csv [--order ORDER] [--wall] [--serial SECONDS] [--look-ahead N]
+//   mwmesh mesh VOLUME -o OUT.vtkhdf --threads 1 --trace T.csv --report R.json
+//   mw_scaling T.csv [--report R.json] [--order ORDER] [--wall] [--look-ahead N]
 #include <CLI/CLI.hpp>
 #include <fstream>
 #include <iomanip>
 #include <iostream>
+#include <iterator>
 #include <map>
 #include <numeric>
 
 #include "bench/scaling/list_schedule.h"
+#include "bench/scaling/stage_table.h"
 #include "bench/scaling/trace_table.h"
 #include "engine/march/wavefront.h"
 #include "kernels/core/error.h"
@@ -23,9 +25,9 @@ using engine::WindowOrder;
 
 struct Job {
   std::string trace;
-  Order order = Order::kRaster;
+  std::string report;  ///< if empty, there are windows only
+  Order order = Order::kColour;
   bool wall = false;
-  double serial = 0.0;
   std::uint64_t look_ahead = 0;  ///< 0: the march's own
 };
 
@@ -42,13 +44,18 @@ std::vector<double> by_rank(const MarchTrace& march, const WindowOrder& order) {
   return out;
 }
 
-/// One march after the other, with nothing of the next before the last of this.
-double predicted_seconds(const std::vector<MarchTrace>& marches, std::size_t cores,
-                         const Job& job) {
-  double sum = job.serial;
+/// What was measured.
+struct Measured {
+  std::vector<MarchTrace> marches;
+  std::vector<engine::StageCost> stages;
+};
+
+/// One stage after the other, with nothing of the next before the last of this.
+double predicted_seconds(const Measured& run, std::size_t cores, const Job& job) {
+  double sum = seconds_beside_visits(run.stages, cores);
   const std::uint64_t look_ahead =
       job.look_ahead > 0 ? job.look_ahead : engine::default_look_ahead(cores);
-  for (const MarchTrace& march : marches) {
+  for (const MarchTrace& march : run.marches) {
     const WindowOrder windows = order_of(march.windows, job.order);
     sum += list_schedule(windows, by_rank(march, windows), cores, look_ahead);
   }
@@ -64,29 +71,55 @@ void print_march(const MarchTrace& march, std::size_t number, const Job& job) {
             << " |\n";
 }
 
-void print_prediction(const std::vector<MarchTrace>& marches, const Job& job) {
-  const double one = predicted_seconds(marches, 1, job);
+void print_stages(const std::vector<engine::StageCost>& stages) {
+  if (stages.empty()) return;
+  double sum = 0.0;
+  for (const engine::StageCost& stage : stages) sum += stage.cpu_seconds;
+  std::cout << "\n| stage | processor s | alone s | of the whole run, alone |\n|---|---|---|---|\n";
+  for (const engine::StageCost& stage : stages) {
+    std::cout << "| " << stage.name << " | " << stage.cpu_seconds << " | " << stage.alone_seconds
+              << " | " << 100 * stage.alone_seconds / sum << " % |\n";
+  }
+}
+
+void print_prediction(const Measured& run, const Job& job) {
+  const double one = predicted_seconds(run, 1, job);
   for (std::size_t cores = 1; cores <= 128; cores *= 2) {
-    const double many = predicted_seconds(marches, cores, job);
+    const double many = predicted_seconds(run, cores, job);
     std::cout << "| " << cores << " | " << many << " | " << one / many << " | "
               << 100 * one / many / static_cast<double>(cores) << " % |\n";
   }
 }
 
+std::ifstream opened(const std::string& path) {
+  std::ifstream in(path);
+  if (!in) throw Error(ErrorKind::kInput, path + ": cannot be read");
+  return in;
+}
+
+Measured read(const Job& job) {
+  std::ifstream trace = opened(job.trace);
+  Measured out{.marches = read_trace(trace, job.wall ? Clock::kWall : Clock::kCpu), .stages = {}};
+  if (job.report.empty()) return out;
+  std::ifstream report = opened(job.report);
+  const std::string text{std::istreambuf_iterator<char>(report), {}};
+  out.stages = read_stages(text, job.report);
+  return out;
+}
+
 void report(const Job& job) {
-  std::ifstream in(job.trace);
-  if (!in) throw Error(ErrorKind::kInput, job.trace + ": cannot be read");
-  const std::vector<MarchTrace> marches = read_trace(in, job.wall ? Clock::kWall : Clock::kCpu);
+  const Measured run = read(job);
   std::cout << std::setprecision(4) << "Windows of " << job.trace << ", "
             << (job.order == Order::kRaster ? "raster" : "colour") << " order, "
-            << (job.wall ? "wall" : "processor") << " seconds; " << job.serial
-            << " s besides windows that do not scale.\n\n"
+            << (job.wall ? "wall" : "processor") << " seconds"
+            << (job.report.empty() ? ", and nothing beside them" : "") << ".\n\n"
             << "| march | windows | steps | work s | longest path s |\n"
             << "|---|---|---|---|---|\n";
-  for (std::size_t i = 0; i < marches.size(); ++i) print_march(marches[i], i, job);
+  for (std::size_t i = 0; i < run.marches.size(); ++i) print_march(run.marches[i], i, job);
+  print_stages(run.stages);
   std::cout << "\n| cores | seconds | speed-up | efficiency |\n"
             << "|---|---|---|---|\n";
-  print_prediction(marches, job);
+  print_prediction(run, job);
 }
 
 void add_options(CLI::App& app, Job& job) {
@@ -96,8 +129,8 @@ void add_options(CLI::App& app, Job& job) {
   app.add_option("--order", job.order, "in which the trace was taken")
       ->transform(CLI::CheckedTransformer(orders));
   app.add_flag("--wall", job.wall, "wall instead of processor time of windows");
-  app.add_option("--serial", job.serial, "seconds of the run besides windows")
-      ->check(CLI::NonNegativeNumber);
+  app.add_option("--report", job.report,
+                 "of the same run, with one thread: adds all that is not a window");
   app.add_option("--look-ahead", job.look_ahead,
                  "of the march, in windows; by default the march's own")
       ->check(CLI::PositiveNumber);

@@ -19,19 +19,10 @@ WorkInOrder work_within(const ConnectTask& task, std::size_t bytes_each) {
 }
 
 /// Returns the sort of tets by ranges, which works on all threads where chunks and ranges are.
-io::ExternalSort<2> range_sort(const std::filesystem::path& folder, const ConnectTask& task) {
-  const std::size_t bytes = task.memory_bytes / 2;
+RowRanges row_ranges(const std::filesystem::path& folder, const ConnectTask& task) {
   const bool has_threads = !work_within(task, TetChunk::kBytes).is_alone() &&
                            !work_within(task, StarRange::kBytes).is_alone();
-  if (!has_threads) return {folder, bytes};
-  return {folder, bytes, [](std::span<RangeTet> held) { tbb_sort(held); }};
-}
-
-/// Returns the end of the run of numbers that follow each other, which begins at `at`.
-std::size_t run_end(const std::vector<std::uint64_t>& numbers, std::size_t at) {
-  const std::uint64_t ahead = numbers[at] - at;
-  while (at < numbers.size() && numbers[at] == ahead + at) ++at;
-  return at;
+  return {folder, task.memory_bytes / 2, has_threads};
 }
 
 }  // namespace
@@ -44,7 +35,7 @@ PartFinder::PartFinder(io::ScratchMesh& mesh, const ConnectTask& task)
       seen_(options_.watched.size()),
       chunk_work_(work_within(task, TetChunk::kBytes)),
       range_work_(work_within(task, StarRange::kBytes)),
-      ranges_(range_sort(mesh.folder(), task)),
+      ranges_(row_ranges(mesh.folder(), task)),
       pinched_(mesh.folder(), task.memory_bytes / 4),
       insides_(mesh.folder(), task.memory_bytes / 16),
       copied_(mesh.folder(), task.memory_bytes / 16),
@@ -106,40 +97,19 @@ void PartFinder::take(TetChunk chunk) {
     chunk.pieces[t] = piece;
   }
   tet_pieces_.append(std::as_bytes(std::span(chunk.pieces)));
-  for (const RangeTet& tet : chunk.ranges) ranges_.add(tet);
+  ranges_.add(chunk.ranges);
   for (const RawLabel label : chunk.labels_met) insides_.add({label, 0});
 }
 
 void PartFinder::look_at_ranges(const std::function<void()>& between) {
   const StarRules rules{.split = split_, .watched = options_.watched};
   items_in_order<RangeTets, StarFindings>(
-      range_work_, [&] { return next_range(); },
+      range_work_, [&] { return ranges_.next(); },
       [&](RangeTets&& wanted) { return look_at_stars(load(wanted), rules); },
       [&](StarFindings&& found) {
         between();
         take(found);
       });
-}
-
-/// Returns the tets of the range that follows, or nothing behind the last.
-std::optional<PartFinder::RangeTets> PartFinder::next_range() {
-  RangeTets out;
-  if (!ahead_) {
-    const auto* const first = ranges_.next();
-    if (first == nullptr) return std::nullopt;
-    ahead_ = *first;
-  }
-  out.range = (*ahead_)[0];
-  out.tets.push_back((*ahead_)[1]);
-  ahead_.reset();
-  while (const auto* const record = ranges_.next()) {
-    if ((*record)[0] != out.range) {
-      ahead_ = *record;
-      break;
-    }
-    out.tets.push_back((*record)[1]);
-  }
-  return out;
 }
 
 /// Thread safety: may be called by several threads, once all tets were taken.
@@ -150,14 +120,12 @@ StarRange PartFinder::load(const RangeTets& wanted) {
                 .labels = std::vector<RawLabel>(count),
                 .pieces = std::vector<std::uint32_t>(count),
                 .places = {}};
-  for (std::size_t at = 0, end = 0; at < count; at = end) {
-    end = run_end(wanted.tets, at);
-    const std::uint64_t first = wanted.tets[at];
-    mesh_.read_tets(first, std::span(out.tets).subspan(at, end - at),
-                    std::span(out.labels).subspan(at, end - at));
+  each_run(wanted.tets, [&](std::uint64_t first, std::size_t at, std::size_t tets) {
+    mesh_.read_tets(first, std::span(out.tets).subspan(at, tets),
+                    std::span(out.labels).subspan(at, tets));
     tet_pieces_.read_at(first * sizeof(std::uint32_t),
-                        std::as_writable_bytes(std::span(out.pieces).subspan(at, end - at)));
-  }
+                        std::as_writable_bytes(std::span(out.pieces).subspan(at, tets)));
+  });
   out.places.reserve(count);
   for (std::size_t i = 0; i < count; ++i) {
     const std::uint64_t chunk = wanted.tets[i] / TetChunk::kTets;

@@ -10,6 +10,7 @@
 
 #include "engine/connect/connect_mesh.h"
 #include "engine/connect/connect_options.h"
+#include "engine/connect/row_ranges.h"
 #include "engine/connect/star.h"
 #include "engine/connect/star_range.h"
 #include "engine/connect/tet_chunk.h"
@@ -69,16 +70,9 @@ class PartFinder {
   };
   using Tree = std::uint32_t Piece::*;
 
-  /// The tets that have a vertex of a range of rows, ascending.
-  struct RangeTets {
-    std::uint64_t range = 0;
-    std::vector<std::uint64_t> tets;
-  };
-
   void take_tets(const std::function<void()>& between);
   void take(TetChunk chunk);
   void look_at_ranges(const std::function<void()>& between);
-  [[nodiscard]] std::optional<RangeTets> next_range();
   [[nodiscard]] StarRange load(const RangeTets& wanted);
   void take(const StarFindings& found);
   void count_stiff_labels();
@@ -105,8 +99,7 @@ class PartFinder {
   WorkInOrder range_work_;
   std::vector<std::uint32_t> first_pieces_;  ///< the first piece of each chunk
   std::vector<Piece> pieces_;
-  io::ExternalSort<2> ranges_;     ///< range of rows, tet
-  std::optional<RangeTet> ahead_;  ///< behind the range that was taken last
+  RowRanges ranges_;
   io::ExternalSort<6> pinched_;
   io::ExternalSort<2> insides_;  ///< label; 1 for a vertex inside, 0 for a tet
   io::ExternalSort<3> copied_;   ///< tet, row, copy

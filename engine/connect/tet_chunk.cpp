@@ -2,8 +2,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "engine/connect/tet_chunk.h"
 
-#include <algorithm>
-
 #include "engine/connect/star.h"
 #include "engine/connect/tet_faces.h"
 #include "kernels/core/sort_distinct.h"
@@ -22,17 +20,6 @@ std::vector<std::uint32_t> pieces_of(const TetChunk& chunk, const SplitRule& spl
   }
   const std::vector<std::size_t> numbers = sets.numbers();
   return {numbers.begin(), numbers.end()};
-}
-
-/// Appends the ranges of a tet's rows, each once.
-void add_ranges(std::uint64_t tet, const io::TetRows& rows, std::vector<RangeTet>& out) {
-  const std::size_t first = out.size();
-  for (const std::uint64_t row : rows) {
-    const RangeTet one{row / kRowsARange, tet};
-    if (std::find(out.begin() + static_cast<std::ptrdiff_t>(first), out.end(), one) == out.end()) {
-      out.push_back(one);
-    }
-  }
 }
 
 }  // namespace

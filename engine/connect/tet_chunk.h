@@ -3,20 +3,15 @@
 // Tets that follow one another in a mesh, looked at without the others.
 #pragma once
 
-#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <vector>
 
 #include "engine/connect/connect_options.h"
+#include "engine/connect/row_ranges.h"
 #include "io/mesh/mesh_sink.h"
 
 namespace mw::engine {
-
-/// How many vertices are looked at together, with all of their tets.
-inline constexpr std::uint64_t kRowsARange = 1024;
-/// The number of a range of rows, and a tet that has one of them.
-using RangeTet = std::array<std::uint64_t, 2>;
 
 struct TetChunk {
   static constexpr std::size_t kTets = 1024;

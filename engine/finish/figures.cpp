@@ -20,14 +20,14 @@ MeshFigures measure(io::ScratchMesh& mesh, const FiguresTask& task, const TetWor
       },
       [&](audit::QualityMeter&& of_range) { quality.add(of_range); });
   out.quality = quality.report();
-  if (task.has_shape) out.shape = interface_shape(mesh, task.sort_bytes, work.between);
+  if (task.has_shape) out.shape = interface_shape(mesh, task.sort_bytes, work);
   out.has_shape = task.has_shape;
   return out;
 }
 
 std::uint64_t bytes_to_measure(const FiguresTask& task) {
-  const std::uint64_t sorts = task.has_shape ? 2 * std::uint64_t{task.sort_bytes} : 0;
-  return sorts + (std::uint64_t{1} << 20U);
+  const std::uint64_t of_shape = task.has_shape ? task.sort_bytes + kLeastShapeBytes : 0;
+  return of_shape + (std::uint64_t{1} << 20U);
 }
 
 }  // namespace mw::engine

@@ -17,6 +17,7 @@
 #include "engine/finish/label_volumes.h"
 #include "engine/output/label_selection.h"
 #include "engine/sample/image_sampler.h"
+#include "engine/system/stages.h"
 #include "kernels/audit/audit.h"
 
 namespace mw::engine {
@@ -35,6 +36,7 @@ struct FinishTask {
   bool leaves_values_out = false;
   bool is_curved = false;                 ///< whether sinks of Element::kCurvedTet10 get the mesh
   std::function<void()> between = [] {};  ///< called often; may throw
+  StageMeter* stages = nullptr;           ///< optional; each pass is a stage, and so is the file
 };
 
 struct FinishFacts {

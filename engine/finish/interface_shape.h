@@ -4,18 +4,20 @@
 #pragma once
 
 #include <cstddef>
-#include <functional>
+#include <cstdint>
 
+#include "engine/finish/tet_ranges.h"
 #include "io/mesh/scratch_mesh.h"
 #include "kernels/audit/shape/shape.h"
 
 namespace mw::engine {
 
 /// Measures the triangles between two labels, in double, as they are where no vertex is doubled.
-/// Calls between(), which may throw, often.
-/// Memory: twice sort_bytes.  Disk: that of the mesh's facets, and 120 bytes a triangle.
+/// Memory: sort_bytes and kLeastShapeBytes beside what `work` has.  Disk: some 26 bytes a tet.
 /// ERRORS: those of ScratchMesh.
-[[nodiscard]] audit::ShapeReport interface_shape(
-    io::ScratchMesh& mesh, std::size_t sort_bytes, const std::function<void()>& between = [] {});
+[[nodiscard]] audit::ShapeReport interface_shape(io::ScratchMesh& mesh, std::size_t sort_bytes,
+                                                 const TetWork& work = {});
+
+inline constexpr std::uint64_t kLeastShapeBytes = std::uint64_t{1} << 20U;
 
 }  // namespace mw::engine

@@ -104,13 +104,20 @@ constexpr std::array kPasses{
 
 FinishFacts apply_passes(io::ScratchMesh& mesh, const FinishTask& task,
                          std::span<io::MeshSink* const> sinks) {
+  const auto end_stage = [&](const char* name) {
+    if (task.stages != nullptr) task.stages->end(name);
+  };
   FinishFacts out;
+  end_stage("output");
   for (const Pass& pass : kPasses) {
-    if (pass.is_asked(task)) pass.apply(mesh, task, out);
+    if (!pass.is_asked(task)) continue;
+    pass.apply(mesh, task, out);
+    end_stage(pass.name);
   }
   out.vertices = mesh.vertex_count();
   out.tets = mesh.tet_count();
   for (io::MeshSink* sink : sinks) mesh.copy_to(*sink, task.between);
+  end_stage("file");
   return out;
 }
 

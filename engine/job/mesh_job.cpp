@@ -63,8 +63,10 @@ class MeshRun {
 
   report::FinishedRun go(std::span<io::MeshSink* const> sinks) {
     read_labels();
+    stages_.end("labels");
     const io::DenseVolume labels(input_.volume(), run_.labels);
     if (asked_.settings.sizes.count > 0) find_count(labels);
+    stages_.end("count");
     check_interfaces(job_.connect, run_.labels);
     plan_check(labels);
     while (!finish_into(sinks, labels)) begin_again();
@@ -181,6 +183,7 @@ class MeshRun {
   [[nodiscard]] FinishTask passes(const io::DenseVolume& labels) {
     if (!speaks(job_.run.processes)) return {};
     FinishTask out = finish_task(job_, run_);
+    out.stages = &stages_;
     out.cut = cut_task(sizes_.halvings, asked_, labels.info());
     if (plan_.why_not.empty()) {
       out.certificate.emplace(certificate_task(plan_, job_, labels, promises()));
@@ -193,6 +196,7 @@ class MeshRun {
 
   void march_into(io::MeshSink& sink, const io::DenseVolume& labels) {
     RunHooks hooks = run_hooks(job_, run_, memory());
+    hooks.stages = &stages_;
     hooks.sizes = sizes_.image ? &*sizes_.image : nullptr;
     hooks.keep.opened = kept_.folder();
     hooks.keep.begin = [this] { kept_.begin(); };
@@ -231,10 +235,12 @@ class MeshRun {
     run_.why_no_certificate = plan_.why_not;
     run_.why_no_volumes =
         opened_.scores() != nullptr ? kVolumesOfScores : why_no_volumes(promises());
+    run_.stages = stages_.costs();
     run_.resources = meter_.read();
   }
 
   const ResourceMeter meter_;
+  StageMeter stages_;
   const io::LabelVolume& opened_;
   MeshJob asked_;
   MeshJob job_;  ///< with the settings of the marches

@@ -6,6 +6,7 @@
 #include <algorithm>
 
 #include "engine/system/crew.h"
+#include "engine/system/stages.h"
 #include "engine/system/stopwatch.h"
 #include "kernels/core/assert.h"
 
@@ -29,6 +30,7 @@ void march_in_sequence(const WindowOrder& order, const VisitWindow& visit,
 }  // namespace
 
 Visited timed_visit(const VisitWindow& visit, Index3 window, int slot) {
+  const SharedWork shared;
   Visited out{.window = window, .start = {}, .end = {}, .slot = slot};
   const double cpu_before = thread_cpu_seconds();
   out.start = std::chrono::steady_clock::now();

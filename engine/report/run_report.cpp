@@ -86,6 +86,18 @@ Json labels_json(const FinishedRun& run) {
           {"fewest_tets", fewest ? row_of(*fewest) : Json()}};
 }
 
+/// Returns what each stage took of all threads, and of the one that was alone where that is known.
+Json costs_json(const FinishedRun& run) {
+  Json out = Json::array();
+  for (const engine::StageCost& stage : run.stages) {
+    const bool is_known = run.engine.threads == 1;
+    out.push_back({{"name", stage.name},
+                   {"cpu_s", stage.cpu_seconds},
+                   {"alone_s", is_known ? Json(stage.alone_seconds) : Json()}});
+  }
+  return out;
+}
+
 Json performance_json(const FinishedRun& run) {
   const auto voxels = static_cast<double>(run.volume.shape.product());
   const double rate = voxels / run.resources.wall_seconds;
@@ -95,6 +107,7 @@ Json performance_json(const FinishedRun& run) {
           {"voxels_per_s", rate},
           {"voxels_per_s_per_core", rate / engine.threads},
           {"peak_rss_bytes", run.resources.peak_rss_bytes},
+          {"costs", costs_json(run)},
           {"stages",
            {{"labels_s", run.labels_seconds},
             {"prepare_s", engine.prepare_seconds},

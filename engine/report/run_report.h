@@ -11,6 +11,7 @@
 #include "engine/report/mesh_facts.h"
 #include "engine/run/run.h"
 #include "engine/sample/sample_text.h"
+#include "engine/system/stages.h"
 #include "engine/system/stopwatch.h"
 #include "io/file/sink/atomic_file.h"
 #include "io/json/json.h"
@@ -64,7 +65,8 @@ struct FinishedRun {
   std::optional<io::WeldFacts> welds;
   std::vector<engine::SampleFacts> samples;
   engine::RunReport engine;
-  double labels_seconds = 0;    ///< reading the volume once for its labels
+  double labels_seconds = 0;  ///< reading the volume once for its labels
+  std::vector<engine::StageCost> stages;
   engine::Resources resources;  ///< times until the mesh was written, memory until its digest
   std::string digest;           ///< empty if it was not made
   std::string fingerprint;      ///< of the labels

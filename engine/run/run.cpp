@@ -66,6 +66,10 @@ struct ReadyLabels {
   }
 };
 
+void end_stage(const RunContext& run, const char* name) {
+  if (run.hooks.stages != nullptr) run.hooks.stages->end(name);
+}
+
 void prepare(RunContext& run, ReadyLabels& out) {
   Stopwatch watch;
   const io::DenseVolume& labels = run.lattice.labels();
@@ -216,9 +220,12 @@ void finish_keep(RunContext& run) {
 void go(RunContext& run) {
   ReadyLabels labels;
   prepare(run, labels);
+  end_stage(run, "prepare");
   RunForecast forecast(labels.counts().faces, run.layout, run.settings, run.hooks.threads);
   const std::uint64_t windows = march(run, labels, forecast);
+  end_stage(run, "march");
   write(run, labels.counts(), forecast);
+  end_stage(run, "output");
   finish_keep(run);
   if (run.hooks.store.stays) run.report.work = run.part->keep_for_rest(run.store);
   run.report.processes = run.part->end(facts_of(run.budget, windows));

@@ -15,6 +15,7 @@
 #include "engine/settings/settings.h"
 #include "engine/settings/together.h"
 #include "engine/store/run_store.h"
+#include "engine/system/stages.h"
 #include "engine/window/window_visitor.h"
 #include "io/labels/label_table.h"
 #include "io/mesh/mesh_sink.h"
@@ -90,7 +91,8 @@ struct RunHooks {
   /// If it names a folder, that takes the place of the work folder: what memory does not hold, and
   /// what a later run can go on from, is there.
   KeepOptions keep;
-  codt::PoolOptions workers;  ///< of Optimizer::kTetgen
+  codt::PoolOptions workers;     ///< of Optimizer::kTetgen
+  StageMeter* stages = nullptr;  ///< optional; the run ends its stages prepare, march and output
   /// The processes that the run is divided among; null if it is this one alone.  All of them call
   /// mesh_volume() with the same volume and settings; only the one that speaks uses its sink, and
   /// the others return when its output is complete.  Store options and threads are each one's own.

@@ -98,19 +98,24 @@ void tbb_for(std::size_t n, const RangeBody& body) {
   tbb::this_task_arena::isolate([&] {
     tbb::parallel_for(
         tbb::blocked_range<std::size_t>(0, n, grain),
-        [&](const tbb::blocked_range<std::size_t>& r) { body(r.begin(), r.end()); },
+        [&](const tbb::blocked_range<std::size_t>& r) {
+          const SharedWork counted;
+          body(r.begin(), r.end());
+        },
         tbb::simple_partitioner());
   });
 }
 
 void tbb_for_each_index(int threads, Index3 shape, const std::function<void(Index3)>& visit) {
   if (threads == 1) {
+    const SharedWork counted;
     for_each_index(shape, visit);
     return;
   }
   using Part = tbb::blocked_range3d<std::int64_t>;
   Crew(threads).run([&] {
     tbb::parallel_for(Part(0, shape.z, 0, shape.y, 0, shape.x), [&](const Part& part) {
+      const SharedWork counted;
       for_each_index(Box3{{part.cols().begin(), part.rows().begin(), part.pages().begin()},
                           {part.cols().end(), part.rows().end(), part.pages().end()}},
                      visit);

@@ -11,6 +11,7 @@
 #include <span>
 #include <vector>
 
+#include "engine/system/stages.h"
 #include "kernels/core/index.h"
 #include "kernels/core/parallel_for.h"
 
@@ -56,6 +57,7 @@ void tbb_for(std::size_t n, const RangeBody& body);
 /// be alike, since their order is not that of a stable sort.
 template <typename Value>
 void tbb_sort(std::span<Value> values) {
+  const SharedWork counted;
   tbb::this_task_arena::isolate([&] { tbb::parallel_sort(values.begin(), values.end()); });
 }
 

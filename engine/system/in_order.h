@@ -15,6 +15,7 @@
 #include <utility>
 
 #include "engine/system/crew.h"
+#include "engine/system/stages.h"
 
 namespace mw::engine {
 
@@ -44,8 +45,12 @@ void items_in_order(WorkInOrder how,
                     const std::type_identity_t<std::function<std::optional<Item>()>>& take,
                     const std::type_identity_t<std::function<Result(Item&&)>>& work,
                     const std::type_identity_t<std::function<void(Result&&)>>& merge) {
+  const auto shared = [&](Item&& item) {
+    const SharedWork counted;
+    return work(std::move(item));
+  };
   if (how.is_alone()) {
-    while (std::optional<Item> item = take()) merge(work(std::move(*item)));
+    while (std::optional<Item> item = take()) merge(shared(std::move(*item)));
     return;
   }
   using SharedItem = std::shared_ptr<Item>;
@@ -56,7 +61,7 @@ void items_in_order(WorkInOrder how,
     return item ? std::make_shared<Item>(std::move(*item)) : SharedItem();
   };
   const auto run = [&](const SharedItem& item) {
-    return std::make_shared<Result>(work(std::move(*item)));
+    return std::make_shared<Result>(shared(std::move(*item)));
   };
   const auto finish = [&](const SharedResult& result) { merge(std::move(*result)); };
   constexpr auto kInOrder = tbb::filter_mode::serial_in_order;

@@ -60,13 +60,16 @@ std::array<Position, 4> ScratchMesh::corners(const TetRows& tet) {
   return places_of(tet, vertex_count(), [this](std::uint64_t row) { return vertex(row); });
 }
 
+void ScratchMesh::find_doubles(std::size_t sort_bytes) {
+  if (doubles_ || !header_.record.has_doubles) return;
+  doubles_.emplace(folder_, sort_bytes);
+  each_vertex_batch([&](std::span<const Position> batch) { doubles_->add(batch); });
+  doubles_->find();
+}
+
 ScratchFile& ScratchMesh::facets(std::size_t sort_bytes, const std::function<void()>& between) {
   if (facets_) return *facets_;
-  if (header_.record.has_doubles) {
-    doubles_.emplace(folder_, sort_bytes);
-    each_vertex_batch([&](std::span<const Position> batch) { doubles_->add(batch); });
-    doubles_->find();
-  }
+  find_doubles(sort_bytes);
   FaceRecords faces(folder_, sort_bytes);
   each_tet_batch([&](const TetBatch& batch) {
     between();

@@ -64,10 +64,12 @@ class ScratchMesh {
   /// Returns the places of a tet's corners.  ERRORS: mw::Error(kInput) for a row without a vertex.
   [[nodiscard]] std::array<Position, 4> corners(const TetRows& tet);
   /// Returns the first vertex at the place of a vertex, which is another one only where the header
-  /// tells of doubled vertices.  REQUIRES: facets() was called.
+  /// tells of doubled vertices.  REQUIRES: find_doubles() or facets() was called.
   [[nodiscard]] std::uint64_t first_of(std::uint64_t row) const {
     return doubles_ ? doubles_->first(row) : row;
   }
+  /// Finds the doubled vertices, if the header tells of any, by a sort of this memory.
+  void find_doubles(std::size_t sort_bytes);
   /// Returns the facets, ascending by rows.  They are made when they are first asked for, by a sort
   /// of this memory, which pairs the faces of tets; between(), which may throw, is called often.
   [[nodiscard]] ScratchFile& facets(

@@ -5,7 +5,7 @@
 
 #include <array>
 #include <cstdint>
-#include <map>
+#include <vector>
 
 namespace mw::audit {
 
@@ -22,7 +22,16 @@ class LengthBins {
  private:
   static constexpr int kBinsAnOctave = 512;
 
-  std::map<int, std::array<std::uint64_t, kBinsAnOctave>> octaves_;  ///< by power of two
+  /// The lengths from half a power of two on, or those that are zero or infinite.
+  struct Octave {
+    int power = 0;
+    std::array<std::uint64_t, kBinsAnOctave> bins{};
+  };
+
+  [[nodiscard]] Octave& octave_of(int power);
+
+  std::vector<Octave> octaves_;  ///< those that have lengths, ascending
+  std::size_t last_ = 0;         ///< the octave that was asked for last: most lengths are alike
   std::uint64_t count_ = 0;
 };
 

@@ -63,20 +63,39 @@ std::array<double, 6> edge_lengths(const std::array<Position, 4>& corners) {
   return out;
 }
 
-/// Returns the bin of an angle by its cosine.  Lattices are full of right angles and the like,
-/// which rounding must not put on either side.
-std::size_t dihedral_bin(double cosine) {
-  using Bins = decltype(QualityReport::dihedral_histogram);
-  static const std::array<double, std::tuple_size_v<Bins> - 1> ends = [] {
-    std::array<double, std::tuple_size_v<Bins> - 1> out{};
-    for (std::size_t i = 0; i < out.size(); ++i) {
-      const double share = static_cast<double>(i + 1) / static_cast<double>(out.size() + 1);
-      out[i] = std::cos(share * std::numbers::pi) + 1e-9;
+/// The bins of dihedral angles by cosine.  Lattices are full of right angles and the like, which
+/// rounding must not put on either side.
+class DihedralBins {
+ public:
+  DihedralBins() {
+    for (std::size_t i = 0; i < ends_.size(); ++i) {
+      const double share = static_cast<double>(i + 1) / static_cast<double>(ends_.size() + 1);
+      ends_[i] = std::cos(share * std::numbers::pi) + 1e-9;
     }
-    return out;
-  }();
-  return static_cast<std::size_t>(
-      std::lower_bound(ends.begin(), ends.end(), cosine, std::greater<>()) - ends.begin());
+    for (std::size_t slice = 0; slice < first_.size(); ++slice) {
+      const double most = 2 * static_cast<double>(slice + 1) / kSlices - 1;
+      while (first_[slice] < ends_.size() && ends_[first_[slice]] > most) ++first_[slice];
+    }
+  }
+
+  /// REQUIRES: a cosine from -1 to 1.
+  [[nodiscard]] std::size_t of(double cosine) const {
+    const auto slice = static_cast<std::size_t>((cosine + 1) * (kSlices / 2.0));
+    std::size_t bin = first_[std::min(slice, first_.size() - 1)];
+    while (bin < ends_.size() && ends_[bin] > cosine) ++bin;
+    return bin;
+  }
+
+ private:
+  static constexpr std::size_t kSlices = 512;
+
+  std::array<double, std::tuple_size_v<decltype(QualityReport::dihedral_histogram)> - 1> ends_{};
+  std::array<std::size_t, kSlices> first_{};  ///< the first bin of each slice of cosines
+};
+
+std::size_t dihedral_bin(double cosine) {
+  static const DihedralBins bins;
+  return bins.of(cosine);
 }
 
 /// Serves only the report, so a last bit that depends on the C library does no harm.

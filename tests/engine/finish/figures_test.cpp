@@ -6,6 +6,7 @@
 #include <cmath>
 #include <numeric>
 
+#include "engine/connect/row_ranges.h"
 #include "engine/finish/edges.h"
 #include "engine/finish/interface_shape.h"
 #include "io/mesh/mesh_data.h"
@@ -65,6 +66,22 @@ TEST(InterfaceShape, IsWhatTheAuditMeasures) {
   }
 }
 
+TEST(InterfaceShape, IsTheSameInManyRangesOnAnyNumberOfThreads) {
+  std::mt19937 random(844);
+  const SmallVolume volume = random_volume_of(random, VolumeKind::kNoise, {16, 15, 14}, 4);
+  SmallMesh mesh = five_tet_mesh(volume, {});
+  ASSERT_GT(mesh.vertices.size(), 3 * kRowsARange);
+  for (auto& p : mesh.vertices) p[0] += 1e-4 * below(random, 1000);
+  Stored stored(as_data(mesh));
+  const audit::ShapeReport alone = interface_shape(stored.mesh, kSortBytes);
+  expect_same(alone, audit::test::measure_shape(mesh.view()));
+  const audit::ShapeReport shared =
+      interface_shape(stored.mesh, kSortBytes, {.how = {.threads = 3}});
+  EXPECT_EQ(shared.area, alone.area);
+  EXPECT_EQ(shared.sharp_share, alone.sharp_share);
+  EXPECT_EQ(shared.bend_histogram, alone.bend_histogram);
+}
+
 /// What a mesh looks like does not depend on whether its vertices were doubled.
 TEST(Figures, AreThoseBeforeVerticesWereDoubled) {
   std::mt19937 random(842);
@@ -91,7 +108,7 @@ TEST(Figures, RefuseTetsOfVerticesThatAreNotThere) {
   mesh.tets = {{0, 1, 2, 3}};
   mesh.labels = {0};
   Stored stored(mesh);
-  EXPECT_THROW(static_cast<void>(interface_shape(stored.mesh, kSortBytes)), Error);
+  EXPECT_THROW(static_cast<void>(measure(stored.mesh, {.sort_bytes = kSortBytes})), Error);
 }
 
 /// Against all pairs of corners of all tets of a label.
