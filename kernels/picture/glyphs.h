@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The mwmesh authors
 // SPDX-License-Identifier: Apache-2.0
-// Letters for pictures: the font 9x15 of X11 (misc-fixed), which is in the public domain.
+// Letters for pictures, of one width.
 #pragma once
 
 #include <cstdint>
