@@ -5,6 +5,8 @@
 
 #include <cmath>
 
+#include "engine/system/in_order.h"
+
 namespace mw::engine {
 namespace {
 
@@ -46,22 +48,31 @@ Box3 TileGrid::meeting(const Box3& voxels) const {
   return {{box.lo.x / edges_.x, box.lo.y / edges_.y, box.lo.z / edges_.z}, counts(box.hi, edges_)};
 }
 
-void PieceBuckets::make_pieces() {
+void PieceBuckets::make_pieces(int threads) {
   radius_ = audit::piece_radius(estimates_);
+  each_in_order<std::vector<PieceOfTile>>(
+      {.threads = threads, .at_once = static_cast<std::size_t>(threads)}, grid_.size(),
+      [this](std::uint32_t tile) { return pieces_of(tile); },
+      [this](std::uint32_t, std::vector<PieceOfTile>&& found) {
+        for (const PieceOfTile& piece : found) pieces_.add(piece.tile, piece.piece);
+      });
+}
+
+/// Returns the pieces of a tile's triangles, each with the tile that its middle lies in.
+std::vector<PieceBuckets::PieceOfTile> PieceBuckets::pieces_of(std::uint32_t tile) const {
   const std::array<double, 3> layers{static_cast<double>(layers_.x), static_cast<double>(layers_.y),
                                      static_cast<double>(layers_.z)};
   std::vector<audit::InterfaceTriangle> triangles;
-  for (std::uint32_t tile = 0; tile < grid_.size(); ++tile) {
-    triangles.clear();
-    triangles_.load(tile, triangles);
-    for (const audit::InterfaceTriangle& t : triangles) {
-      audit::for_each_piece(t.corners, radius_, [&](const audit::VoxelTriangle& piece) {
-        audit::VoxelPoint middle = audit::centroid(piece);
-        for (std::size_t k = 0; k < 3; ++k) middle[k] /= layers[k];
-        pieces_.add(grid_.at(middle), {piece, t.labels});
-      });
-    }
+  triangles_.load(tile, triangles);
+  std::vector<PieceOfTile> out;
+  for (const audit::InterfaceTriangle& t : triangles) {
+    audit::for_each_piece(t.corners, radius_, [&](const audit::VoxelTriangle& piece) {
+      audit::VoxelPoint middle = audit::centroid(piece);
+      for (std::size_t k = 0; k < 3; ++k) middle[k] /= layers[k];
+      out.push_back({grid_.at(middle), {piece, t.labels}});
+    });
   }
+  return out;
 }
 
 std::vector<audit::InterfaceTriangle> PieceBuckets::near(const Box3& voxels) const {

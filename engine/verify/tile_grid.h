@@ -123,8 +123,9 @@ class PieceBuckets {
     triangles_.add(tile, triangle);
     audit::add_estimates(triangle.corners, estimates_);
   }
-  /// REQUIRES: called once, after the last triangle.
-  void make_pieces();
+  /// REQUIRES: called once, after the last triangle.  Memory: a tile's triangles and pieces for
+  /// each thread.
+  void make_pieces(int threads);
 
   /// Returns the radius that no piece exceeds.
   [[nodiscard]] double radius() const { return radius_; }
@@ -133,6 +134,13 @@ class PieceBuckets {
   [[nodiscard]] std::vector<audit::InterfaceTriangle> near(const Box3& voxels) const;
 
  private:
+  struct PieceOfTile {
+    std::uint32_t tile = 0;
+    audit::InterfaceTriangle piece;
+  };
+
+  [[nodiscard]] std::vector<PieceOfTile> pieces_of(std::uint32_t tile) const;
+
   const TileGrid& grid_;
   Index3 layers_;
   TileBuckets<audit::InterfaceTriangle> triangles_;

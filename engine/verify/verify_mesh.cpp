@@ -57,7 +57,7 @@ audit::AuditReport verify_mesh(const io::DenseVolume& volume, const MeshTiles& m
   const audit::ValidityTask validity = validity_task(volume, mesh, task);
   MeshFindings found = look_at_mesh(mesh, volume.table().size(), validity, task,
                                     {&centres, with_distance ? &pieces : nullptr, ledger});
-  pieces.make_pieces();
+  pieces.make_pieces(task.threads);
   VolumeFindings voxels = look_at_volume(volume, mesh.grid(), task,
                                          {&centres, with_distance ? &pieces : nullptr, ledger});
   findings.validity = audit::judge_validity(found.validity, validity);
