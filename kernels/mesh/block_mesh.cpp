@@ -24,37 +24,29 @@ std::vector<Item> room_for(std::span<const BlockMesh> blocks, std::vector<Item> 
   return out;
 }
 
-/// The vertices of all blocks, and the row there of each vertex of a block.
-struct MergedVertices {
-  std::vector<BlockVertex> vertices;
-  std::vector<std::vector<std::uint32_t>> rows;  ///< by block
-};
-
-/// Merges lists that ascend by id.
-MergedVertices merged_vertices(std::span<const BlockMesh> blocks) {
-  MergedVertices out{room_for(blocks, &BlockMesh::vertices), {}};
-  for (const BlockMesh& b : blocks) out.rows.emplace_back().reserve(b.vertices.size());
-  const auto next_of = [&](std::size_t block) -> const BlockVertex* {
-    const auto& list = blocks[block].vertices;
-    const std::size_t at = out.rows[block].size();
-    return at < list.size() ? &list[at] : nullptr;
+std::vector<BlockVertex> merged_vertices(std::span<const BlockMesh> blocks) {
+  std::vector<BlockVertex> all = room_for(blocks, &BlockMesh::vertices);
+  for (const BlockMesh& b : blocks) all.insert(all.end(), b.vertices.begin(), b.vertices.end());
+  std::sort(all.begin(), all.end(),
+            [](const BlockVertex& a, const BlockVertex& b) { return a.id < b.id; });
+  const auto same_id = [](const BlockVertex& a, const BlockVertex& b) {
+    MW_ASSERT(a.id != b.id || a == b);
+    return a.id == b.id;
   };
-  for (;;) {
-    const BlockVertex* least = nullptr;
-    for (std::size_t block = 0; block < blocks.size(); ++block) {
-      const BlockVertex* const v = next_of(block);
-      if (v != nullptr && (least == nullptr || v->id < least->id)) least = v;
-    }
-    if (least == nullptr) return out;
-    const auto row = static_cast<std::uint32_t>(out.vertices.size());
-    out.vertices.push_back(*least);
-    for (std::size_t block = 0; block < blocks.size(); ++block) {
-      const BlockVertex* const v = next_of(block);
-      if (v == nullptr || v->id != least->id) continue;
-      MW_ASSERT(*v == *least);
-      out.rows[block].push_back(row);
-    }
+  all.erase(std::unique(all.begin(), all.end(), same_id), all.end());
+  return all;
+}
+
+/// The window's row of each vertex of a block; both lists ascend by id.
+std::vector<std::uint32_t> window_rows(const BlockMesh& block,
+                                       std::span<const BlockVertex> vertices) {
+  std::vector<std::uint32_t> row(block.vertices.size());
+  std::uint32_t next = 0;
+  for (std::size_t i = 0; i < row.size(); ++i) {
+    while (vertices[next].id != block.vertices[i].id) ++next;
+    row[i] = next;
   }
+  return row;
 }
 
 std::uint32_t first_vertex(const BlockTet& t) {
@@ -65,47 +57,14 @@ std::uint32_t first_vertex(const BlockSample& s) {
   return s.triangle[0];
 }
 
-BlockTet with_rows(BlockTet tet, std::span<const std::uint32_t> row) {
-  for (std::uint32_t& v : tet.vertices) v = row[v];
-  return tet;
-}
-
-BlockSample with_rows(BlockSample sample, std::span<const std::uint32_t> row) {
-  for (std::uint32_t& v : sample.triangle) v = row[v];
-  return sample;
-}
-
-/// Merges lists that ascend, and do so with the rows of the merged vertices, too.
-template <typename Item>
-std::vector<Item> merged(std::span<const BlockMesh> blocks, std::vector<Item> BlockMesh::*list,
-                         const MergedVertices& all) {
-  std::vector<Item> out = room_for(blocks, list);
-  std::vector<std::size_t> next(blocks.size(), 0);
-  for (std::uint32_t v = 0; v < all.vertices.size(); ++v) {
-    const auto begin = static_cast<std::ptrdiff_t>(out.size());
-    int lists = 0;
-    for (std::size_t block = 0; block < blocks.size(); ++block) {
-      const std::vector<Item>& items = blocks[block].*list;
-      const std::vector<std::uint32_t>& row = all.rows[block];
-      const std::size_t first = next[block];
-      std::size_t& i = next[block];
-      for (; i < items.size() && row[first_vertex(items[i])] == v; ++i) {
-        out.push_back(with_rows(items[i], row));
-      }
-      if (i > first) ++lists;
-    }
-    if (lists > 1) std::sort(out.begin() + begin, out.end());
-  }
-  return out;
-}
-
 /// Sorts by counting first vertices, then inside the small groups.
-void sort_rows(std::vector<BlockSample>& items, std::size_t vertices) {
+template <typename Item>
+void sort_rows(std::vector<Item>& items, std::size_t vertices) {
   std::vector<std::uint32_t> end(vertices + 1, 0);
-  for (const BlockSample& i : items) ++end[first_vertex(i) + 1];
+  for (const Item& i : items) ++end[first_vertex(i) + 1];
   for (std::size_t v = 0; v < vertices; ++v) end[v + 1] += end[v];
-  std::vector<BlockSample> sorted(items.size());
-  for (const BlockSample& i : items) sorted[end[first_vertex(i)]++] = i;
+  std::vector<Item> sorted(items.size());
+  for (const Item& i : items) sorted[end[first_vertex(i)]++] = i;
   auto group = sorted.begin();
   for (std::size_t v = 0; v < vertices; ++v) {
     const auto last = sorted.begin() + static_cast<std::ptrdiff_t>(end[v]);
@@ -138,13 +97,24 @@ void make_canonical(std::vector<BlockSample>& samples, std::size_t vertices) {
 }
 
 BlockMesh merge_blocks(std::vector<BlockMesh> blocks) {
-  MergedVertices all = merged_vertices(blocks);
-  for (BlockMesh& b : blocks) b.vertices = {};
   BlockMesh out;
-  out.tets = merged(blocks, &BlockMesh::tets, all);
-  for (BlockMesh& b : blocks) b.tets = {};
-  out.samples = merged(blocks, &BlockMesh::samples, all);
-  out.vertices = std::move(all.vertices);
+  out.vertices = merged_vertices(blocks);
+  out.tets = room_for(blocks, &BlockMesh::tets);
+  out.samples = room_for(blocks, &BlockMesh::samples);
+  for (BlockMesh& b : blocks) {
+    const BlockMesh block = std::move(b);  // its memory goes with it
+    const std::vector<std::uint32_t> row = window_rows(block, out.vertices);
+    for (BlockTet t : block.tets) {
+      for (std::uint32_t& v : t.vertices) v = row[v];
+      out.tets.push_back(t);
+    }
+    for (BlockSample s : block.samples) {
+      for (std::uint32_t& v : s.triangle) v = row[v];
+      out.samples.push_back(s);
+    }
+  }
+  sort_rows(out.tets, out.vertices.size());
+  sort_rows(out.samples, out.vertices.size());
   return out;
 }
 
