@@ -7,18 +7,10 @@
 #   bash tests/packages.sh --fresh   installed with apt into a new Debian 12 (as root; debootstrap, and
 #                                    the package mirror of this machine; some minutes)
 #   bash tests/packages.sh --lint    no error that lintian knows, but that nobody is their maintainer and that --help is the manual
-set -euo pipefail
 
-root="$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)"
-packages="$root/build/packages"
-folder="$(mktemp -d)"
-trap 'rm -rf --one-file-system "$folder"' EXIT
+# shellcheck source=tests/new_system.sh
+source "$(dirname "${BASH_SOURCE[0]}")/new_system.sh"
 system="$folder/system"
-
-fail() {
-  echo "packages: FAILED: $*" >&2
-  exit 1
-}
 
 unpack() {
   local package
@@ -28,10 +20,6 @@ unpack() {
   cp "$folder/smoke.sh" "$system/smoke.sh"
   run=(env "PATH=$system/usr/bin:$PATH" "PYTHONPATH=$system/usr/lib/python3/dist-packages"
     bash "$system/smoke.sh")
-}
-
-mirror() {
-  apt-cache policy | sed -n 's/^ *[0-9]* \(http[^ ]*\) bookworm\/main.*/\1/p' | head -n 1
 }
 
 has() {
@@ -67,7 +55,7 @@ lint() {
 
 install_fresh() {
   ((EUID == 0)) || fail "--fresh needs root"
-  debootstrap --variant=minbase bookworm "$system" "$(mirror)" >"$folder/log" 2>&1 || fail "debootstrap: $(tail -n 5 "$folder/log")"
+  new_system bookworm "$system"
   mkdir "$system/packages"
   cp "$packages"/*.deb "$system/packages"
   cp "$folder/smoke.sh" "$system/smoke.sh"
@@ -99,7 +87,7 @@ mpirun --oversubscribe --bind-to none -n 2 mwmesh-mpi mesh v.npy -o shared.vtu >
 mwmesh digest shared.vtu
 END
 
-ls "$packages"/*.deb >/dev/null 2>&1 || fail "no packages; run configs/package.sh"
+require_packages '*.deb'
 look_inside
 if [[ "${1:-}" == --lint ]]; then
   lint

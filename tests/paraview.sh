@@ -6,22 +6,11 @@
 # As root; needs debootstrap, the package mirror of this machine and 3 GB; takes twenty minutes.
 #
 #   bash tests/paraview.sh [SYSTEM [PICTURE]]      default: bookworm; PICTURE.png: what ParaView drew
-set -euo pipefail
 
-root="$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)"
+# shellcheck source=tests/new_system.sh
+source "$(dirname "${BASH_SOURCE[0]}")/new_system.sh"
 release="${1:-bookworm}"
-folder="$(mktemp -d)"
-trap 'rm -rf --one-file-system "$folder"' EXIT
 system="$folder/system"
-
-fail() {
-  echo "paraview: FAILED: $*" >&2
-  exit 1
-}
-
-mirror() {
-  apt-cache policy | sed -n 's/^ *[0-9]* \(http[^ ]*\) [a-z]*\/main.*/\1/p' | head -n 1
-}
 
 try_in() { # COMMAND
   DEBIAN_FRONTEND=noninteractive unshare --mount sh -c \
@@ -34,10 +23,9 @@ if ((EUID != 0)) || ! command -v debootstrap >/dev/null; then
   echo "paraview: skipped: needs root and debootstrap"
   exit 77
 fi
-ls "$root"/build/packages/*manylinux*.whl >/dev/null 2>&1 || fail "no wheel; run configs/package.sh"
-debootstrap --variant=minbase --include=python3-numpy,python3-pip "$release" "$system" "$(mirror)" \
-  >"$folder/log" 2>&1 || fail "debootstrap: $(tail -n 5 "$folder/log")"
-cp "$root"/build/packages/*manylinux*.whl "$root/tests/engine/python/paraview_test.py" "$system/root"
+require_packages '*manylinux*.whl'
+new_system "$release" "$system" python3-numpy,python3-pip
+cp "$packages"/*manylinux*.whl "$root/tests/engine/python/paraview_test.py" "$system/root"
 try_in 'apt-get install --yes --no-install-recommends python3-paraview xauth xvfb'
 try_in 'pip3 install --no-deps --break-system-packages ./*.whl'
 # A server that starts anew when ParaView closes its first window would lose the next one.

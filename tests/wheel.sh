@@ -6,25 +6,14 @@
 # As root; needs debootstrap and the package mirror of this machine; takes some minutes a system.
 #
 #   bash tests/wheel.sh [SYSTEM ...]      default: bookworm trixie (Debian 12 and 13)
-set -euo pipefail
 
-root="$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)"
-packages="$root/build/packages"
-folder="$(mktemp -d)"
-trap 'rm -rf --one-file-system "$folder"' EXIT
+# shellcheck source=tests/new_system.sh
+source "$(dirname "${BASH_SOURCE[0]}")/new_system.sh"
 (($#)) || set -- bookworm trixie
 
-fail() {
-  echo "wheel: FAILED: $*" >&2
-  exit 1
-}
-
-mirror() {
-  apt-cache policy | sed -n 's/^ *[0-9]* \(http[^ ]*\) [a-z]*\/main.*/\1/p' | head -n 1
-}
-
 ((EUID == 0)) || fail "needs root"
-ls "$packages"/*manylinux*.whl "$packages"/*.tar.xz >/dev/null 2>&1 || fail "no wheel; run configs/package.sh"
+require_packages '*manylinux*.whl'
+require_packages '*.tar.xz'
 
 cat >"$folder/smoke.py" <<'END'
 import subprocess
@@ -57,8 +46,7 @@ try_in() { # SYSTEM COMMAND WHAT
 digests=()
 for release in "$@"; do
   system="$folder/$release"
-  debootstrap --variant=minbase --include=python3,python3-numpy,python3-pip,xz-utils "$release" "$system" \
-    "$(mirror)" >"$folder/log" 2>&1 || fail "debootstrap: $(tail -n 5 "$folder/log")"
+  new_system "$release" "$system" python3,python3-numpy,python3-pip,xz-utils
   cp "$packages"/*manylinux*.whl "$packages"/*.tar.xz "$folder/smoke.py" "$system/root"
   by_wheel="$(try_in "$system" "pip3 install --no-deps --break-system-packages ./*.whl &&
     python3 -B smoke.py mwmesh && pip3 uninstall --yes --break-system-packages mwmesh >/dev/null 2>&1" "the wheel on $release")"
