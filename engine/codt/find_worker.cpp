@@ -54,10 +54,8 @@ std::vector<fs::path> worker_paths(const WorkerHost& host) {
   if (!host.program.empty()) positions.push_back(host.program.parent_path() / kProgram);
   const fs::path folder = host.object.parent_path();
   if (!folder.empty()) positions.push_back(folder / kProgram);
-  for (const char* const tail : {MW_INSTALLED_LIBRARY, MW_INSTALLED_PYTHON}) {
-    const auto prefix = prefix_of(folder, tail);
-    if (prefix) positions.push_back(*prefix / MW_INSTALLED_PROGRAMS / kProgram);
-  }
+  const auto prefix = prefix_of(folder, MW_INSTALLED_LIBRARY);
+  if (prefix) positions.push_back(*prefix / MW_INSTALLED_PROGRAMS / kProgram);
   positions.push_back(fs::path(MW_INSTALL_PREFIX) / MW_INSTALLED_PROGRAMS / kProgram);
   return positions;
 }

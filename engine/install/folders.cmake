@@ -28,14 +28,8 @@ if(MW_BUILD_PYTHON AND NOT mw_python_folder)
     OUTPUT_VARIABLE mw_python_folder OUTPUT_STRIP_TRAILING_WHITESPACE COMMAND_ERROR_IS_FATAL ANY)
 endif()
 
-# For engine/codt/find_worker.cpp and its test; the module lies in a folder of the package's name,
-# nowhere in a build without it.
-set(mw_module_folder "")
-if(mw_python_folder)
-  set(mw_module_folder "${mw_python_folder}/mwmesh")
-endif()
+# For engine/codt/find_worker.cpp and its test.
 set(mw_folder_definitions
   MW_INSTALL_PREFIX="${CMAKE_INSTALL_PREFIX}"
   MW_INSTALLED_PROGRAMS="${CMAKE_INSTALL_BINDIR}"
-  MW_INSTALLED_LIBRARY="${CMAKE_INSTALL_LIBDIR}"
-  MW_INSTALLED_PYTHON="${mw_module_folder}")
+  MW_INSTALLED_LIBRARY="${CMAKE_INSTALL_LIBDIR}")

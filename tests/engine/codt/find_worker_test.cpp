@@ -1,7 +1,6 @@
 // SPDX-FileCopyrightText: The mwmesh authors
 // SPDX-License-Identifier: Apache-2.0
-// The worker is found beside the program and in the prefix of a library or module, and nowhere
-// else.
+// The worker is found beside the program and in the prefix of a library, and nowhere else.
 #include "engine/codt/find_worker.h"
 
 #include <gmock/gmock.h>
@@ -54,17 +53,6 @@ TEST(FindWorker, LooksBesideTheLibrary) {
 TEST(FindWorker, LooksInThePrefixOfALibraryWhereverItWasMoved) {
   const Path library = Path("/moved/here") / MW_INSTALLED_LIBRARY / "libmwmesh.so.0.1";
   EXPECT_THAT(junctions_of(library), Contains(Path("/moved/here") / kPrograms / "mwmesh-codt"));
-}
-
-// A build without the Python package knows no folder of it, rather than one below the root.
-TEST(FindWorker, TheFolderOfThePythonPackageIsBelowAPrefix) {
-  EXPECT_TRUE(Path(MW_INSTALLED_PYTHON).is_relative()) << MW_INSTALLED_PYTHON;
-}
-
-TEST(FindWorker, LooksInThePrefixOfAPythonModule) {
-  if (Path(MW_INSTALLED_PYTHON).empty()) GTEST_SKIP() << "built without the Python package";
-  const Path module = Path("/moved/here") / MW_INSTALLED_PYTHON / "_core.so";
-  EXPECT_THAT(junctions_of(module), Contains(Path("/moved/here") / kPrograms / "mwmesh-codt"));
 }
 
 TEST(FindWorker, LooksWhereTheBuildIsInstalled) {
