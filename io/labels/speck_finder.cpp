@@ -243,7 +243,7 @@ class Finder {
     throw Error(ErrorKind::kResource,
                 text("--drop-specks: two slices of the volume have more runs of labels than fit: "
                      "they take ",
-                     bytes, " bytes, more than ", limits_.memory, "; ", way_out));
+                     size_words(bytes), ", more than ", size_words(limits_.memory), "; ", way_out));
   }
 
   SpeckRule rule_;
@@ -274,8 +274,8 @@ Specks find_specks(const LabelVolume& volume, const SpeckRule& rule, const Speck
 void fail_too_many_specks(const SpeckRule& rule, std::uint64_t specks, const SpeckLimits& limits,
                           std::uint64_t enough) {
   std::string message = text("--drop-specks ", rule.min, ": ", specks,
-                             " components are smaller, and do not fit into ", limits.memory,
-                             " bytes; they take ", enough, "; ");
+                             " components are smaller, and do not fit into ",
+                             size_words(limits.memory), "; they take ", size_words(enough), "; ");
   if (limits.is_of_budget) {
     message += text("--memory ", mebibytes(SpeckLimits::kShare * enough),
                     " is enough, a quarter of which is theirs; or ");

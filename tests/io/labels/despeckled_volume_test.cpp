@@ -218,6 +218,15 @@ TEST(DespeckledVolume, RefusesMoreSpecksThanMemoryHolds) {
   });
 }
 
+TEST(DespeckledVolume, SaysWhatFitsInTheUnitOfTheMemoryThatHelps) {
+  constexpr std::uint64_t kMebibyte = 1 << 20;
+  const SpeckLimits limits{.memory = 3 * kMebibyte, .is_of_budget = true};
+  expect_error(ErrorKind::kResource, {"fit into 3MiB; they take 4.5MiB; --memory 18MiB is enough"},
+               [&] {
+                 fail_too_many_specks({2, false}, 9, limits, 9 * kMebibyte / 2);
+               });
+}
+
 /// The error of a search within so much memory; empty when there is none.
 std::string error_of(const MemoryVolume& volume, const SpeckRule& rule, std::uint64_t memory) {
   try {
