@@ -45,12 +45,6 @@ std::string background_text(const FinishedRun& run) {
          " of the tets: --background 0 leaves it out";
 }
 
-std::string spacing_text(const FinishedRun& run) {
-  if (run.volume.space.is_sized) return "";
-  return "a spacing of 1 is taken, as the file does not say how large voxels are: --spacing says "
-         "it";
-}
-
 std::string slices_text(const FinishedRun& run) {
   const io::SliceFacts slices = io::slices_of(run.volume);
   const bool is_refused = run.has_scores || run.settings.periodic != 0;
@@ -132,6 +126,12 @@ double volume_of(const FinishedRun& run) {
 }
 
 }  // namespace
+
+std::string spacing_text(const FinishedRun& run) {
+  if (run.volume.space.is_sized) return "";
+  return "a spacing of 1 is taken, as the file does not say how large voxels are: --spacing says "
+         "it";
+}
 
 std::vector<std::string> attention(const FinishedRun& run) {
   std::vector<std::string> out;

@@ -16,6 +16,9 @@ inline constexpr std::uint64_t kFewVoxels = 100;
 /// Returns a line each, with the option that helps, as on the command line.
 [[nodiscard]] std::vector<std::string> attention(const FinishedRun& run);
 
+/// Returns that line of the spacing that was taken where nobody said one; empty where one is known.
+[[nodiscard]] std::string spacing_text(const FinishedRun& run);
+
 /// Returns a size of edges and about how many tets it gives, where no size was asked for and edges
 /// are long; null otherwise.
 [[nodiscard]] io::Json suggestion(const FinishedRun& run);

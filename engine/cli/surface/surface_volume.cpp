@@ -12,6 +12,7 @@
 #include "engine/cli/exit_code.h"
 #include "engine/cli/log.h"
 #include "engine/cli/mesh/progress.h"
+#include "engine/report/attention.h"
 #include "engine/system/crew.h"
 #include "io/file/errors.h"
 #include "io/file/scratch/scratch_file.h"
@@ -122,7 +123,8 @@ void mesh_volume(MeshRequest& request, const std::vector<RawLabel>& labels, io::
   std::cout << "meshed      " << with_commas(run.engine.tets) << " tets";
   if (!request.volume.open.object.empty()) std::cout << ", all other labels taken for one";
   if (run.leaves_out_zero) std::cout << ", without label 0, as the names say that it is nothing";
-  std::cout << std::endl;
+  const std::string note = report::spacing_text(run);
+  std::cout << (note.empty() ? "" : "\nnote        ") << note << std::endl;
 }
 
 }  // namespace mw::cli

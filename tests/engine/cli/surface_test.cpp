@@ -85,6 +85,14 @@ TEST_F(SurfaceCommand, TakesAVolumeAndSaysWhatIsWrongWithIt) {
   expect_done("surface v.vtu -o s.stl", "MW_SIZE=2");
 }
 
+TEST_F(SurfaceCommand, SaysWhichSpacingWasTakenWhereAVolumeHasNone) {
+  make_volume();
+  const std::string note = "note        a spacing of 1 is taken";
+  const std::string command = "surface v.npy -o s.stl --labels 1";
+  EXPECT_NE(run(command).out.find(note), std::string::npos);
+  EXPECT_EQ(run(command + " --spacing 2").out.find(note), std::string::npos);
+}
+
 /// Labels that voxels tell are meshed alone, others come out of the mesh of all.
 TEST_F(SurfaceCommand, MeshesWhatLabelsNeed) {
   make_volume();
