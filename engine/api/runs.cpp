@@ -1,7 +1,6 @@
 // SPDX-FileCopyrightText: The mwmesh authors
 // SPDX-License-Identifier: Apache-2.0
 // Volumes to meshes, and meshes held against volumes.
-#include <algorithm>
 #include <array>
 
 #include "engine/api/asked.h"
@@ -9,6 +8,7 @@
 #include "engine/api/mesh_file.h"
 #include "engine/api/watch.h"
 #include "engine/job/verify_job.h"
+#include "engine/request/values.h"
 #include "engine/settings/setting_table.h"
 #include "engine/version.h"
 #include "io/file/errors.h"
@@ -20,21 +20,12 @@
 namespace mw::api {
 namespace {
 
-io::Json value_json(const engine::Setting& setting, const std::string& text) {
-  using Kind = engine::SettingKind;
-  if (setting.kind == Kind::kChoice || setting.kind == Kind::kSizes) return text;
-  if (text == "none") return nullptr;
-  if (text == "auto") return text;
-  return io::parse_json(text, setting.name);
-}
-
 /// Returns settings and options as reports tell them.
 io::Json settings_json(const engine::MeshJob& job) {
   io::Json out = io::Json::object();
   for (const engine::Setting& setting : engine::setting_table()) {
-    std::string key = setting.name;
-    std::replace(key.begin(), key.end(), '-', '_');
-    out[key] = value_json(setting, setting.text(job.settings));
+    out[request::key_of(setting.name)] =
+        request::json_of_text(setting.kind, setting.text(job.settings));
   }
   out["threads"] = job.run.threads;
   out["memory"] = job.run.store.memory;

@@ -186,28 +186,7 @@ void add_output_options(OptionSet& options, ConvertJob& job) {
                .group = kOutputGroup,
                .choices = {"tet4", "tet10", "tet10-curved"},
                .assign = into(job.element, parse_element)});
-  options.add({.name = "ascii",
-               .help = "a .msh as text instead of binary",
-               .group = kOutputGroup,
-               .kind = ValueKind::kSwitch,
-               .assign = into(job.extras.encoding, parse_ascii)});
-  options.add({.name = "materials",
-               .value = "NAME=N[:LO:HI]",
-               .help = "N sets of elements by equal ranges of the values NAME, with a table",
-               .group = kOutputGroup,
-               .assign = into(job.extras.materials, engine::parse_materials)});
-  options.add({.name = "deck",
-               .value = "JOB",
-               .help = "static: a job that pulls; periodic, conduction: of a cell",
-               .group = kOutputGroup,
-               .fallback = "none",
-               .choices = kDecks,
-               .assign = into(job.extras.deck, parse_deck)});
-  options.add({.name = "pairs",
-               .value = "FILE",
-               .help = "nodes of --periodic faces: .csv, or equations in .inp",
-               .group = kOutputGroup,
-               .assign = into(job.extras.pairs)});
+  add_format_options(options, job.extras, Listed::kInHelp);
   options.add({.name = "pieces",
                .value = "N",
                .help = "a .pvtu and N .vtu beside it; vertices have GlobalNodeIds",

@@ -41,7 +41,7 @@ io::VoxelType parse_dtype(const std::string& text) {
 /// Parses a number of labels or a seed, which may have all 64 bits.
 std::uint64_t parse_count(const std::string& text) {
   std::uint64_t value = 0;
-  if (!engine::read_all(text, value)) engine::fail_expected("a number from 0 on", text);
+  if (!engine::read_number(text, value)) engine::fail_expected("a number from 0 on", text);
   return value;
 }
 

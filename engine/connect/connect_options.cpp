@@ -22,7 +22,7 @@ PartsRule parse_parts(std::string_view text) {
   if (text == "all") return {};
   if (text == "largest") return {.only_largest = true};
   std::uint64_t tets = 0;
-  if (!read_all(text, tets) || tets == 0) {
+  if (!read_number(text, tets) || tets == 0) {
     fail_expected("all, largest, or the least number of tets of a part", text);
   }
   return {.least_tets = tets};

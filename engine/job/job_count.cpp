@@ -25,7 +25,7 @@ std::optional<report::CountFacts> saved_count(const MeshJob& job, report::Finish
   const std::filesystem::path& folder = job.run.store.workdir;
   const auto read = [&](const char* name, auto& number) {
     const std::optional<std::string> text = saved_value(folder, name);
-    return text && read_all(*text, number);
+    return text && read_number(*text, number);
   };
   report::CountFacts count{.asked = static_cast<std::uint64_t>(job.settings.sizes.count),
                            .may_be_off = saved_value(folder, kMayBeOff) == "yes"};

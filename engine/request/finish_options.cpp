@@ -5,6 +5,7 @@
 #include "engine/request/shared_options.h"
 #include "engine/request/values.h"
 #include "engine/sample/sample_text.h"
+#include "engine/settings/size_text.h"
 
 namespace mw::request {
 
@@ -38,6 +39,40 @@ void add_connect_options(OptionSet& options, engine::ConnectOptions& connect) {
                .fallback = "false",
                .listed = Listed::kInHelpAll,
                .assign = into(connect.open_hinges)});
+}
+
+void add_format_options(OptionSet& options, io::MeshExtras& extras, Listed listed) {
+  options.add({.name = "ascii",
+               .help = "a .msh as text instead of binary",
+               .group = kOutputGroup,
+               .kind = ValueKind::kSwitch,
+               .fallback = "false",
+               .calls = kWriting,
+               .listed = listed,
+               .assign = into(extras.encoding, parse_ascii)});
+  options.add({.name = "materials",
+               .value = "NAME=N[:LO:HI]",
+               .help = "N sets of elements by equal ranges of the values NAME, with a table",
+               .group = kOutputGroup,
+               .calls = kWriting,
+               .listed = listed,
+               .assign = into(extras.materials, engine::parse_materials)});
+  options.add({.name = "deck",
+               .value = "JOB",
+               .help = "static: a job that pulls; periodic, conduction: of a cell",
+               .group = kOutputGroup,
+               .fallback = "none",
+               .choices = kDecks,
+               .calls = kWriting,
+               .listed = listed,
+               .assign = into(extras.deck, parse_deck)});
+  options.add({.name = "pairs",
+               .value = "FILE",
+               .help = "nodes of --periodic faces: .csv, or equations in .inp",
+               .group = kOutputGroup,
+               .calls = kWriting,
+               .listed = listed,
+               .assign = into(extras.pairs)});
 }
 
 void add_sample_option(OptionSet& options, std::vector<engine::SampleImage>& samples) {

@@ -157,42 +157,6 @@ void add_run_options(OptionSet& options, MeshRequest& request) {
                .only_flag = true});
 }
 
-/// Adds options that only some formats have room for.
-void add_format_options(OptionSet& options, MeshRequest& request) {
-  options.add({.name = "ascii",
-               .help = "a .msh as text instead of binary",
-               .group = kOutputGroup,
-               .kind = ValueKind::kSwitch,
-               .fallback = "false",
-               .calls = kWriting,
-               .listed = Listed::kInHelpAll,
-               .assign = into(request.extras.encoding, parse_ascii)});
-  add_sample_option(options, request.job.samples);
-  options.add({.name = "materials",
-               .value = "NAME=N[:LO:HI]",
-               .help = "N sets of elements by equal ranges of a --sample, with a table",
-               .group = kOutputGroup,
-               .calls = kWriting,
-               .listed = Listed::kInHelpAll,
-               .assign = into(request.extras.materials, engine::parse_materials)});
-  options.add({.name = "deck",
-               .value = "JOB",
-               .help = "static: a job that pulls; periodic, conduction: of a cell",
-               .group = kOutputGroup,
-               .fallback = "none",
-               .choices = kDecks,
-               .calls = kWriting,
-               .listed = Listed::kInHelpAll,
-               .assign = into(request.extras.deck, parse_deck)});
-  options.add({.name = "pairs",
-               .value = "FILE",
-               .help = "nodes of --periodic faces: .csv, or equations in .inp",
-               .group = kOutputGroup,
-               .calls = kWriting,
-               .listed = Listed::kInHelpAll,
-               .assign = into(request.extras.pairs)});
-}
-
 /// Adds options about what is told of a run.
 void add_report_options(OptionSet& options, MeshRequest& request) {
   options.add({.name = "report",
@@ -250,7 +214,8 @@ void add_output_options(OptionSet& options, MeshRequest& request) {
                .choices = {"auto", "on", "off"},
                .listed = Listed::kInHelpAll,
                .assign = into(request.job.certify, parse_certify)});
-  add_format_options(options, request);
+  add_sample_option(options, request.job.samples);
+  add_format_options(options, request.extras, Listed::kInHelpAll);
   options.add({.name = "force",
                .help = "replaces files that are not of this program; meshes images",
                .group = kOutputGroup,

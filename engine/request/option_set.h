@@ -9,25 +9,13 @@
 #include <utility>
 #include <vector>
 
+#include "engine/settings/setting_table.h"
 #include "io/json/json.h"
 #include "io/names/label_names.h"
 
 namespace mw::request {
 
-enum class ValueKind {
-  kText,
-  kInteger,
-  kNumber,
-  kNumberOrNone,
-  kNumberOrAuto,
-  kNumbers,  ///< X,Y,Z
-  kShape,    ///< X,Y,Z, integers
-  kBox,      ///< X0,Y0,Z0,X1,Y1,Z1, integers
-  kLabels,
-  kSize,
-  kSwitch,
-  kNumberOrText,  ///< a string or, for TOML, a number too
-};
+using engine::ValueKind;
 
 /// Where help lists an option.
 enum class Listed {

@@ -11,28 +11,6 @@
 namespace mw::request {
 namespace {
 
-using engine::SettingKind;
-
-ValueKind value_kind(SettingKind kind) {
-  switch (kind) {
-    case SettingKind::kInteger:
-      return ValueKind::kInteger;
-    case SettingKind::kNumber:
-      return ValueKind::kNumber;
-    case SettingKind::kNumberOrNone:
-      return ValueKind::kNumberOrNone;
-    case SettingKind::kNumberOrAuto:
-      return ValueKind::kNumberOrAuto;
-    case SettingKind::kSwitch:
-      return ValueKind::kSwitch;
-    case SettingKind::kSizes:
-      return ValueKind::kNumberOrText;
-    case SettingKind::kChoice:
-      break;
-  }
-  return ValueKind::kText;
-}
-
 Option preset_option() {
   Option out{.name = "preset",
              .help = engine::kPresetHelp,
@@ -59,17 +37,16 @@ int parse_threads(const std::string& text) {
 void add_setting_options(OptionSet& options, engine::MeshSettings& settings) {
   options.add(preset_option());
   for (const engine::Setting& setting : engine::setting_table()) {
-    const bool has_sizes = setting.kind == SettingKind::kSizes;
     options.add({.name = setting.name,
                  .value = setting.value,
                  .help = setting.help,
                  .group = kShapeGroup,
-                 .kind = value_kind(setting.kind),
+                 .kind = setting.kind,
                  .fallback = setting.text(engine::MeshSettings{}),
                  .choices = setting.choices,
                  .listed = setting.expert ? Listed::kInHelpAll : Listed::kInHelp,
-                 .has_labels = has_sizes,
-                 .check_named = has_sizes ? TextCheck(engine::check_sizes) : nullptr,
+                 .has_labels = setting.has_labels,
+                 .check_named = setting.has_labels ? TextCheck(engine::check_sizes) : nullptr,
                  .assign = [&](const std::string& text) { set(setting, settings, text); }});
   }
 }

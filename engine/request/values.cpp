@@ -12,7 +12,28 @@ namespace mw::request {
 namespace {
 
 using engine::fail_expected;
-using engine::read_all;
+using engine::read_number;
+
+struct Kind {
+  const char* name;
+  const char* toml;
+};
+
+/// In the order of ValueKind.
+constexpr std::array<Kind, 12> kKinds{{
+    {"text", "a string"},
+    {"integer", "an integer"},
+    {"number", "a number"},
+    {"number_or_none", "a number or \"none\""},
+    {"number_or_auto", "a number or \"auto\""},
+    {"numbers", "three numbers [X, Y, Z], or one"},
+    {"shape", "three integers [X, Y, Z]"},
+    {"box", "six integers [X0, Y0, Z0, X1, Y1, Z1]"},
+    {"labels", "integers [1, 2] or a string \"1,2\""},
+    {"size", "a string such as \"4G\""},
+    {"switch", "true or false"},
+    {"number_or_text", "a number or a string"},
+}};
 
 std::vector<std::string_view> split(std::string_view text) {
   std::vector<std::string_view> parts;
@@ -72,7 +93,7 @@ Index3 parse_shape(std::string_view text) {
   const std::vector<std::string_view> parts = split(text);
   std::array<std::int64_t, 3> out{};
   for (std::size_t i = 0; i < 3; ++i) {
-    if (parts.size() != 3 || !read_all(parts[i], out[i]) || out[i] < 1) {
+    if (parts.size() != 3 || !read_number(parts[i], out[i]) || out[i] < 1) {
       fail_expected("three positive integers X,Y,Z", text);
     }
   }
@@ -83,7 +104,7 @@ Box3 parse_box(std::string_view text) {
   const std::vector<std::string_view> parts = split(text);
   std::array<std::int64_t, 6> out{};
   for (std::size_t i = 0; i < out.size(); ++i) {
-    if (parts.size() != out.size() || !read_all(parts[i], out[i])) {
+    if (parts.size() != out.size() || !read_number(parts[i], out[i])) {
       fail_expected("six integers X0,Y0,Z0,X1,Y1,Z1", text);
     }
   }
@@ -101,10 +122,11 @@ const char* word_of(ValueKind kind) {
 }
 
 const char* name(ValueKind kind) {
-  constexpr const char* kNames[] = {"text",           "integer", "number", "number_or_none",
-                                    "number_or_auto", "numbers", "shape",  "box",
-                                    "labels",         "size",    "switch", "number_or_text"};
-  return kNames[static_cast<int>(kind)];
+  return kKinds[static_cast<std::size_t>(kind)].name;
+}
+
+const char* toml_words(ValueKind kind) {
+  return kKinds[static_cast<std::size_t>(kind)].toml;
 }
 
 std::string canonical_text(ValueKind kind, const std::string& text) {

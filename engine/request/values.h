@@ -69,6 +69,8 @@ template <class T, class Parse>
 
 /// Returns what a kind is called in lists of options: "number_or_none".
 [[nodiscard]] const char* name(ValueKind kind);
+/// Returns what a config file holds for the kind, in words for messages: "an integer".
+[[nodiscard]] const char* toml_words(ValueKind kind);
 
 /// Returns a text that is the same for equal values; labels and sizes stay as they are written.
 /// ERRORS: mw::Error(kUsage) when the text is not of the kind.

@@ -24,7 +24,7 @@ bool begins_like_a_number(std::string_view text) {
 bool is_name(std::string_view token) {
   double number = 0;
   return !token.empty() && token != "*" && !token.starts_with('@') && !names_image(token) &&
-         !(begins_like_a_number(token) && read_all(token, number));
+         !(begins_like_a_number(token) && read_number(token, number));
 }
 
 /// Returns where the part of the text that begins at `at` ends.  Names in quotes, which may follow

@@ -35,8 +35,9 @@ std::optional<std::uint64_t> bytes_of(std::string_view number, std::uint64_t uni
   const std::size_t point = std::min(number.find('.'), number.size());
   std::uint64_t whole = 0;
   double part = 0;
-  if (!read_all(number.substr(0, point), whole)) return {};
-  if (point < number.size() && !read_all("0" + std::string(number.substr(point)), part)) return {};
+  if (!read_number(number.substr(0, point), whole)) return {};
+  if (point < number.size() && !read_number("0" + std::string(number.substr(point)), part))
+    return {};
   const auto more = static_cast<std::uint64_t>(part * static_cast<double>(unit));
   constexpr std::uint64_t kMax = std::numeric_limits<std::uint64_t>::max();
   if (whole > (kMax - more) / unit) return {};
@@ -51,21 +52,21 @@ void fail_expected(std::string_view expected, std::string_view text) {
 
 std::int64_t parse_integer(std::string_view text) {
   std::int64_t value = 0;
-  if (!read_all(text, value)) fail_expected("an integer", text);
+  if (!read_number(text, value)) fail_expected("an integer", text);
   return value;
 }
 
 double parse_number(std::string_view text) {
   double value = 0;
-  if (!read_all(text, value) || !std::isfinite(value)) fail_expected("a finite number", text);
+  if (!read_number(text, value) || !std::isfinite(value)) fail_expected("a finite number", text);
   return value;
 }
 
 RawLabel parse_label(std::string_view text) {
   RawLabel label = 0;
-  if (read_all(text, label)) return label;
+  if (read_number(text, label)) return label;
   std::int64_t negative = 0;
-  if (!read_all(text, negative)) fail_expected("a label of at most 64 bits", text);
+  if (!read_number(text, negative)) fail_expected("a label of at most 64 bits", text);
   return static_cast<RawLabel>(negative);
 }
 

@@ -4,24 +4,18 @@
 // mistyped word was probably meant to be.
 #pragma once
 
-#include <charconv>
 #include <cstdint>
 #include <string>
 #include <string_view>
 #include <vector>
 
+#include "io/file/read_number.h"
 #include "io/remote/disk_cache.h"
 #include "kernels/core/label.h"
 
 namespace mw::engine {
 
-/// Reads all of the text, a decimal number, as a T; false when it is none or does not fit.
-template <class T>
-[[nodiscard]] bool read_all(std::string_view text, T& value) {
-  const char* end = text.data() + text.size();
-  const auto [stop, error] = std::from_chars(text.data(), end, value);
-  return error == std::errc() && stop == end && !text.empty();
-}
+using io::read_number;
 
 /// All of these take the whole text.  ERRORS: mw::Error(kUsage) saying what was expected.
 [[nodiscard]] std::int64_t parse_integer(std::string_view text);

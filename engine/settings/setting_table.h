@@ -12,15 +12,20 @@
 
 namespace mw::engine {
 
-/// What the text of a setting is.
-enum class SettingKind {
+/// What the text of a value is.
+enum class ValueKind {
+  kText,
   kInteger,
   kNumber,
   kNumberOrNone,
   kNumberOrAuto,
-  kChoice,
-  kSwitch,  ///< "true" or "false"
-  kSizes,   ///< parse_sizes()
+  kNumbers,  ///< X,Y,Z
+  kShape,    ///< X,Y,Z, integers
+  kBox,      ///< X0,Y0,Z0,X1,Y1,Z1, integers
+  kLabels,
+  kSize,
+  kSwitch,        ///< "true" or "false"
+  kNumberOrText,  ///< a string or, for TOML, a number too
 };
 
 /// A field of MeshSettings.  Flag, config key, environment variable, default, help, check() and
@@ -29,12 +34,13 @@ struct Setting {
   std::string name;   ///< the flag without dashes; its name in the identity, too
   std::string value;  ///< what help calls the value; nothing for choices and switches
   std::string help;   ///< one line
-  SettingKind kind = SettingKind::kInteger;
-  std::vector<std::string> choices;  ///< of kChoice
+  ValueKind kind = ValueKind::kText;
+  std::vector<std::string> choices;  ///< the only texts allowed; empty: any of the kind
+  bool has_labels = false;           ///< the value has labels in it
   bool expert = false;               ///< only --help-all lists it
   std::string allowed;               ///< what messages say after "must be"
   /// Returns the value as text.  ENSURES: read() makes the same value of it, and different values
-  /// have different texts; empty only for kSizes without any.
+  /// have different texts; empty only for sizes without any.
   std::string (*text)(const MeshSettings&) = nullptr;
   /// ERRORS: mw::Error(kUsage) saying what was expected, for text that is not of the kind.
   void (*read)(MeshSettings&, const std::string&) = nullptr;

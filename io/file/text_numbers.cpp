@@ -8,6 +8,8 @@
 #include <charconv>
 #include <cmath>
 
+#include "io/file/read_number.h"
+
 namespace mw::io {
 namespace {
 
@@ -17,9 +19,7 @@ template <class T>
 std::optional<T> parse(std::string_view word) {
   if (word.starts_with('+') && !word.starts_with("+-")) word.remove_prefix(1);
   T number{};
-  const auto [stop, verdict] = std::from_chars(word.data(), word.data() + word.size(), number);
-  if (verdict != std::errc{} || stop != word.data() + word.size()) return std::nullopt;
-  return number;
+  return read_number(word, number) ? std::optional(number) : std::nullopt;
 }
 
 template <class T>
@@ -86,7 +86,7 @@ double decimal_of(float value) {
   std::array<char, 32> text{};
   const char* end = std::to_chars(text.data(), text.data() + text.size(), value).ptr;
   double out = 0;
-  std::from_chars(text.data(), end, out);
+  (void)read_number({text.data(), end}, out);
   return out;
 }
 

@@ -7,6 +7,7 @@
 #include <charconv>
 #include <cmath>
 
+#include "io/file/read_number.h"
 #include "kernels/core/vector3.h"
 
 namespace mw::io {
@@ -101,7 +102,7 @@ double tidied(double length, double error) {
     const char* end = std::to_chars(text.data(), text.data() + text.size(), length,
                                     std::chars_format::scientific, digits - 1)
                           .ptr;
-    std::from_chars(text.data(), end, out);
+    (void)read_number({text.data(), end}, out);
     if (std::abs(out - length) <= error * length) break;
   }
   return out;

@@ -7,10 +7,10 @@
 #include <zlib.h>
 
 #include <algorithm>
-#include <charconv>
 
 #include "io/codec/codec.h"
 #include "io/file/errors.h"
+#include "io/file/read_number.h"
 
 namespace mw::io {
 namespace {
@@ -162,8 +162,7 @@ void visit_words(std::string_view text, Use use) {
 template <class T>
 T parse_word(std::string_view word, const ArrayName& name) {
   T number{};
-  const auto [stop, verdict] = std::from_chars(word.data(), word.data() + word.size(), number);
-  if (verdict != std::errc{} || stop != word.data() + word.size()) {
+  if (!read_number(word, number)) {
     fail(name, text("'", word.substr(0, 40), "' is no valid number"));
   }
   return number;

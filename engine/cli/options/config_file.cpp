@@ -94,41 +94,10 @@ std::optional<std::string> text_of_toml(ValueKind kind, const toml::node& node) 
   return std::nullopt;
 }
 
-/// Returns what a config file holds for the kind, in words for messages: "an integer".
-const char* toml_type(ValueKind kind) {
-  switch (kind) {
-    case ValueKind::kText:
-      return "a string";
-    case ValueKind::kInteger:
-      return "an integer";
-    case ValueKind::kNumber:
-      return "a number";
-    case ValueKind::kNumberOrNone:
-      return "a number or \"none\"";
-    case ValueKind::kNumberOrAuto:
-      return "a number or \"auto\"";
-    case ValueKind::kNumbers:
-      return "three numbers [X, Y, Z], or one";
-    case ValueKind::kShape:
-      return "three integers [X, Y, Z]";
-    case ValueKind::kBox:
-      return "six integers [X0, Y0, Z0, X1, Y1, Z1]";
-    case ValueKind::kLabels:
-      return "integers [1, 2] or a string \"1,2\"";
-    case ValueKind::kSize:
-      return "a string such as \"4G\"";
-    case ValueKind::kSwitch:
-      return "true or false";
-    case ValueKind::kNumberOrText:
-      return "a number or a string";
-  }
-  return "";
-}
-
 /// Returns the text of a key's value.
 std::string checked_text(ValueKind kind, const toml::node& node, const std::string& where) {
   const std::optional<std::string> text = text_of_toml(kind, node);
-  if (!text) io::fail_usage(where, ": wrong type; expected ", toml_type(kind));
+  if (!text) io::fail_usage(where, ": wrong type; expected ", toml_words(kind));
   if (text->empty()) {
     io::fail_usage(where, ": empty; leave the key out instead");
   }

@@ -23,7 +23,7 @@ struct ServeJob {
 
 std::uint16_t parse_port(const std::string& text) {
   std::uint16_t port = 0;
-  if (!engine::read_all(text, port)) engine::fail_expected("a port from 0 to 65535", text);
+  if (!engine::read_number(text, port)) engine::fail_expected("a port from 0 to 65535", text);
   return port;
 }
 

@@ -39,12 +39,12 @@ std::optional<ByteRange> asked_range(std::string_view header, std::uint64_t size
   const std::string_view first = header.substr(kUnit.size(), dash - kUnit.size());
   const std::string_view last = header.substr(dash + 1);
   std::uint64_t from = 0, to = 0;
-  if (!last.empty() && !engine::read_all(last, to)) return std::nullopt;
+  if (!last.empty() && !engine::read_number(last, to)) return std::nullopt;
   if (first.empty()) {
     if (last.empty()) return std::nullopt;
     return ByteRange{size - std::min(to, size), size};
   }
-  if (!engine::read_all(first, from)) return std::nullopt;
+  if (!engine::read_number(first, from)) return std::nullopt;
   if (!last.empty() && to < from) return std::nullopt;
   const std::uint64_t end = last.empty() || to >= size ? size : to + 1;
   return ByteRange{std::min(from, end), end};

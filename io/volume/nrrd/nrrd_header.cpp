@@ -5,13 +5,13 @@
 
 #include <algorithm>
 #include <array>
-#include <charconv>
 #include <cmath>
 #include <map>
 #include <sstream>
 #include <vector>
 
 #include "io/file/errors.h"
+#include "io/file/read_number.h"
 #include "io/file/text_numbers.h"
 #include "io/volume/checks.h"
 
@@ -135,9 +135,8 @@ std::vector<T> parse_numbers(const std::string& value, std::string_view field,
   for (std::size_t at = value.find_first_not_of(kSeparators); at != std::string::npos;) {
     const std::size_t end = std::min(value.find_first_of(kSeparators, at), value.size());
     T number{};
-    const auto [stop, verdict] =
-        std::from_chars(value.data() + at + (value[at] == '+'), value.data() + end, number);
-    if (verdict != std::errc{} || stop != value.data() + end) {
+    if (!read_number(std::string_view(value).substr(at, end - at).substr(value[at] == '+'),
+                     number)) {
       fail_input(file, text("NRRD field '", field, "'"), text("no valid numbers: ", value));
     }
     numbers.push_back(number);

@@ -76,7 +76,7 @@ TEST(SettingTable, NamesAreUnlikeAndPlain) {
     EXPECT_TRUE(names.insert(setting.name).second) << setting.name;
     for (const char c : setting.name) EXPECT_TRUE(std::islower(c) != 0 || c == '-');
     EXPECT_FALSE(setting.help.empty());
-    EXPECT_EQ(setting.choices.empty(), setting.kind != SettingKind::kChoice);
+    EXPECT_EQ(setting.choices.empty(), setting.kind != ValueKind::kText);
   }
   EXPECT_EQ(names.size(), test::kSettingSamples.size());
 }
@@ -124,8 +124,7 @@ TEST(SettingTable, EveryValueHasItsIdentity) {
 
 TEST(SettingTable, OutOfRangeIsRefusedByNameWithWhatIsAllowed) {
   for (const Setting& setting : setting_table()) {
-    EXPECT_EQ(samples(setting).outside.empty(),
-              setting.is_allowed == nullptr || setting.kind == SettingKind::kSizes)
+    EXPECT_EQ(samples(setting).outside.empty(), setting.is_allowed == nullptr || setting.has_labels)
         << setting.name;
     for (const std::string& text : samples(setting).outside) {
       EXPECT_EQ(message_of(setting, text), setting.name + " must be " + setting.allowed) << text;
@@ -176,8 +175,8 @@ TEST(SettingTable, CheckNamesSettingValueAndWhatIsAllowed) {
 
 TEST(SettingTable, SizesAreSortedByLabel) {
   const auto& table = setting_table();
-  const auto size = std::find_if(table.begin(), table.end(),
-                                 [](const Setting& s) { return s.kind == SettingKind::kSizes; });
+  const auto size =
+      std::find_if(table.begin(), table.end(), [](const Setting& s) { return s.has_labels; });
   ASSERT_NE(size, table.end());
   EXPECT_EQ(size->text(with(*size, "7=4,1=2.5")), "1=2.5,7=4");
   EXPECT_EQ(size->text(with(*size, "-1=4")), "18446744073709551615=4");
