@@ -50,8 +50,7 @@ CertificatePlan largest_plan(int threads, std::uint64_t reader_bytes, std::uint6
 }
 
 std::string obstacle(const MeshJob& job) {
-  if (job.certify == Certify::kAuto && job.run.processes != nullptr &&
-      job.run.processes->count() > 1) {
+  if (job.certify == Certify::kAuto && !is_alone(job.run.processes)) {
     return "of several processes one alone would make it, while the others wait: give --certify "
            "on, "
            "or verify the file";

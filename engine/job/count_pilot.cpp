@@ -15,6 +15,7 @@
 #include "engine/labels/prepared_labels.h"
 #include "engine/labels/voxel_lattice.h"
 #include "engine/output/label_selection.h"
+#include "engine/run/processes.h"
 #include "engine/system/crew.h"
 #include "engine/window/window_visitor.h"
 #include "io/mesh/mesh_sink.h"
@@ -109,8 +110,7 @@ RunReport trial_mesh(const PilotTask& task, const io::DenseVolume& labels,
   hooks.owns_process = job.run.owns_process;
   hooks.store.is_scratch = true;
   // Several processes, which all do the same, would meet in one folder.
-  const bool is_alone = job.run.processes == nullptr || job.run.processes->count() == 1;
-  if (is_alone && !job.run.store.workdir.empty()) {
+  if (is_alone(job.run.processes) && !job.run.store.workdir.empty()) {
     hooks.store.workdir = job.run.store.workdir.string() + kFolderEnding;
     hooks.store.group = kNeverDurable;
   }

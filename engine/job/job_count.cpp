@@ -5,8 +5,10 @@
 #include <optional>
 
 #include "engine/keep/keep_options.h"
+#include "engine/run/processes.h"
 #include "engine/settings/number_text.h"
 #include "engine/store/journal/identity.h"
+#include "engine/store/journal/run_folder.h"
 #include "engine/system/memory.h"
 #include "engine/version.h"
 #include "io/file/errors.h"
@@ -19,9 +21,8 @@ constexpr const char* kMayBeOff = "count may be off";
 constexpr const char* kEarlierScale = "count missed with scale";
 constexpr const char* kEarlierTets = "count missed with tets";
 
-/// Returns the scale that the run found whose work this one goes on with, if there is such a run.
-std::optional<report::CountFacts> saved_count(const MeshJob& job, report::FinishedRun run) {
-  if (!job.run.store.resume) return std::nullopt;
+/// Returns what the run found whose work the folder has, as far as the folder says it.
+std::optional<report::CountFacts> saved_count(const MeshJob& job) {
   const std::filesystem::path& folder = job.run.store.workdir;
   const auto read = [&](const char* name, auto& number) {
     const std::optional<std::string> text = saved_value(folder, name);
@@ -33,11 +34,24 @@ std::optional<report::CountFacts> saved_count(const MeshJob& job, report::Finish
   const bool has_missed =
       read(kEarlierScale, count.earlier_scale) && read(kEarlierTets, count.earlier_tets);
   if (!has_missed) count.earlier_tets = 0;
-  run.count = count;
+  return count;
+}
+
+/// Returns the scale that the run found whose work this one goes on with, if there is such a run.
+/// ERRORS: mw::Error(kUsage) where the work folder has other work, before the pilot makes a mesh;
+/// of several processes each has a folder of its own, at which it looks later.
+std::optional<report::CountFacts> found_count(const MeshJob& job, report::FinishedRun run) {
+  const StoreOptions& store = job.run.store;
+  run.count = store.resume ? saved_count(job) : std::nullopt;
+  const MeshSettings& settings = job.settings;
   const std::string identity =
-      identity_of(run) + identity_text(run.volume, with_scale(job.settings, count.scale));
-  if (!is_identity_of(job.run.store.workdir, identity)) return std::nullopt;
-  return run.count;
+      identity_of(run) +
+      identity_text(run.volume, run.count ? with_scale(settings, run.count->scale) : settings);
+  if (run.count && is_identity_of(store.workdir, identity)) return run.count;
+  if (is_alone(job.run.processes) && !store.workdir.empty()) {
+    const Workdir is_free_or_refused(store.workdir, store.resume, identity);
+  }
+  return std::nullopt;
 }
 
 /// Returns how many of the labels that are written have no size, which the scale does not reach.
@@ -70,9 +84,9 @@ std::string identity_of(const report::FinishedRun& run) {
 
 report::CountFacts count_facts(const PilotTask& task, const report::FinishedRun& run) {
   const ResourceMeter meter;
-  const std::optional<report::CountFacts> saved = saved_count(task.job, run);
-  report::CountFacts out = saved ? *saved : scale_for_count(task);
-  if (!saved) out.seconds = meter.read().wall_seconds;
+  const std::optional<report::CountFacts> found = found_count(task.job, run);
+  report::CountFacts out = found ? *found : scale_for_count(task);
+  if (!found) out.seconds = meter.read().wall_seconds;
   out.labels_without_size = labels_without_size(task.job, run.labels);
   return out;
 }

@@ -12,7 +12,8 @@ namespace mw::engine {
 /// Returns what a run shares with the one that it goes on from, beside what the engine adds.
 [[nodiscard]] std::string identity_of(const report::FinishedRun& run);
 
-/// Finds the scale by a pilot, unless an earlier run has done so.
+/// Finds the scale by a pilot, unless an earlier run has done so.  ERRORS: mw::Error(kUsage) for a
+/// work folder that the run could not use, before the pilot makes a mesh.
 [[nodiscard]] report::CountFacts count_facts(const PilotTask& task, const report::FinishedRun& run);
 
 }  // namespace mw::engine

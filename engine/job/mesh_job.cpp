@@ -116,17 +116,13 @@ class MeshRun {
                          .memory_beside = job_.run.store.memory_beside};
     run_.count = count_facts(task, run_);
     take_scale();
-    if (is_alone()) return;
+    if (is_alone(job_.run.processes)) return;
     // Each of several processes finds for itself what one alone would see at its meshes.
     while (may_be_remade(*run_.count, labels)) {
       const std::uint64_t tets = count_whole(task, run_.count->scale);
       if (!take_next_scale(*run_.count, tets, labels, asked_.settings)) return;
       take_scale();
     }
-  }
-
-  [[nodiscard]] bool is_alone() const {
-    return job_.run.processes == nullptr || job_.run.processes->count() == 1;
   }
 
   /// Settles sizes by the count's scale.
@@ -155,7 +151,8 @@ class MeshRun {
     std::optional<FinishFacts> facts;
     bool is_missed = false;
     const auto finish = [&] {
-      is_missed = is_alone() && run_.count && may_be_remade(*run_.count, labels) &&
+      is_missed = is_alone(job_.run.processes) && run_.count &&
+                  may_be_remade(*run_.count, labels) &&
                   take_next_scale(*run_.count, mesh.tet_count(), labels, asked_.settings);
       if (!is_missed) facts = apply_passes(mesh, task, sinks);
     };

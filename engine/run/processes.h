@@ -129,6 +129,11 @@ class Processes {
   return processes == nullptr || processes->speaks();
 }
 
+/// True where a run is not divided.
+[[nodiscard]] inline bool is_alone(const Processes* processes) {
+  return processes == nullptr || processes->count() == 1;
+}
+
 /// Returns the one process of a run that is not divided.
 [[nodiscard]] Processes& one_process();
 

@@ -166,7 +166,7 @@ std::uint64_t standing_bytes(const io::DenseVolume& volume, const MeshSettings& 
 
 std::string way_on(const RunHooks& hooks) {
   const bool is_kept = !hooks.keep.folder.empty();
-  const bool are_many = hooks.processes != nullptr && hooks.processes->count() > 1;
+  const bool are_many = !is_alone(hooks.processes);
   const auto& folder = is_kept ? hooks.keep.folder : hooks.store.workdir;
   return "the work so far is in " + folder.string() +
          (is_kept && are_many ? ", run mwmesh without mpirun and with --resume to go on"
@@ -181,7 +181,7 @@ Asked asked_of(const RunHooks& hooks, const MeshSettings& settings) {
           .colour = settings.order == Order::kColour,
           .periodic = settings.periodic != 0,
           .count = settings.sizes.count > 0,
-          .many = hooks.processes != nullptr && hooks.processes->count() > 1};
+          .many = !is_alone(hooks.processes)};
 }
 
 std::uint64_t prepared_bytes(const io::DenseVolume& volume, const MeshSettings& settings,

@@ -5,6 +5,7 @@
 
 #include "kernels/core/error.h"
 #include "tests/engine/memory_run.h"
+#include "tests/expect_error.h"
 #include "tests/temp_folder.h"
 
 namespace mw::engine {
@@ -73,6 +74,47 @@ TEST_F(MeshJobTest, RefusesNewLabelsInEachLaterReading) {
 }
 
 /// They are in the table, so only the check of the mesh finds them.
+/// Counts the voxels that are read.
+class CountedVolume : public MemoryVolume {
+ public:
+  using MemoryVolume::MemoryVolume;
+  void read(const Box3& box, std::span<RawLabel> out) const override {
+    voxels += box.voxels();
+    MemoryVolume::read(box, out);
+  }
+
+  mutable std::atomic<std::int64_t> voxels = 0;
+};
+
+/// Refuses the mesh when all work is done.
+class RefusingSink : public MemorySink {
+ public:
+  void begin(const io::MeshHeader& /*header*/) override { io::fail_usage("refused"); }
+};
+
+/// A pilot would read the volume again.
+TEST_F(MeshJobTest, RefusesWorkOfAnotherRunBeforeThePilotOfACount) {
+  const ::mw::test::TempFolder folder;
+  const CountedVolume volume(volume_, {});
+  MeshJob job;
+  job.folder = folder.path();
+  job.run.threads = 1;
+  job.run.store = {.memory = std::uint64_t{1} << 30U, .workdir = folder.path() / "work"};
+  RefusingSink refuses;
+  EXPECT_THROW(static_cast<void>(mesh(volume, job, std::array<io::MeshSink*, 1>{&refuses})), Error);
+  ASSERT_TRUE(std::filesystem::exists(job.run.store.workdir / "journal"));
+  job.settings.sizes.count = 3000;
+  for (const bool resume : {false, true}) {
+    volume.voxels = 0;
+    job.run.store.resume = resume;
+    MemorySink sink;
+    expect_error(ErrorKind::kUsage, {"work", resume ? "count was 0 and is 3000" : "--resume"}, [&] {
+      static_cast<void>(mesh(volume, job, std::array<io::MeshSink*, 1>{&sink}));
+    });
+    EXPECT_LE(volume.voxels, volume_.shape.product());
+  }
+}
+
 TEST_F(MeshJobTest, TellsPermutedLabelsFromAWrongMesh) {
   auto other = volume_;
   for (Label& label : other.labels) label = 2 - label;
