@@ -3,7 +3,11 @@
 // What a caller's options ask for, in the terms of the engine.
 #pragma once
 
-#include "engine/api/handles.h"
+#include <map>
+#include <mutex>
+#include <string>
+
+#include "engine/mwmesh_c.h"
 #include "engine/request/mesh_request.h"
 #include "engine/request/option_set.h"
 
@@ -12,9 +16,9 @@ namespace mw::api {
 /// The options of a call, as the program has those of a command.
 class Asked {
  public:
-  /// given has texts by flag.  ERRORS (both): mw::Error(kUsage) naming an option.
-  explicit Asked(const std::map<std::string, std::string>& given);
-  /// options may be null: none are given.
+  /// Nothing is given.
+  Asked();
+  /// options may be null: none are given.  ERRORS: mw::Error(kUsage) naming an option.
   explicit Asked(const mw_options* options);
   Asked(const Asked&) = delete;
   Asked& operator=(const Asked&) = delete;
@@ -38,3 +42,10 @@ class Asked {
 [[nodiscard]] std::string option_of(const std::string& message);
 
 }  // namespace mw::api
+
+struct mw_options {
+  std::map<std::string, std::string> given;         ///< by the name of the command line's flag
+  mutable std::mutex mutex;                         ///< of the two below
+  mutable mw::api::Asked table;                     ///< checks values, and finds effective ones
+  mutable std::map<std::string, std::string> told;  ///< what mw_options_get() returned
+};

@@ -3,7 +3,6 @@
 // What is behind the handles of mwmesh_c.h.
 #pragma once
 
-#include <map>
 #include <memory>
 #include <mutex>
 #include <string>
@@ -17,12 +16,6 @@ struct mw_error {
   mw_status kind = MW_OK;
   std::string text;
   std::string option;
-};
-
-struct mw_options {
-  std::map<std::string, std::string> given;         ///< by the name of the command line's flag
-  mutable std::mutex mutex;                         ///< of told
-  mutable std::map<std::string, std::string> told;  ///< what mw_options_get() returned
 };
 
 struct mw_volume {

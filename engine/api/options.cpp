@@ -20,7 +20,7 @@ using request::OptionSet;
 const std::vector<std::string>& all_flags() {
   static const std::vector<std::string> flags = [] {
     std::vector<std::string> out;
-    Asked asked((std::map<std::string, std::string>()));
+    Asked asked;
     for (const OptionSet::Entry& entry : asked.options().entries()) {
       out.push_back(entry.option.name);
     }
@@ -83,13 +83,14 @@ std::size_t end_of_flag(const std::string& message, std::size_t at) {
 
 }  // namespace
 
-Asked::Asked(const std::map<std::string, std::string>& given) : options_(request::Face::kLibrary) {
+Asked::Asked() : options_(request::Face::kLibrary) {
   request::add_mesh_options(options_, request_);
-  options_.resolve(given);
+  options_.resolve({});
 }
 
-Asked::Asked(const mw_options* options)
-    : Asked(options == nullptr ? std::map<std::string, std::string>() : options->given) {}
+Asked::Asked(const mw_options* options) : Asked() {
+  if (options != nullptr) options_.resolve(options->given);
+}
 
 std::string flag_of(std::string name) {
   std::replace(name.begin(), name.end(), '_', '-');
@@ -135,11 +136,10 @@ mw_status mw_options_set(mw_options* options, const char* name, const char* text
     const std::string flag = mw::api::known_flag(name);
     if (text == nullptr) {
       options->given.erase(flag);
-      options->told.clear();
-      return;
+    } else {
+      options->table.options().resolve({{flag, text}});
+      options->given[flag] = text;
     }
-    const mw::api::Asked allowed({{flag, text}});
-    options->given[flag] = text;
     options->told.clear();
   });
 }
@@ -148,9 +148,10 @@ const char* mw_options_get(const mw_options* options, const char* name, mw_error
   return mw::api::made(error, [&] {
     mw::api::require(options, "options");
     const std::string flag = mw::api::known_flag(name);
-    mw::api::Asked asked(options);
     const std::lock_guard lock(options->mutex);
-    return (options->told[flag] = asked.options().text(flag)).c_str();
+    mw::request::OptionSet& table = options->table.options();
+    table.resolve(options->given);
+    return (options->told[flag] = table.text(flag)).c_str();
   });
 }
 
@@ -158,7 +159,7 @@ const char* mw_options_table() {
   return mw::api::made(nullptr, [] {
     static const std::string table = [] {
       mw::io::Json rows = mw::io::Json::array();
-      mw::api::Asked asked((std::map<std::string, std::string>()));
+      mw::api::Asked asked;
       for (const auto& entry : asked.options().entries()) rows.push_back(mw::api::row_of(entry));
       return rows.dump_indented();
     }();
