@@ -40,7 +40,7 @@ class CMakeBuild(build_py):
         package = pathlib.Path(self.build_lib) / "mwmesh"
         made = BUILD / "python" / "mwmesh"
         (package / "bin").mkdir(exist_ok=True)
-        for file in (made / "_version.py", ROOT / "LICENSE", ROOT / "engine/install/THIRD_PARTY.md"):
+        for file in (made / "_version.py", made / "__init__.pyi", ROOT / "LICENSE", ROOT / "engine/install/THIRD_PARTY.md"):
             shutil.copy2(file, package)
         for file, place in ((made / "libmwmesh.so", package / "libmwmesh.so"),
                             (BUILD / "mwmesh", package / "bin" / "mwmesh")):

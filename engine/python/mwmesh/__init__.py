@@ -21,7 +21,7 @@ from ._errors import (CancelledError, CheckFailedError, Error, InputError, Inter
 from ._homogenise import homogenise
 from ._library import encoded
 from ._mesh import Materials, Mesh, Picture, Surface, Verdict
-from ._options import TABLE, arguments_of, options_of
+from ._options import TABLE, arguments_of, documented, options_of
 from ._session import Session
 from ._values import check_names, count, numbers, path_bytes, text, unexpected, whole
 from ._volume import PLACE, as_volume
@@ -98,6 +98,7 @@ def _run(call, source, uses, arguments, progress):
             bar.close()
 
 
+@documented("open", "mesh")
 def mesh(volume, *, progress=None, **arguments):
     """Meshes a labelled volume.
 
@@ -120,55 +121,34 @@ def mesh(volume, *, progress=None, **arguments):
         files: the frame that they have); "mm", "um" and so on; {label: name}, a list of the names
         of labels 0, 1, 2 and so on, or a file of ``mwmesh mesh --names``, which may have colours.
         Labels are given by number or by name, wherever they are, except for object.
-    shape, dtype, dataset, scale, crop, overlap, values, object, trust_paths, cache, use_form
-        for files: voxels along x, y and z and their type ("u16", "u16be") where these are all that the
-        file has; the array to read, the level of a pyramid, the box ((x0, y0, z0), (x1, y1, z1))
-        to keep, as the data set counts voxels (engine/MANUAL.md), which label a voxel of several masks gets ("first", "last", or "all": one for each
-        set of masks), what the numbers are ("labels", or "probabilities" of classes or signed
-        "distances" of labels, whose crossings then place the interfaces), labels that alone matter
-        and that the mesh is to have (a number or a list of numbers; all others become 0; coarser scales tell
-        where to read), whether files that headers name may be outside of their folder, and a folder
-        that keeps what servers send for later runs ("DIR", or "DIR,SIZE" with the most bytes);
-        without it chunks are fetched two or three times, once in each pass over the volume; and the
-        place of a NIfTI file that counts, "sform" or "qform".
+    crop, object, cache
+        for files: the box ((x0, y0, z0), (x1, y1, z1)), as the data set counts voxels
+        (engine/MANUAL.md); a number or a list of numbers; "DIR", or "DIR,SIZE" with the most bytes.
+        Without a cache chunks are fetched two or three times, once in each pass over the volume.
     merge, drop_specks, interpolate_slices, weld
-        {label: label that it becomes}; then components of fewer voxels than drop_specks take the
-        label around them.  Voxels are joined by faces, with (voxels, 26) by corners too.  Then
-        interpolate_slices makes labels between thick slices, so that surfaces have no steps.  Then
-        voxels of the label (or list of labels) weld are filled where others hang together by an
-        edge or a corner alone.
+        applied in this order: {label: label that it becomes}; a number of voxels, or (voxels, 26)
+        where they are joined by corners, too; True; a label or a list of labels.
     labels, background
         the labels that the mesh is to have, or the one that is left out; all of them are meshed.
         Label 0 is left out where the names say that it is nothing (they call it "background", or
         all other labels have a name), unless background is "none".
-    parts, split, cohesive, open_hinges
+    parts, split, cohesive
         "all", "largest" or the least number of tets of a part, which is what faces join; pairs of
-        labels, [(1, 2), ("Liver", "Lesion")], whose interfaces open because their points are
-        doubled, or "*" for all; pairs that are split, too, and get wedges of no thickness, from the
-        first label to the second (:attr:`Mesh.wedges`); whether points at which parts hang are doubled, too.  The report
-        counts parts and hinges ("parts").
-    threads, memory
-        number of threads (0: all cores); bytes, or a text like "8GiB", in addition to the arrays of
-        volume and mesh (half of what is free by default).
-    workdir, save_every, resume
-        a folder for spilled blocks and checkpoints; after how many seconds work that is done is
-        durable there; whether to go on from the checkpoint in it, or
-        from what a run that was interrupted left in keep.
-    keep, keep_bytes, from_kept, changed
+        labels, [(1, 2), ("Liver", "Lesion")], or "*".  Wedges go from the first label to the second
+        (:attr:`Mesh.wedges`).  The report counts parts and hinges ("parts").
+    memory
+        bytes, or a text like "8GiB", in addition to the arrays of volume and mesh (half of what is
+        free by default).
+    keep, from_kept, changed
         a folder, used instead of workdir, that holds what a later run of the volume, edited, need
-        not do again; the most bytes that it takes when a run ends, as memory has them; whether
-        an earlier run has left something there; and a list of boxes
-        ((x0, y0, z0), (x1, y1, z1)) that have all changes since the last call that returned, also
-        those of calls that raised.  :class:`Session` does it all.
+        not do again; whether an earlier run has left something there; and a list of boxes that have
+        all changes since the last call that returned, also those of calls that raised.
+        :class:`Session` does it all.
     sample
         {name: image file}: the image's mean in each tet becomes Mesh.values[name]; the file may end
         in ":min", ":max" or ":mode".  It lies where it says itself, a .npy on the volume's voxels.
-    certify
-        "auto", "on" or "off": the mesh is checked before it is returned, see CheckFailedError.
     report
         False: quality and shape are not measured, and Mesh.report is None.
-    force
-        True: meshes a volume that looks like the grey values of an image, which else is an error.
     progress
         None: a bar of tqdm (or else a line of text) on a terminal; True, False; or a function of
         done and total windows, and of the seconds left (or None).

@@ -17,7 +17,7 @@ import numpy as np
 
 from . import _handles
 from ._errors import MissingPackageError, UsageError
-from ._options import arguments_of, options_of
+from ._options import arguments_of, documented, options_of
 from ._values import label as label_bits
 from ._values import (check_names, named, numbers, one_or_more, path_bytes, switch, unexpected,
                       whole, whole_numbers)
@@ -439,8 +439,8 @@ class Mesh:
         return {(int(labels[p // len(labels)]), int(labels[p % len(labels)])): float(s)
                 for p, s in zip(known, sums)}
 
-    def save(self, path, element="tet4", values=True, materials=None, deck=False,
-             pairs=None, **options):
+    @documented("write")
+    def save(self, path, *, values=True, **options):
         """Writes a file of any format of ``mwmesh convert``, which appears under its name only once
         it is whole.  element: "tet4", "tet10" or "tet10-curved", which gives a mesh that was
         read from curved tets its nodes again.  values: False leaves out the values of tets, for which some
@@ -449,12 +449,13 @@ class Mesh:
         a job for CalculiX (.inp) or FEBio (.feb): "static" (or True) pulls the mesh, "periodic" and
         "conduction" are for :func:`mwmesh.homogenise`.  pairs: a file (.csv, or .inp with equations) for
         the nodes on the faces of a mesh that was made with ``periodic``, and those that they are
-        images of.  ascii: a .msh as text."""
+        images of.  ascii: a .msh as text.
+        """
         check_names(options, arguments_of("write"))
-        options.update(element=element, write_values=switch(values, "values"), materials=materials,
-                       deck=deck, pairs=pairs)
+        options.setdefault("write_values", switch(values, "values"))
         self._core.write(path_bytes(path, "path"), options_of(None, options))
 
+    @documented("verify")
     def verify(self, volume, **arguments):
         """Checks the mesh against its volume.  The arguments are those of :func:`mwmesh.mesh` that
         say where the volume is and what its labels become, threads and memory.

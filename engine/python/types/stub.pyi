@@ -1,6 +1,7 @@
 # SPDX-FileCopyrightText: The mwmesh authors
 # SPDX-License-Identifier: Apache-2.0
-# The types of the package's functions and classes.
+# The types of the package's functions and classes, from which stub.py makes mwmesh/__init__.pyi: it
+# puts arguments in the place of a line `# options: USE`.
 import os
 from collections.abc import Callable, Iterable, Mapping, Sequence, Set
 from typing import Any, Literal, NamedTuple, Protocol, TypeAlias, overload
@@ -11,8 +12,8 @@ import numpy.typing as npt
 __version__: str
 __all__ = [
     "CancelledError", "CheckFailedError", "Error", "InputError", "InternalError", "Materials",
-    "Mesh", "MissingPackageError", "Picture", "ResourceError", "Surface", "UsageError", "Verdict", "as_volume", "mesh", "mesh_to_file",
-    "Session", "read", "settings", "synth",
+    "Mesh", "MissingPackageError", "Picture", "ResourceError", "Surface", "UsageError", "Verdict", "as_volume", "homogenise", "mesh",
+    "mesh_to_file", "Session", "read", "settings", "synth",
 ]
 
 _Path: TypeAlias = str | os.PathLike[str]
@@ -20,12 +21,7 @@ _Three: TypeAlias = Sequence[float] | npt.NDArray[Any]
 _Box: TypeAlias = tuple[Sequence[int], Sequence[int]]
 _Specks: TypeAlias = int | tuple[int, int]
 _Progress: TypeAlias = bool | Callable[[int, int, float | None], object]
-_Certify: TypeAlias = Literal["auto", "on", "off"]
 _Axes: TypeAlias = Literal["zyx", "xyz"]
-_Overlap: TypeAlias = Literal["first", "last", "all"]
-_Form: TypeAlias = Literal["sform", "qform"]
-_Values: TypeAlias = Literal["labels", "probabilities", "distances"]
-_Element: TypeAlias = Literal["tet4", "tet10", "tet10-curved"]
 #: A label by its number or by its name.
 _Label: TypeAlias = int | str
 _Pairs: TypeAlias = Literal["*"] | Sequence[tuple[_Label, _Label]] | Set[tuple[_Label, _Label]]
@@ -131,25 +127,15 @@ class Mesh:
     def save(
         self,
         path: _Path,
-        element: _Element = "tet4",
+        *,
         values: bool = True,
-        materials: str | None = None,
-        deck: bool | Literal["none", "static", "periodic", "conduction"] = False,
-        pairs: _Path | None = None,
-        ascii: bool = False,
+        # options: write
     ) -> None: ...
     def verify(
         self,
         volume: _Source,
         *,
-        threads: int = 0,
-        memory: int | str | None = None,
-        labels: _Label | Iterable[_Label] | None = None,
-        background: _Label | None = None,
-        merge: Mapping[_Label, _Label] | None = None,
-        drop_specks: _Specks | None = None,
-        interpolate_slices: bool = False,
-        weld: _Label | Iterable[_Label] | None = None,
+        # options: verify
         **place: Any,
     ) -> Verdict: ...
     def plot(self, labels: _Label | Iterable[_Label] | None = None, **arguments: Any) -> Any: ...
@@ -168,17 +154,7 @@ def as_volume(
     unit: str | None = None,
     axes: _Axes | None = None,
     names: _Names | None = None,
-    shape: Sequence[int] | None = None,
-    dtype: str | None = None,
-    dataset: str | None = None,
-    scale: int | None = None,
-    crop: _Box | None = None,
-    overlap: _Overlap | None = None,
-    values: _Values | None = None,
-    object: int | Iterable[int] | None = None,
-    trust_paths: bool | None = None,
-    cache: _Path | None = None,
-    use_form: _Form | None = None,
+    # options: open
 ) -> _Volume: ...
 def mesh(
     volume: _Source,
@@ -191,40 +167,8 @@ def mesh(
     unit: str | None = ...,
     axes: _Axes | None = ...,
     names: _Names | None = ...,
-    shape: Sequence[int] | None = ...,
-    dtype: str | None = ...,
-    dataset: str | None = ...,
-    scale: int | None = ...,
-    crop: _Box | None = ...,
-    overlap: _Overlap | None = ...,
-    values: _Values | None = ...,
-    object: int | Iterable[int] | None = ...,
-    trust_paths: bool | None = ...,
-    cache: _Path | None = ...,
-    use_form: _Form | None = ...,
-    threads: int = ...,
-    memory: int | str | None = ...,
-    labels: _Label | Iterable[_Label] | None = ...,
-    background: _Label | None = ...,
-    merge: Mapping[_Label, _Label] | None = ...,
-    drop_specks: _Specks | None = ...,
-    interpolate_slices: bool = ...,
-    weld: _Label | Iterable[_Label] | None = ...,
-    workdir: _Path | None = ...,
-    save_every: float = ...,
-    resume: bool = ...,
-    keep: _Path | None = ...,
-    keep_bytes: int | str | None = ...,
-    from_kept: bool = ...,
-    changed: Sequence[_Box] = ...,
-    sample: Mapping[str, str | os.PathLike[str]] | None = ...,
-    certify: _Certify = ...,
-    report: bool = ...,
-    parts: Literal["all", "largest"] | int = ...,
-    split: _Pairs = ...,
-    cohesive: _Pairs = ...,
-    open_hinges: bool = ...,
-    force: bool = ...,
+    # options: open
+    # options: mesh
     **settings: _Setting,
 ) -> Mesh: ...
 class Picture(bytes): ...
@@ -246,11 +190,7 @@ def mesh_to_file(
     volume: _Source,
     path: _Path,
     *,
-    element: _Element = "tet4",
-    materials: str | None = None,
-    deck: bool | Literal["none", "static", "periodic", "conduction"] = False,
-    pairs: _Path | None = None,
-    ascii: bool = False,
+    # options: write
     progress: _Progress | None = None,
     **arguments: Any,
 ) -> dict[str, Any] | None: ...
