@@ -26,3 +26,10 @@ new_system() { # RELEASE FOLDER [PACKAGE,...]
   debootstrap --variant=minbase ${3:+--include="$3"} "$1" "$2" "$mirror" >"$folder/log" 2>&1 ||
     fail "debootstrap: $(tail -n 5 "$folder/log")"
 }
+
+# Runs a command in a system, as root in its home.  What it says is then in $folder/log.  Programs find
+# libraries beside them by /proc.
+run_in() { # SYSTEM COMMAND
+  DEBIAN_FRONTEND=noninteractive unshare --mount sh -c \
+    "mount -t proc proc '$1/proc' && exec chroot '$1' sh -c \"\$1\"" sh "cd /root && $2" >"$folder/log" 2>&1
+}

@@ -13,10 +13,7 @@ release="${1:-bookworm}"
 system="$folder/system"
 
 try_in() { # COMMAND
-  DEBIAN_FRONTEND=noninteractive unshare --mount sh -c \
-    "mount -t proc proc '$system/proc' && exec chroot '$system' sh -c \"\$1\"" sh "cd /root && $1" \
-    >"$folder/log" 2>&1 ||
-    fail "$(tail -n 40 "$folder/log")"
+  run_in "$system" "$1" || fail "$(tail -n 40 "$folder/log")"
 }
 
 if ((EUID != 0)) || ! command -v debootstrap >/dev/null; then

@@ -39,7 +39,7 @@ END
 
 # Prints the digest that a way to install has.
 try_in() { # SYSTEM COMMAND WHAT
-  chroot "$1" sh -c "cd /root && $2" >"$folder/log" 2>&1 || fail "$3: $(tail -n 5 "$folder/log")"
+  run_in "$1" "$2" || fail "$3: $(tail -n 5 "$folder/log")"
   tail -n 1 "$folder/log"
 }
 
