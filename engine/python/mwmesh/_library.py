@@ -18,7 +18,7 @@ import time
 import warnings
 from ctypes import POINTER, byref, c_char_p, c_double, c_int, c_int64, c_size_t, c_uint64, c_void_p
 
-from ._errors import CancelledError, UsageError, error_of
+from ._errors import Error, UsageError, error_of
 from ._version import LIBRARY, VERSION
 
 _FOLDER = os.path.dirname(os.path.abspath(__file__))
@@ -133,16 +133,26 @@ _running = {}  # the stop flag, or None, of each call that is in the library
 _ending = None  # the thread that ends the interpreter, which may still call what it likes
 
 
+def _is_late():
+    """Whether the interpreter ends, and by another thread."""
+    return _ending not in (None, threading.get_ident())
+
+
 @contextlib.contextmanager
 def _counted(stop=None):
     """Counts a call.  It is counted before the end is looked at, and the end comes before the count
-    is looked at, so none is missed."""
+    is looked at, so none is missed.  A thread that is late ends silently: Python aborts where it
+    prints an error while the interpreter ends."""
     call = object()
     _running[call] = stop
     try:
-        if _ending not in (None, threading.get_ident()):
-            raise CancelledError("the interpreter ends, and this call with it")
+        if _is_late():
+            raise SystemExit
         yield
+    except Error:
+        if _is_late():
+            raise SystemExit from None
+        raise
     finally:
         _running.pop(call, None)
 

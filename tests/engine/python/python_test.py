@@ -1080,6 +1080,7 @@ class Runs(InFolder):
                           "sys.exit(os.waitstatus_to_exitcode(os.waitpid(child, 0)[1]))\n")
                 done = subprocess.run([sys.executable, "-c", script], capture_output=True, timeout=600)
                 self.assertEqual(done.returncode, 0, done.stderr)
+                self.assertNotIn(b"Traceback", done.stderr)
 
     def test_a_child_that_a_function_for_progress_forks_can_exit(self):
         script = ("import mwmesh, os, sys\n"
