@@ -72,7 +72,7 @@ void coarsening(benchmark::State& state) {
   const LabelBox labels = grains(kCoarsenHalo);
   for (auto _ : state) {
     LabelBox coarse = labels;
-    benchmark::DoNotOptimize(coarsen(labels, coarse, kBlock, kShape, 1.5));
+    benchmark::DoNotOptimize(coarsen(labels, coarse, kBlock, {.within = {{0, 0, 0}, kShape}}, 1.5));
   }
   state.SetItemsProcessed(state.iterations() * kBlock.voxels());
 }

@@ -29,10 +29,8 @@ Box3 wider(const Box3& bricks, const Box3& all) {
 }  // namespace
 
 bool is_coarsened(const MeshSettings& settings) {
-  // Coarsening keeps the topology of labels, not that of interfaces.  In a cell that repeats itself
-  // it would keep neither the topology through its faces nor flat interfaces flat there.
-  return settings.start == StartMesh::kCoarse && settings.topology == KeptTopology::kLabels &&
-         settings.periodic == 0;
+  // Coarsening keeps the topology of labels, not that of interfaces.
+  return settings.start == StartMesh::kCoarse && settings.topology == KeptTopology::kLabels;
 }
 
 bool wants_source(const MeshSettings& settings, bool has_scores) {

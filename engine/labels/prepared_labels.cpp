@@ -156,7 +156,7 @@ PreparedLabels::PreparedLabels(const io::DenseVolume& volume, const MeshSettings
   }
   if (is_coarsened(settings)) {
     coarse_.emplace(original_.shape(), volume.table().size(), folder, bricks.shapes);
-    coarsen_tiles(settings.max_distance.value_or(kMaxCoarseDistance), threads);
+    coarsen_cell(folder, settings.max_distance.value_or(kMaxCoarseDistance), threads);
   }
   if (settings.start != StartMesh::kDense) find_levels(bricks.levels, threads);
 }
@@ -314,32 +314,68 @@ void PreparedLabels::find_source_in(const Box3& bricks) {
   for_each_index(bricks, [&](Index3 b) { source_->write(b, surface, original_.box_of(b)); });
 }
 
-void PreparedLabels::coarsen_tiles(double max_distance, int threads) {
-  const Box3& bricks = coarse_->held();
-  tbb_for_each_index(threads, tiles_of(bricks.shape()), [&](Index3 t) {
-    const Index3 lo = bricks.lo + scaled(t, kBricksPerTile);
-    coarsen_tile(intersection({lo, lo + scaled({1, 1, 1}, kBricksPerTile)}, bricks), max_distance);
+/// Copies around a cell get the coarsened labels of the cell.
+void PreparedLabels::coarsen_cell(const std::filesystem::path& folder, double max_distance,
+                                  int threads) {
+  if (margin_ == Index3{}) return coarsen_tiles(*coarse_, max_distance, threads);
+  io::BrickVolume of_cell(cell(), volume_.table().size(), folder);
+  coarsen_tiles(of_cell, max_distance, threads);
+  tbb_for_each_index(threads, coarse_->bricks(), [&](Index3 brick) {
+    const Box3 box = coarse_->box_of(brick);
+    const LabelBox labels =
+        repeated_labels({box.lo - margin_, box.hi - margin_}, cell(), repeats(),
+                        [&](const Box3& part) { return read_labels(of_cell, part); });
+    coarse_->write(brick, labels.labels);
   });
 }
 
-void PreparedLabels::coarsen_tile(const Box3& bricks, double max_distance) {
+/// Returns where cubes may be coarsened: in the volume, or, of a cell, where a visit of a cube does
+/// not look through a face at which the cell repeats itself.
+///
+/// No label of a copy decides on such a cube then, nor on any cube that is looked at before it.  So
+/// coarsened labels come from the cell's by changes that are allowed in the cell alone, as one
+/// whose faces end at the exterior, and in the same way on the torus: both keep the topology of
+/// labels and the bound on distances.  Cubes at those faces stay as they are, and so do the lines
+/// of labels in them, which the first march keeps; flat interfaces stay, so that they have no steps
+/// beside these.
+CoarsenRegion PreparedLabels::coarsened_part() const {
+  const auto off = [](std::int64_t margin) { return margin > 0 ? kCoarsenReach : 0; };
+  const Index3 kept = margin_ + Index3{off(margin_.x), off(margin_.y), off(margin_.z)};
+  return {.within = {kept, original_.shape() - kept}, .keeps_flat = margin_ != Index3{}};
+}
+
+void PreparedLabels::coarsen_tiles(io::BrickVolume& shapes, double max_distance,
+                                   int threads) const {
+  const Box3& bricks = shapes.held();
+  tbb_for_each_index(threads, tiles_of(bricks.shape()), [&](Index3 t) {
+    const Index3 lo = bricks.lo + scaled(t, kBricksPerTile);
+    coarsen_tile(shapes, intersection({lo, lo + scaled({1, 1, 1}, kBricksPerTile)}, bricks),
+                 max_distance);
+  });
+}
+
+/// The bricks are those of the volume without its margin.
+void PreparedLabels::coarsen_tile(io::BrickVolume& shapes, const Box3& bricks,
+                                  double max_distance) const {
+  const Index3 first{margin_.x / kBrick, margin_.y / kBrick, margin_.z / kBrick};
   std::vector<Label> one;
-  if (all_uniform(original_, grown(bricks, 1))) {
+  if (all_uniform(original_, grown({bricks.lo + first, bricks.hi + first}, 1))) {
     for_each_index(bricks, [&](Index3 b) {
-      one.assign(static_cast<std::size_t>(original_.box_of(b).voxels()),
-                 original_.uniform_label(b).value());
-      coarse_->write(b, one);
+      one.assign(static_cast<std::size_t>(shapes.box_of(b).voxels()),
+                 original_.uniform_label(b + first).value());
+      shapes.write(b, one);
     });
     return;
   }
+  const auto place = [&](const Box3& box) { return Box3{box.lo + margin_, box.hi + margin_}; };
   const Box3 tile =
-      clipped({scaled(bricks.lo, kBrick), scaled(bricks.hi, kBrick)}, original_.shape());
+      place(clipped({scaled(bricks.lo, kBrick), scaled(bricks.hi, kBrick)}, shapes.shape()));
   const LabelBox before = read_labels(original_, grown(tile, kCoarsenHalo));
   LabelBox after = before;
-  coarsen(before, after, tile, original_.shape(), max_distance, start_sizes());
+  coarsen(before, after, tile, coarsened_part(), max_distance, start_sizes());
   for_each_index(bricks, [&](Index3 brick) {
-    cut_brick(after, original_.box_of(brick), one);
-    coarse_->write(brick, one);
+    cut_brick(after, place(shapes.box_of(brick)), one);
+    shapes.write(brick, one);
   });
 }
 

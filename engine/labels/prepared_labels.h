@@ -16,6 +16,7 @@
 #include "kernels/inner/inner_demand.h"
 #include "kernels/size/size_field.h"
 #include "kernels/start/cells/cell_levels.h"
+#include "kernels/start/coarsen/coarsen.h"
 
 namespace mw::engine {
 
@@ -112,8 +113,10 @@ class PreparedLabels {
   void read_tile(const io::DenseVolume& volume, const Box3& tile);
   void find_source(int threads);
   void find_source_in(const Box3& bricks);
-  void coarsen_tiles(double max_distance, int threads);
-  void coarsen_tile(const Box3& tile, double max_distance);
+  void coarsen_cell(const std::filesystem::path& folder, double max_distance, int threads);
+  void coarsen_tiles(io::BrickVolume& shapes, double max_distance, int threads) const;
+  void coarsen_tile(io::BrickVolume& shapes, const Box3& bricks, double max_distance) const;
+  [[nodiscard]] CoarsenRegion coarsened_part() const;
   /// Returns the shape of the volume without its margin.
   [[nodiscard]] Index3 cell() const { return original_.shape() - margin_ - margin_; }
   [[nodiscard]] std::array<bool, 3> repeats() const {

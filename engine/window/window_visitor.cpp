@@ -4,6 +4,8 @@
 #include "engine/window/window_visitor.h"
 
 #include <algorithm>
+#include <array>
+#include <limits>
 
 #include "engine/labels/periodic_labels.h"
 #include "engine/system/stopwatch.h"
@@ -59,11 +61,19 @@ std::optional<SurfaceWeights> surface_weights(const MeshSettings& settings,
   return weights;
 }
 
+/// How far from the planes where a volume that repeats itself ends the last march works once more,
+/// in voxels (bench/parameters.md, "Constants").
+constexpr std::int64_t kNearPlane = 4;
+
 /// Returns the largest level of cells that blocks of the grid are made of.
 int largest_level(const WindowGrid& grid, const MeshSettings& settings) {
   MeshSettings of_grid = settings;
   of_grid.window = std::min(settings.window, static_cast<int>(2 * grid.block_edge()));
   return periodic_level(grid.volume(), settings, largest_cell_level(of_grid));
+}
+
+std::int32_t units(std::int64_t voxels) {
+  return static_cast<std::int32_t>(voxels * kUnitsPerVoxel);
 }
 
 Box3 moved(const Box3& box, Index3 by) {
@@ -134,11 +144,44 @@ VisitStats& VisitStats::operator+=(const VisitStats& other) {
   return *this;
 }
 
-/// Returns whether a grid begins within a window, along an axis where volumes repeat themselves.
-bool WindowVisitor::holds_begin(Index3 window, const WindowGrid& grid) const {
-  const Index3 first = grid.first(), upper = grid_.in_volume(window + Index3{1, 1, 1});
-  return (first.x > 0 && upper.x == first.x) || (first.y > 0 && upper.y == first.y) ||
-         (first.z > 0 && upper.z == first.z);
+/// Returns whether a march that heals what the one before left has work in a window: whether a grid
+/// or the volume begins within it, along an axis where volumes repeat themselves.
+bool WindowVisitor::has_rest(Index3 window) const {
+  const Index3 upper = grid_.in_volume(window + Index3{1, 1, 1});
+  const auto is_within = [&](unsigned axis) {
+    const std::int64_t first = along(before_->first(), axis), block = along(upper, axis);
+    return first > 0 && (block == first || block == 0);
+  };
+  return is_within(0) || is_within(1) || is_within(2);
+}
+
+/// A star that does not reach through a plane where the grid before begins was in one of its
+/// windows as a whole.  In this grid, which begins later in the volume, one such plane an axis lies
+/// inside.
+///
+/// The planes where the volume ends have been inside of windows only once by then, and what is near
+/// them is not yet as coarse and as smooth as the rest.
+std::vector<LatticeBox> WindowVisitor::finished_boxes() const {
+  if (!before_) return {};
+  using Limits = std::numeric_limits<std::int32_t>;
+  using Interval = std::array<std::int32_t, 2>;
+  const auto intervals = [&](unsigned axis) -> std::vector<Interval> {
+    const std::int64_t first = along(before_->first(), axis), end = along(grid_.volume(), axis);
+    if (first == 0) return {{Limits::min(), Limits::max()}};
+    const std::int32_t begin = units(end + first * before_->block_edge());
+    return {{Limits::min(), units(end - kNearPlane)},
+            {units(end + kNearPlane), begin},
+            {begin, Limits::max()}};
+  };
+  std::vector<LatticeBox> out;
+  for (const Interval z : intervals(2)) {
+    for (const Interval y : intervals(1)) {
+      for (const Interval x : intervals(0)) {
+        out.push_back({{x[0], y[0], z[0]}, {x[1], y[1], z[1]}});
+      }
+    }
+  }
+  return out;
 }
 
 VisitStats WindowVisitor::visit(Index3 window) const {
@@ -151,7 +194,7 @@ VisitStats WindowVisitor::visit(Index3 window) const {
     content.push_back(stored[i] ? std::move(*stored[i]) : start(blocks[i]));
   }
   watch.lap(stats.start_seconds);
-  if (before_ && !holds_begin(window, *before_)) {
+  if (before_ && !has_rest(window)) {
     store_.commit(window, std::move(content));
     return stats;
   }
@@ -193,7 +236,9 @@ void WindowVisitor::work_on(Index3 window, WindowContent& content, VisitStats& s
     const auto voxels = static_cast<double>(grid_.window_box(window).voxels());
     options.enough_vertices = static_cast<std::size_t>(*target_reduction_ * voxels);
   }
+  options.finished = finished_boxes();
   OptimiseOptions polish = optimise_;
+  polish.finished = options.finished;
   polish.earlier = earlier_boxes(window);
   polish.later = later_boxes(window);
   if (optimise_.sweeps > 0) {
@@ -209,6 +254,7 @@ void WindowVisitor::work_on(Index3 window, WindowContent& content, VisitStats& s
   watch.lap(stats.codt_seconds);
   if (optimise_.demands.inner != nullptr) add_inner(window, content, stats);
   OptimiseOptions light = optimise_;
+  light.finished = polish.finished;
   light.sweeps = std::min(light.sweeps, 1);
   stats.optimise += optimise(content.mesh, metric_, light, keep_distance);
   watch.lap(stats.optimise_seconds);

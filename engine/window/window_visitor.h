@@ -57,7 +57,8 @@ struct VisitPlan {
   /// its windows tells which vertices an earlier window has seen, which wait for changes, and which
   /// no later window will see: only these get more than one sweep.
   std::optional<WindowOrder> last = std::nullopt;
-  /// Set where a march only heals what the one before kept, where its grid began.
+  /// Set where a march only heals: what the one before kept, where its grid began, and what is near
+  /// the planes where the volume ends.  This is the grid of the march before.
   std::optional<WindowGrid> before = std::nullopt;
   /// Which one of several marches is this that make vertices?  Ids are apart by it.
   std::uint64_t turn = 0, turns = 1;
@@ -98,7 +99,9 @@ class WindowVisitor {
   /// last march with smooth surfaces.
   [[nodiscard]] std::vector<LatticeBox> earlier_boxes(Index3 window) const;
   [[nodiscard]] std::vector<LatticeBox> later_boxes(Index3 window) const;
-  [[nodiscard]] bool holds_begin(Index3 window, const WindowGrid& grid) const;
+  [[nodiscard]] bool has_rest(Index3 window) const;
+  /// Returns the boxes that the march before has finished, where it did so.
+  [[nodiscard]] std::vector<LatticeBox> finished_boxes() const;
   /// Returns the labels that a distance guard needs around a mesh.
   [[nodiscard]] LabelBox labels_around(const TetMesh& mesh) const;
   void work_on(Index3 window, WindowContent& content, VisitStats& stats) const;

@@ -8,6 +8,7 @@
 #include <span>
 
 #include "kernels/mesh/failed_pairs.h"
+#include "kernels/mesh/star_boxes.h"
 #include "kernels/optimise/flips.h"
 #include "kernels/optimise/smooth.h"
 #include "kernels/optimise/unfold.h"
@@ -20,47 +21,28 @@ namespace {
 /// (bench/parameters.md, "Constants").
 constexpr int kFirstNewtonSteps = 2;
 
-LatticeBox box_of_star(const TetMesh& mesh, LocalVertex v) {
-  LatticeBox box{mesh.position(v), mesh.position(v)};
-  for (const LinkTriangle& t : mesh.star(v)) {
-    for (const LocalVertex w : {t.a, t.b, t.c}) {
-      if (w == mesh.infinity()) continue;
-      const Point p = mesh.position(w);
-      box.lo = {std::min(box.lo.x, p.x), std::min(box.lo.y, p.y), std::min(box.lo.z, p.z)};
-      box.hi = {std::max(box.hi.x, p.x), std::max(box.hi.y, p.y), std::max(box.hi.z, p.z)};
-    }
-  }
-  return box;
-}
-
-bool is_within(const LatticeBox& inner, const LatticeBox& outer) {
-  return inner.lo.x >= outer.lo.x && inner.lo.y >= outer.lo.y && inner.lo.z >= outer.lo.z &&
-         inner.hi.x <= outer.hi.x && inner.hi.y <= outer.hi.y && inner.hi.z <= outer.hi.z;
-}
-
-bool star_is_in_one(const TetMesh& mesh, LocalVertex v, const std::vector<LatticeBox>& boxes) {
-  const LatticeBox star = box_of_star(mesh, v);
-  return std::any_of(boxes.begin(), boxes.end(),
-                     [&](const LatticeBox& box) { return is_within(star, box); });
-}
-
 /// Which vertices have a turn in a sweep.
 class Turns {
  public:
   /// All vertices except those that earlier calls have treated and that have not changed since.
   static Turns of_first_sweep(const TetMesh& mesh, const OptimiseOptions& options) {
-    return Turns(mesh, options.earlier, [&](LocalVertex v) { return mesh.version(v) == 0; });
+    return Turns(mesh, options, options.earlier,
+                 [&](LocalVertex v) { return mesh.version(v) == 0; });
   }
   /// All vertices except those that later calls can treat.
   static Turns of_later_sweeps(const TetMesh& mesh, const OptimiseOptions& options) {
-    return Turns(mesh, options.later, [](LocalVertex) { return true; });
+    return Turns(mesh, options, options.later, [](LocalVertex) { return true; });
   }
-  [[nodiscard]] bool has(LocalVertex v) const { return has_.empty() || has_[v] != 0; }
+  [[nodiscard]] bool has(LocalVertex v) const {
+    return (has_.empty() || has_[v] != 0) && !finished_.has(v);
+  }
 
  private:
   /// Leaves out vertices that may wait and whose stars lie in a box.
   template <typename MayWait>
-  Turns(const TetMesh& mesh, const std::vector<LatticeBox>& boxes, MayWait may_wait) {
+  Turns(const TetMesh& mesh, const OptimiseOptions& options, const std::vector<LatticeBox>& boxes,
+        MayWait may_wait)
+      : finished_(mesh, options.finished) {
     if (boxes.empty()) return;
     has_.assign(mesh.vertex_count(), 1);
     for (LocalVertex v = 0; v < mesh.vertex_count(); ++v) {
@@ -68,7 +50,8 @@ class Turns {
     }
   }
 
-  std::vector<std::uint8_t> has_;  ///< empty when all vertices have a turn
+  FinishedVertices finished_;
+  std::vector<std::uint8_t> has_;  ///< empty when none waits
 };
 
 /// Flips edges.  One that failed is not tried again until one of its ends changes.

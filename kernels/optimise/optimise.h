@@ -23,6 +23,9 @@ struct OptimiseOptions {
   /// Boxes that later calls will see.  Sweeps after the first leave out vertices whose stars lie in
   /// one of these boxes: those calls can treat them when more of what is around them is final.
   std::vector<LatticeBox> later;
+  /// Boxes that an earlier march has finished.  All sweeps, and fit_interfaces(), leave out
+  /// vertices whose stars lie in one of these boxes and that have not changed in this window.
+  std::vector<LatticeBox> finished;
   double flip_below = 0.4;     ///< flips are tried on tets with a smaller radius ratio
   double smooth_below = 0.8;   ///< vertices are smoothed whose worst tet has a smaller one
   double quality_floor = 0.1;  ///< no step creates a tet below this, unless it replaces a worse one

@@ -6,6 +6,7 @@
 #include <algorithm>
 
 #include "kernels/mesh/failed_pairs.h"
+#include "kernels/mesh/star_boxes.h"
 #include "kernels/mesh/tet_mesh.h"
 #include "kernels/simplify/contraction.h"
 #include "kernels/simplify/contraction_filters.h"
@@ -20,19 +21,21 @@ namespace {
 /// so several may be at work on one mesh.
 class CandidateFinder {
  public:
-  CandidateFinder(const TetMesh& mesh, const Metric& metric)
+  CandidateFinder(const TetMesh& mesh, const Metric& metric, const FinishedVertices& finished)
       : mesh_(mesh),
         metric_(metric),
+        finished_(finished),
         failed_(mesh.vertex_count()),
         seen_(mesh.vertex_count() + 1) {}
 
   /// Returns the candidates of v, valid until the next call.  An edge between two vertices that
-  /// never changed belongs to its smaller end; the others are looked at from both sides.
+  /// never changed belongs to its smaller end that is not finished; the others are looked at from
+  /// both sides.
   const std::vector<Contraction>& collect(LocalVertex v) {
     collect_neighbours(v);
     candidates_.clear();
     for (LocalVertex w : neighbours_) {
-      const bool mine = w > v || mesh_.version(v) != 0;
+      const bool mine = w > v || mesh_.version(v) != 0 || finished_.has(w);
       if (!mine || !mesh_.is_free(w) || !labels_allow(v, w)) continue;
       if (failed_.contains(mesh_, v, w)) continue;
       if (const auto c = plan_contraction(mesh_, metric_, v, w)) candidates_.push_back(*c);
@@ -95,6 +98,7 @@ class CandidateFinder {
 
   const TetMesh& mesh_;
   const Metric& metric_;
+  const FinishedVertices& finished_;
   FailedPairs failed_;
   std::vector<Seen> seen_;
   std::uint32_t call_ = 0;
@@ -110,14 +114,10 @@ double least_cost(const std::vector<Contraction>& candidates) {
       ->cost;
 }
 
-/// Files the free vertices of [first, last) under the cost of their cheapest candidate.
-void push_cheapest(CandidateFinder& finder, const TetMesh& mesh, std::size_t first,
-                   std::size_t last, VertexQueue& queue) {
-  for (auto v = static_cast<LocalVertex>(first); v < last; ++v) {
-    if (!mesh.is_free(v)) continue;
-    const std::vector<Contraction>& candidates = finder.collect(v);
-    if (!candidates.empty()) queue.push(v, least_cost(candidates));
-  }
+/// Files the vertex under the cost of its cheapest candidate.
+void push_cheapest(CandidateFinder& finder, LocalVertex v, VertexQueue& queue) {
+  const std::vector<Contraction>& candidates = finder.collect(v);
+  if (!candidates.empty()) queue.push(v, least_cost(candidates));
 }
 
 class Simplifier {
@@ -129,7 +129,8 @@ class Simplifier {
         options_(options),
         guard_(guard),
         queue_(mesh.vertex_count()),
-        finder_(mesh, metric),
+        finished_(mesh, options.finished),
+        finder_(mesh, metric, finished_),
         shape_(mesh, metric, options),
         limits_(mesh, metric, options.demands.sizes),
         inner_(mesh, options.demands.inner),
@@ -141,8 +142,10 @@ class Simplifier {
 
   SimplifyStats run() {
     options_.seeding(mesh_.vertex_count(), [this](std::size_t first, std::size_t last) {
-      CandidateFinder scout(mesh_, metric_);
-      push_cheapest(scout, mesh_, first, last, queue_);
+      CandidateFinder scout(mesh_, metric_, finished_);
+      for (auto v = static_cast<LocalVertex>(first); v < last; ++v) {
+        if (mesh_.is_free(v) && !finished_.has(v)) push_cheapest(scout, v, queue_);
+      }
     });
     std::vector<LocalVertex> round;
     while (queue_.take_round(round)) {
@@ -291,6 +294,7 @@ class Simplifier {
   const SimplifyOptions& options_;
   DistanceGuard* guard_;
   VertexQueue queue_;
+  FinishedVertices finished_;
   CandidateFinder finder_;
   ShapeFilter shape_;
   EdgeLimits limits_;

@@ -153,6 +153,48 @@ TEST(Periodic, FacesAreAsCoarseAsTheRest) {
   EXPECT_LT(periodic, plain * 5 / 4);
 }
 
+/// Returns the volumes of labels.
+std::vector<double> volumes_of(const SmallMesh& mesh, std::size_t labels) {
+  std::vector<double> out(labels, 0.0);
+  for (std::size_t t = 0; t < mesh.tets.size(); ++t) {
+    std::array<Vec3, 3> edges;
+    const auto& o = mesh.vertices[mesh.tets[t][0]];
+    for (std::size_t i = 0; i < 3; ++i) {
+      const auto& p = mesh.vertices[mesh.tets[t][i + 1]];
+      edges[i] = Vec3(p[0] - o[0], p[1] - o[1], p[2] - o[2]);
+    }
+    out[mesh.labels[t]] += std::abs(edges[0].dot(edges[1].cross(edges[2]))) / 6.0;
+  }
+  return out;
+}
+
+/// Flat interfaces stay where they are, at even and at odd places.
+TEST(Periodic, LaminatesAreExact) {
+  std::mt19937 random(955);
+  for (int i = 0; i < 40 && !HasFailure(); ++i) {
+    Index3 shape{2 * (4 + below(random, 9)), 2 * (4 + below(random, 9)),
+                 2 * (4 + below(random, 9))};
+    const unsigned axis = below(random, 3);
+    const auto voxels = static_cast<std::uint32_t>(along(shape, axis));
+    const std::int64_t begin = below(random, voxels), end = begin + 1 + below(random, voxels);
+    Trial trial{.volume = volume_from(shape, 2,
+                                      [&](auto x, auto y, auto z) {
+                                        const std::int64_t at = along(Index3{x, y, z}, axis);
+                                        return at >= begin && at < end ? 1U : 0U;
+                                      }),
+                .settings = {},
+                .frame = {}};
+    trial.settings.periodic = 1 + below(random, 7);
+    SCOPED_TRACE(trial.text() + " axes " + std::to_string(trial.settings.periodic));
+    const std::vector<double> volumes = volumes_of(small_mesh(run_in_memory(trial)), 2);
+    const Box3 all{{0, 0, 0}, shape};
+    const auto ones =
+        static_cast<double>(std::count(trial.volume.labels.begin(), trial.volume.labels.end(), 1U));
+    EXPECT_NEAR(volumes[1], ones, 1e-6);
+    EXPECT_NEAR(volumes[0] + volumes[1], static_cast<double>(all.voxels()), 1e-6);
+  }
+}
+
 TEST(Promise5SameBytes, OfCellsThatRepeatThemselves) {
   std::mt19937 random(954);
   for (int i = 0; i < 25 && !HasFailure(); ++i) {

@@ -16,8 +16,6 @@
 namespace mw {
 namespace {
 
-constexpr std::int64_t kReachPerColour = 2;
-
 /// A label with fewer voxels in a cube is a thread there and may not take the cube.
 constexpr std::ptrdiff_t kLeastVoxels = 3;
 
@@ -45,8 +43,9 @@ std::vector<FaceStep> steps_to(const std::vector<VoxelFace>& faces, const Box3& 
 /// REQUIRES: `original` and `labels` cover the same box.
 class Coarsener {
  public:
-  Coarsener(const LabelBox& original, LabelBox& labels, double max_distance, const SizeField* sizes)
-      : original_(original), labels_(labels), sizes_(sizes) {
+  Coarsener(const LabelBox& original, LabelBox& labels, double max_distance, bool keeps_flat,
+            const SizeField* sizes)
+      : original_(original), labels_(labels), keeps_flat_(keeps_flat), sizes_(sizes) {
     const CarrierFaces faces(max_distance);
     for (unsigned axis = 0; axis < 3; ++axis) {
       carriers_[axis] = steps_to(faces.of(axis), labels.box);
@@ -64,7 +63,7 @@ class Coarsener {
   bool visit(Index3 cube) {
     CubeLabels before;
     for (unsigned i = 0; i < 8; ++i) before[i] = labels_.at(cube_voxel(cube, i));
-    if (!sizes_allow(cube, before)) return false;
+    if (!sizes_allow(cube, before) || (keeps_flat_ && is_flat(cube))) return false;
     for (Label to : candidates(before)) {
       if (flip_all(cube, to) && !adds_pinch(around(cube), before) && keeps_carriers(cube, before)) {
         return true;
@@ -126,6 +125,34 @@ class Coarsener {
       }
     }
     return count == 0;
+  }
+
+  /// True if two labels meet in a plane that halves the cube and goes on for a voxel all around it,
+  /// or up to the volume's side.
+  [[nodiscard]] bool is_flat(Index3 cube) const {
+    for (unsigned axis = 0; axis < 3; ++axis) {
+      if (is_flat_across(cube, axis)) return true;
+    }
+    return false;
+  }
+
+  [[nodiscard]] bool is_flat_across(Index3 cube, unsigned axis) const {
+    const Index3 step = axis_vector(axis), first = axis_vector((axis + 1) % 3),
+                 second = axis_vector((axis + 2) % 3);
+    const Label lower = original_.at(cube), upper = original_.at(cube + step);
+    if (lower == upper) return false;
+    const auto is_one = [&](Index3 v, Label wanted) {
+      const Label label = original_.at(v);
+      return label == wanted || label == kExterior;
+    };
+    Index3 row = cube - first - second;
+    for (int i = 0; i < 4; ++i, row = row + first) {
+      Index3 v = row;
+      for (int k = 0; k < 4; ++k, v = v + second) {
+        if (!is_one(v, lower) || !is_one(v + step, upper)) return false;
+      }
+    }
+    return true;
   }
 
   /// Output to input: all of voxel v is within D of an input voxel of the label.
@@ -228,7 +255,7 @@ class Coarsener {
   /// from the cube than its colour may see do not count.
   [[nodiscard]] bool has_carrier(const VoxelFace& face, Label lower, Label upper,
                                  Index3 cube) const {
-    const Index3 reach{kReachPerColour, kReachPerColour, kReachPerColour};
+    const Index3 reach{kCoarsenReach, kCoarsenReach, kCoarsenReach};
     const Box3 seen{cube - reach, cube + reach + Index3{2, 2, 2}};
     const Label* at = labels_.labels.data() + labels_.box.offset(face.lower);
     return std::any_of(carriers_[face.axis].begin(), carriers_[face.axis].end(),
@@ -246,15 +273,15 @@ class Coarsener {
   LabelBox& labels_;
   std::array<std::vector<FaceStep>, 3> carriers_;    ///< by axis, as CarrierFaces::of()
   std::array<std::vector<FaceStep>, 3> carried_by_;  ///< as CarrierFaces::carried_by()
+  bool keeps_flat_;
   const SizeField* sizes_;
   std::vector<Index3> displacements_;
 };
 
 /// The box of the cubes of a colour that can matter for the tile.  It shrinks with each colour by
 /// what one visit sees.
-Box3 box_of_colour(const Box3& tile, Index3 volume, unsigned colour) {
-  return intersection(grown(tile, kReachPerColour * (7 - static_cast<std::int64_t>(colour))),
-                      {{0, 0, 0}, volume});
+Box3 box_of_colour(const Box3& tile, const Box3& within, unsigned colour) {
+  return intersection(grown(tile, kCoarsenReach * (7 - static_cast<std::int64_t>(colour))), within);
 }
 
 unsigned colour_of(Index3 cube) {
@@ -276,10 +303,10 @@ void each_mixed_in_row(const Label* row, Index3 shape, std::int64_t cubes, const
 /// The cubes that have several labels, by colour.  The others stay as they are, so one pass finds
 /// all that is ever to be visited.
 std::array<std::vector<Index3>, kColours> mixed_cubes(const LabelBox& labels, const Box3& tile,
-                                                      Index3 volume) {
+                                                      const Box3& within) {
   std::array<std::vector<Index3>, kColours> out;
   std::array<Box3, kColours> boxes;
-  for (unsigned c = 0; c < kColours; ++c) boxes[c] = box_of_colour(tile, volume, c);
+  for (unsigned c = 0; c < kColours; ++c) boxes[c] = box_of_colour(tile, within, c);
   const Box3& all = boxes[0];
   const std::int64_t cubes = all.shape().x / 2;
   for (Index3 at = all.lo; at.z + 2 <= all.hi.z; at.z += 2) {
@@ -301,12 +328,14 @@ std::array<std::vector<Index3>, kColours> mixed_cubes(const LabelBox& labels, co
 }  // namespace
 
 // More than five parameters: two views of labels, two boxes and two limits have no common owner.
-CoarsenStats coarsen(const LabelBox& original, LabelBox& labels, const Box3& tile, Index3 volume,
-                     double max_distance, const SizeField* sizes) {
-  MW_ASSERT(((tile.lo.x | tile.lo.y | tile.lo.z) & 1) == 0);
-  Coarsener coarsener(original, labels, max_distance, sizes);
+CoarsenStats coarsen(const LabelBox& original, LabelBox& labels, const Box3& tile,
+                     const CoarsenRegion& region, double max_distance, const SizeField* sizes) {
+  const Box3& within = region.within;
+  MW_ASSERT(((tile.lo.x | tile.lo.y | tile.lo.z | within.lo.x | within.lo.y | within.lo.z) & 1) ==
+            0);
+  Coarsener coarsener(original, labels, max_distance, region.keeps_flat, sizes);
   CoarsenStats stats;
-  for (const std::vector<Index3>& cubes : mixed_cubes(labels, tile, volume)) {
+  for (const std::vector<Index3>& cubes : mixed_cubes(labels, tile, within)) {
     for (const Index3& cube : cubes) {
       const bool is_uniform = coarsener.visit(cube);
       if (!tile.contains(cube)) continue;

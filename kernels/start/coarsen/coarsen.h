@@ -11,6 +11,17 @@ namespace mw {
 /// Voxels around a tile that its coarsened labels depend on.
 inline constexpr std::int64_t kCoarsenHalo = 16;
 
+/// How far around a cube of 2^3 voxels its visit looks at labels.
+inline constexpr std::int64_t kCoarsenReach = 2;
+
+/// Which cubes may be coarsened.
+struct CoarsenRegion {
+  Box3 within;  ///< cubes that are not wholly in this box, usually the volume, stay as they are
+  /// If true, a cube stays, too, where two labels meet in a plane that halves it and goes on for a
+  /// voxel all around it: where such a plane ends at cubes that stay, it would get a step there.
+  bool keeps_flat = false;
+};
+
 struct CoarsenStats {
   std::uint64_t mixed_cubes = 0;
   std::uint64_t made_uniform = 0;
@@ -45,10 +56,12 @@ struct CoarsenStats {
 /// `labels` holds the input's labels on entry and the coarsened ones of `tile` on return; the halo
 /// is scratch.  sizes limit edges; null sets no limits.
 /// REQUIRES: original and labels are equal and cover the tile with its halo; tile inside the volume
-///           with even low corner, and even high corner where that is not the volume's side.
+///           with even low corner, and even high corner where that is not the volume's side;
+///           region.within has an even low corner.
 /// ENSURES: every label keeps its topology, and is pinched only where the input is; tiles fit
 ///          together; statistics count cubes in the tile.
-CoarsenStats coarsen(const LabelBox& original, LabelBox& labels, const Box3& tile, Index3 volume,
-                     double max_distance, const SizeField* sizes = nullptr);
+CoarsenStats coarsen(const LabelBox& original, LabelBox& labels, const Box3& tile,
+                     const CoarsenRegion& region, double max_distance,
+                     const SizeField* sizes = nullptr);
 
 }  // namespace mw

@@ -3,6 +3,8 @@
 // simplify() on windows cut out of larger volumes: what it must leave alone and what it must keep.
 #include <thread>
 
+#include "kernels/mesh/star_boxes.h"
+#include "kernels/optimise/optimise.h"
 #include "kernels/quality/quality.h"
 #include "kernels/simplify/contraction_filters.h"
 #include "kernels/simplify/simplify.h"
@@ -44,6 +46,35 @@ TEST(Sec41FreeVertices, SimplifyLeavesFixedVerticesUntouched) {
     EXPECT_EQ(positive_volume6(mesh), positive_volume6(before));
   }
   EXPECT_GT(contractions, 2000U);
+}
+
+/// Vertices whose stars lie in a finished box are not looked at; others are, at its side, too.
+TEST(FinishedBoxes, SimplifyAndOptimiseLeaveThemAlone) {
+  std::mt19937 random(728);
+  constexpr std::int32_t kFar = 1 << 24, kPlane = 5 * kUnitsPerVoxel;
+  std::uint64_t contracted = 0, of_all = 0;
+  for (int i = 0; i < 20 && !HasFailure(); ++i) {
+    const TetMesh start = dense_mesh(random_of(random, 9, 1 + below(random, 4)));
+    const std::vector<LatticeBox> low{{{-kFar, -kFar, -kFar}, {kPlane, kFar, kFar}}};
+    const std::vector<LatticeBox> all{{{-kFar, -kFar, -kFar}, {kFar, kFar, kFar}}};
+    const FinishedVertices finished(start, low);
+    for (LocalVertex v = 0; v < start.vertex_count(); ++v) {
+      EXPECT_EQ(finished.has(v), start.position(v).x < kPlane);
+    }
+    TetMesh mesh = start, half = start, whole = start;
+    SimplifyOptions options;
+    of_all += simplify(mesh, Metric(), options).contracted;
+    options.finished = low;
+    contracted += simplify(half, Metric(), options).contracted;
+    options.finished = all;
+    OptimiseOptions polish;
+    polish.finished = all;
+    EXPECT_EQ(simplify(whole, Metric(), options).tried, 0U);
+    EXPECT_EQ(optimise(whole, Metric(), polish).moves, 0U);
+    EXPECT_EQ(whole.changes(), start.changes());
+  }
+  EXPECT_GT(contracted, of_all / 3);
+  EXPECT_LE(contracted, of_all);
 }
 
 TEST(Promise3Quality, SimplifyNeverGoesBelowTheFloor) {

@@ -14,7 +14,7 @@ namespace mw::test {
   const Index3 halo{kCoarsenHalo, kCoarsenHalo, kCoarsenHalo};
   const LabelBox before = labels_in(volume, {tile.lo - halo, tile.hi + halo});
   LabelBox after = before;
-  stats += coarsen(before, after, tile, volume.shape, max_distance);
+  stats += coarsen(before, after, tile, {.within = {{0, 0, 0}, volume.shape}}, max_distance);
   LabelBox out{tile, {}};
   for_each_index(tile, [&](Index3 v) { out.labels.push_back(after.at(v)); });
   return out;

@@ -80,16 +80,72 @@ TEST(Coarsen, LeavesLabelsAloneWhereEdgesAreToBeShort) {
       });
       sizes.spread();
       LabelBox after = before;
-      coarsen(before, after, all, volume.shape, 1.5, &sizes);
+      coarsen(before, after, all, {.within = all}, 1.5, &sizes);
       return after.labels;
     };
     LabelBox free = before;
-    coarsen(before, free, all, volume.shape, 1.5);
+    coarsen(before, free, all, {.within = all}, 1.5);
     EXPECT_EQ(with_limit(diagonal - 0.01), before.labels);
     EXPECT_EQ(with_limit(diagonal + 0.01), free.labels);
     changed += free.labels != before.labels ? 1 : 0;
   }
   EXPECT_GT(changed, 20);
+}
+
+/// Cubes that are not in a box stay, and those in it do not see what is farther away than
+/// kCoarsenReach.
+TEST(Coarsen, WithinABoxSeesNothingBeyondItsReach) {
+  std::mt19937 random(1031);
+  int changed = 0;
+  for (std::size_t i = 0; i < 200 && !HasFailure(); ++i) {
+    const SmallVolume volume = random_of(random, 8, 16);
+    SCOPED_TRACE(volume.text());
+    const Box3 all{{0, 0, 0}, volume.shape};
+    const Box3 within{{4, 4, 4}, volume.shape - Index3{3, 3, 3}},
+        seen = grown(within, kCoarsenReach);
+    const LabelBox before = labels_in(volume, grown(all, kCoarsenHalo));
+    LabelBox other = before;
+    for_each_index(other.box, [&](Index3 v) {
+      if (seen.contains(v)) return;
+      other.labels[static_cast<std::size_t>(other.box.offset(v))] = below(random, 6);
+    });
+    const CoarsenRegion region{.within = within, .keeps_flat = i % 2 == 1};
+    LabelBox after = before, after_other = other;
+    coarsen(before, after, all, region, kBounds[i % 4]);
+    coarsen(other, after_other, all, region, kBounds[i % 4]);
+    for_each_index(all, [&](Index3 v) {
+      EXPECT_EQ(after.at(v), within.contains(v) ? after_other.at(v) : before.at(v));
+    });
+    changed += after.labels != before.labels ? 1 : 0;
+  }
+  EXPECT_GT(changed, 15);
+}
+
+/// Bands along an axis stay where they are, at even and odd places; a ball does not.
+TEST(Coarsen, KeepsFlatInterfacesWhereThatIsAsked) {
+  const Index3 shape{14, 12, 16};
+  const auto is_changed = [&](const SmallVolume& volume) {
+    const Box3 all{{0, 0, 0}, shape};
+    const LabelBox before = labels_in(volume, grown(all, kCoarsenHalo));
+    LabelBox after = before;
+    coarsen(before, after, all, {.within = all, .keeps_flat = true}, 1.5);
+    return after.labels != before.labels;
+  };
+  for (unsigned axis = 0; axis < 3; ++axis) {
+    for (std::int64_t at = 1; at < 8; ++at) {
+      SmallVolume bands{shape, 2, {}};
+      for_each_index(shape, [&](Index3 v) {
+        bands.labels.push_back(along(v, axis) >= at && along(v, axis) < at + 3 ? 1 : 0);
+      });
+      EXPECT_FALSE(is_changed(bands)) << axis << " " << at;
+    }
+  }
+  SmallVolume ball{shape, 2, {}};
+  for_each_index(shape, [&](Index3 v) {
+    const Index3 d = v - Index3{6, 6, 7};
+    ball.labels.push_back(d.x * d.x + d.y * d.y + d.z * d.z < 20 ? 1 : 0);
+  });
+  EXPECT_TRUE(is_changed(ball));
 }
 
 TEST(Promise1Topology, CoarseningKeepsItOnLargerVolumes) {
