@@ -6,6 +6,7 @@
 #include <array>
 #include <bit>
 
+#include "engine/labels/periodic_labels.h"
 #include "engine/labels/reading_tiles.h"
 #include "engine/system/crew.h"
 #include "kernels/core/index.h"
@@ -31,7 +32,8 @@ LabelDigests::LabelDigests(const PreparedLabels& labels, const LabelKeys& keys,
     : labels_(labels),
       keys_(keys),
       grid_(grid),
-      bricks_(cells_of({{0, 0, 0}, grid.volume()}, kBrickShape).hi) {
+      bricks_(cells_of({{0, 0, 0}, grid.volume()}, kBrickShape).hi),
+      margin_(labels.margin()) {
   if (settings.max_distance) reach_ = LabelReach::search_reach(*settings.max_distance);
   const NeededBricks& needed = labels.needed();
   originals_ = digests_of(
@@ -57,13 +59,13 @@ Box3 LabelDigests::voxels_of(Index3 brick) const {
 
 io::ContentDigest LabelDigests::original_of(Index3 brick) const {
   const Box3 voxels = voxels_of(brick);
-  const std::optional<Label> only = labels_.only_label(brick);
+  const std::optional<Label> only = labels_.only_label(place_of(brick));
   return only ? of_one_label(*only, voxels) : of_voxels(labels_.original(voxels));
 }
 
 io::ContentDigest LabelDigests::shape_of(Index3 brick) const {
   const Box3 voxels = voxels_of(brick);
-  const std::optional<Label> only = labels_.only_shape(brick);
+  const std::optional<Label> only = labels_.only_shape(place_of(brick));
   return only ? of_one_label(*only, voxels) : of_voxels(labels_.shape(voxels));
 }
 
@@ -85,8 +87,30 @@ io::ContentDigest LabelDigests::of_one_label(Label label, const Box3& voxels) co
 /// there depends on (WindowVisitor); empty where there is no bound.
 Box3 LabelDigests::around(const Box3& content) const {
   if (!reach_ || is_empty(content)) return {};
-  const std::int64_t halo = *reach_ + (labels_.has_source() ? kSourceHalo : 0);
-  return intersection(grown(content, halo), {{0, 0, 0}, grid_.volume()});
+  return grown(content, *reach_ + (labels_.has_source() ? kSourceHalo : 0));
+}
+
+std::array<bool, 3> LabelDigests::repeats() const {
+  return {margin_.x > 0, margin_.y > 0, margin_.z > 0};
+}
+
+/// Returns the place of a brick among those of the volume with its margin.
+Index3 LabelDigests::place_of(Index3 brick) const {
+  return brick + Index3{margin_.x / kBrick, margin_.y / kBrick, margin_.z / kBrick};
+}
+
+/// Calls use for the parts of a box in the volume and in copies of it, as boxes in the volume.
+template <typename Use>
+void LabelDigests::each_part(const Box3& box, Use use) const {
+  if (is_empty(box)) return;
+  each_copy(box, grid_.volume(), repeats(), [&](const Box3& part, Index3 by) {
+    use(Box3{part.lo - by, part.hi - by});
+  });
+}
+
+template <typename Use>
+void LabelDigests::each_brick(const Box3& voxels, Use use) const {
+  each_part(voxels, [&](const Box3& part) { for_each_index(cells_of(part, kBrickShape), use); });
 }
 
 /// Returns the label's key, and twice the place where its run ends, plus 1 outside the volume.
@@ -108,44 +132,42 @@ void LabelDigests::add_voxels(const LabelBox& labels, io::DigestMaker& to) const
 }
 
 void LabelDigests::add_originals(const Box3& voxels, io::DigestMaker& to) const {
-  const Box3 inside = intersection(voxels, {{0, 0, 0}, grid_.volume()});
-  if (is_empty(inside)) return;
-  for_each_index(cells_of(inside, kBrickShape), [&](Index3 brick) {
+  each_brick(voxels, [&](Index3 brick) {
     const io::ContentDigest& digest = originals_[raster(brick, bricks_)];
     to.add(digest.is_none() ? original_of(brick) : digest);
   });
 }
 
 void LabelDigests::add_shapes(const Box3& voxels, io::DigestMaker& to) const {
-  const Box3 inside = intersection(voxels, {{0, 0, 0}, grid_.volume()});
-  for_each_index(cells_of(inside, kBrickShape),
-                 [&](Index3 brick) { to.add(shapes_[raster(brick, bricks_)]); });
+  each_brick(voxels, [&](Index3 brick) { to.add(shapes_[raster(brick, bricks_)]); });
 }
 
 /// Adds which large cells the start mesh of a block may have.
 void LabelDigests::add_cells(const Box3& block, io::DigestMaker& to) const {
   const LevelMap& levels = labels_.levels();
   if (levels.cubes() == Index3{}) return;
-  const Box3 box = intersection(grown(block, kCellHalo), {{0, 0, 0}, grid_.volume()});
+  const Box3 place{block.lo + margin_, block.hi + margin_};
+  const Box3 box =
+      intersection(grown(place, kCellHalo), {{0, 0, 0}, grid_.volume() + margin_ + margin_});
   for_each_index(cells_of(box, kBrickShape), [&](Index3 c) { to.add(levels.bits_of(c)); });
 }
 
 void LabelDigests::add_limits(const Box3& voxels, io::DigestMaker& to) const {
   if (labels_.sizes() == nullptr || is_empty(voxels)) return;
   std::vector<float> limits;
-  labels_.sizes()->append_limits(
-      intersection(grown(voxels, kLimitHalo), {{0, 0, 0}, grid_.volume()}), limits);
+  each_part(grown(voxels, kLimitHalo), [&](const Box3& part) {
+    labels_.sizes()->append_limits({part.lo + margin_, part.hi + margin_}, limits);
+  });
   std::vector<std::uint32_t> bits;
   for (const float limit : limits) bits.push_back(std::bit_cast<std::uint32_t>(limit));
   to.add(std::as_bytes(std::span(bits)));
 }
 
 bool LabelDigests::all_uniform(const Box3& voxels, bool as_shapes) const {
-  const Box3 inside = intersection(voxels, {{0, 0, 0}, grid_.volume()});
   bool all = true;
-  if (is_empty(inside)) return all;
-  for_each_index(cells_of(inside, kBrickShape), [&](Index3 brick) {
-    all = all && labels_.only_label(brick) && (!as_shapes || labels_.only_shape(brick));
+  each_brick(voxels, [&](Index3 brick) {
+    const Index3 place = place_of(brick);
+    all = all && labels_.only_label(place) && (!as_shapes || labels_.only_shape(place));
   });
   return all;
 }
@@ -180,7 +202,11 @@ io::ContentDigest LabelDigests::exact(const SeenLabels& seen) const {
     if (labels_.is_coarse()) add_voxels(labels_.shape(wide), maker);
     add_cells(box, maker);
   }
-  if (!is_empty(looked_at)) add_voxels(labels_.original(looked_at), maker);
+  if (!is_empty(looked_at)) {
+    add_voxels(repeated_labels(looked_at, grid_.volume(), repeats(),
+                               [this](const Box3& box) { return labels_.original(box); }),
+               maker);
+  }
   add_limits(seen.content, maker);
   return maker.finish();
 }

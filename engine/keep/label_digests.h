@@ -19,7 +19,7 @@ namespace mw::engine {
 /// What a visit looks at beside the blocks that are stored.
 struct SeenLabels {
   std::vector<Index3> starts;  ///< blocks of the first march that are made from voxels
-  Box3 content;                ///< voxels that the content of the window touches
+  Box3 content;  ///< voxels that the content of the window touches, maybe in copies of the volume
 };
 
 /// Digests of prepared labels, by the labels' own numbers: of each brick of 16^3 voxels, and of
@@ -54,6 +54,13 @@ class LabelDigests {
   [[nodiscard]] io::ContentDigest of_one_label(Label label, const Box3& voxels) const;
   [[nodiscard]] std::array<std::uint64_t, 2> run_of(Label label, std::size_t end) const;
   [[nodiscard]] Box3 around(const Box3& content) const;
+  [[nodiscard]] std::array<bool, 3> repeats() const;
+  [[nodiscard]] Index3 place_of(Index3 brick) const;
+  template <typename Use>
+  void each_part(const Box3& box, Use use) const;
+  /// Calls use for the bricks of the volume that a box, or a part of it in a copy, meets.
+  template <typename Use>
+  void each_brick(const Box3& voxels, Use use) const;
   void add_originals(const Box3& voxels, io::DigestMaker& to) const;
   void add_shapes(const Box3& voxels, io::DigestMaker& to) const;
   void add_voxels(const LabelBox& labels, io::DigestMaker& to) const;
@@ -67,6 +74,7 @@ class LabelDigests {
   const WindowGrid& grid_;
   std::optional<std::int64_t> reach_;  ///< how far the distance bound looks, if there is one
   Index3 bricks_;
+  Index3 margin_;  ///< PreparedLabels::margin()
   Digests originals_;
   Digests shapes_;  ///< empty where labels are not coarsened
 };

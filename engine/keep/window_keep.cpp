@@ -97,19 +97,21 @@ WindowKeep::Known WindowKeep::look_up(const WindowKey& key, const VersionOf& ver
   io::DigestMaker blocks;
   blocks.add(scope_);
   blocks.add(layout_.window(key));
-  const auto add = [&](const BlockKey& block) {
-    const KeptVersion* const version = version_of(block);
+  const auto add = [&](const BlockKey& part, const BlockKey& block) {
+    const KeptVersion* const version = version_of(part);
     if (version == nullptr) return false;
     blocks.add(version->digest);
-    out.seen.content = hull(out.seen.content, version->box());
+    const Index3 by = layout_.way(part, block);
+    const Box3 box = version->box();
+    out.seen.content = hull(out.seen.content, {box.lo + by, box.hi + by});
     return true;
   };
   for (const BlockKey& block : layout_.blocks_of(key)) {
-    if (add(block)) continue;
+    if (add(block, block)) continue;
     blocks.add(std::uint64_t{block.march > 0});
     if (block.march > 0) {
       for (const BlockKey& part : layout_.parts(block)) {
-        if (!add(part)) blocks.add(std::uint64_t{0});
+        if (!add(part, block)) blocks.add(std::uint64_t{0});
       }
       continue;
     }

@@ -82,7 +82,9 @@ void prepare(RunContext& run, ReadyLabels& out) {
   if (folder.empty()) folder = io::scratch_folder();
   if (run.settings.periodic != 0) {
     out.copies.emplace(labels.raw(), periodic_margin(run.settings));
-    out.plan.counts = counts_of_part(labels, readers.threads, SequencePart{});
+    if (!out.plan.counts) {
+      out.plan.counts = counts_of_part(labels, readers.threads, SequencePart{});
+    }
     out.prepared.emplace(io::DenseVolume(*out.copies, labels.table()), run.settings,
                          readers.threads, folder, run.hooks.sizes);
   } else if (need == nullptr) {

@@ -17,12 +17,23 @@
 namespace mw::engine {
 namespace {
 
+/// Refuses scores whose copies beside a cell would not begin with a whole voxel of theirs.
+void check_copies_of_scores(const io::VolumeInfo& info, const MeshSettings& settings) {
+  const Index3 layers = layers_of(info.space.spacing, info.shape, settings.periodic);
+  const Index3 margin = periodic_margin(settings);
+  for (unsigned axis = 0; axis < 3; ++axis) {
+    const std::int64_t around = along(margin, axis), each = along(layers, axis);
+    if (around % each == 0) continue;
+    io::fail_usage(io::text("periodic: --values are seen ", around,
+                            " layers beyond a face, but voxels have ", each, " layers along ",
+                            "xyz"[axis], ", which do not divide that; resample the volume"));
+  }
+}
+
 /// Returns the settings once check() has found nothing wrong with them.
 const MeshSettings& checked(const io::DenseVolume& volume, const MeshSettings& settings) {
   check(volume.info(), settings);
-  if (settings.periodic != 0 && volume.raw().scores() != nullptr) {
-    io::fail_usage("periodic: works with labels, not with --values");
-  }
+  if (volume.raw().scores() != nullptr) check_copies_of_scores(volume.info(), settings);
   check(volume.table(), settings);
   return settings;
 }

@@ -340,10 +340,7 @@ const std::vector<SettingRule>& setting_rules() {
              return !is_sized || s.optimizer != Optimizer::kTetgen;
            },
        .told = "--optimizer tetgen keeps no sizes or inner vertices: leave out --size, "
-               "--count, --across and --inner-vertices, or set --optimizer local"},
-      {.is_kept =
-           [](const Settings& s) { return s.periodic == 0 || s.optimizer != Optimizer::kTetgen; },
-       .told = "--periodic: works without --optimizer tetgen"}};
+               "--count, --across and --inner-vertices, or set --optimizer local"}};
   return rules;
 }
 

@@ -32,14 +32,11 @@ constexpr std::array kRules{
     Rule{&Asked::keep, kNeeds, &Asked::colour,
          "keep: needs order colour: in raster order an edit changes what all later windows see, so "
          "nothing could be used again"},
-    Rule{&Asked::keep, kNotWith, &Asked::periodic, "keep: works without periodic"},
     Rule{&Asked::keep, kNotWith, &Asked::count,
          "count: looks at the whole volume, so that an edit anywhere could change sizes "
          "everywhere; with keep give size instead"},
     Rule{&Asked::update, kNotWith, &Asked::many,
          "from: works in one process only, run mwmesh without mpirun"},
-    Rule{&Asked::periodic, kNotWith, &Asked::many,
-         "periodic: works in one process only, run mwmesh without mpirun"},
     Rule{&Asked::merge, kNotWith, &Asked::scores,
          "--merge: merged labels have no probabilities or distances; merge these (the sum of "
          "probabilities, the least distance) before they are meshed"},

@@ -78,6 +78,11 @@ class RunLayout {
   /// Returns the block of the next march that a block becomes a part of.
   /// REQUIRES: key.march + 1 < marches().
   [[nodiscard]] BlockKey whole(const BlockKey& key) const;
+  /// Returns how many voxels places of a block are moved in a block of a later march, which it is a
+  /// part of.
+  [[nodiscard]] Index3 way(const BlockKey& from, const BlockKey& to) const {
+    return grid(to.march).beyond(to.block) - grid(from.march).beyond(from.block);
+  }
   /// Returns the content of a block as it is in a block of a later march, which it is a part of.
   [[nodiscard]] BlockMesh moved(BlockMesh content, const BlockKey& from, const BlockKey& to) const {
     return in_other_grid(std::move(content), {grid(from.march), from.block},

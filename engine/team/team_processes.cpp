@@ -53,7 +53,10 @@ LabelPlan TeamPart::plan_labels(const io::DenseVolume& volume, const MeshSetting
   const LabelReaders readers(volume, settings, hooks, store);
   LabelPlan plan{.counts = count_together(team_, volume, readers.threads)};
   partition_ = deal_windows(team_, layout_, settings, plan.counts->faces);
-  plan.need = labels_needed(layout_, partition_, team_.rank(), settings);
+  // A cell that repeats itself is prepared as a whole, with its copies around it.
+  if (settings.periodic == 0) {
+    plan.need = labels_needed(layout_, partition_, team_.rank(), settings);
+  }
   return plan;
 }
 

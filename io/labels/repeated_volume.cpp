@@ -37,6 +37,21 @@ Box3 copies_over(const Box3& box, Index3 shape) {
            quotient(last.z, shape.z) + 1}};
 }
 
+/// Reads the part of each copy of a cell that a box meets by read(box in the cell, values).
+template <typename T, typename Read>
+void read_copies(const Box3& box, Index3 cell, std::span<T> out, const Read& read) {
+  std::vector<T> values;
+  for_each_index(copies_over(box, cell), [&](Index3 copy) {
+    const Index3 first{copy.x * cell.x, copy.y * cell.y, copy.z * cell.z};
+    const Box3 part = intersection(box, {first, first + cell});
+    values.resize(static_cast<std::size_t>(part.voxels()));
+    read(Box3{part.lo - first, part.hi - first}, std::span<T>(values));
+    std::size_t next = 0;
+    for_each_index(
+        part, [&](Index3 v) { out[static_cast<std::size_t>(box.offset(v))] = values[next++]; });
+  });
+}
+
 }  // namespace
 
 LayeredVolume::LayeredVolume(const LabelVolume& volume, Index3 layers)
@@ -78,23 +93,25 @@ PeriodicVolume::PeriodicVolume(const LabelVolume& volume, Index3 margin)
       to_world(info_.space, {-static_cast<double>(margin.x), -static_cast<double>(margin.y),
                              -static_cast<double>(margin.z)});
   info_.space.origin = first;
+  if (const LabelScores* const scores = volume.scores()) {
+    const Index3 cell = volume.info().shape, shape = scores->shape();
+    scores_.emplace(*scores, Index3{margin.x * shape.x / cell.x, margin.y * shape.y / cell.y,
+                                    margin.z * shape.z / cell.z});
+  }
 }
 
 void PeriodicVolume::read(const Box3& box, std::span<RawLabel> out) const {
   MW_ASSERT(out.size() == static_cast<std::size_t>(box.voxels()));
   if (out.empty()) return;
-  const Index3 shape = below().info().shape;
-  const Box3 wanted{box.lo - margin_, box.hi - margin_};
-  std::vector<RawLabel> labels;
-  for_each_index(copies_over(wanted, shape), [&](Index3 copy) {
-    const Index3 first{copy.x * shape.x, copy.y * shape.y, copy.z * shape.z};
-    const Box3 part = intersection(wanted, {first, first + shape});
-    labels.resize(static_cast<std::size_t>(part.voxels()));
-    below().read({part.lo - first, part.hi - first}, labels);
-    std::size_t next = 0;
-    for_each_index(
-        part, [&](Index3 v) { out[static_cast<std::size_t>(wanted.offset(v))] = labels[next++]; });
-  });
+  read_copies({box.lo - margin_, box.hi - margin_}, below().info().shape, out,
+              [this](const Box3& part, std::span<RawLabel> labels) { below().read(part, labels); });
+}
+
+void PeriodicVolume::PeriodicScores::read_scores(RawLabel label, const Box3& box,
+                                                 std::span<double> out) const {
+  read_copies(
+      {box.lo - margin_, box.hi - margin_}, cell_.shape(), out,
+      [&](const Box3& part, std::span<double> scores) { cell_.read_scores(label, part, scores); });
 }
 
 }  // namespace mw::io

@@ -361,7 +361,7 @@ class Case:
             return
         path, flags = self.folder / self.volume.file, self.settings.flags
         named = self.settings.names_labels() or "size" in flags or "split" in flags
-        if named or "count" in flags or "periodic" in flags or flags.get("order") == "raster" or path.suffix == ".gz":
+        if named or "count" in flags or flags.get("order") == "raster" or path.suffix == ".gz":
             return  # labels that are named may vanish
         before = path.read_bytes()
         if b"gzip" in before[:400]:

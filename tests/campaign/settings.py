@@ -164,9 +164,9 @@ def draw_flags(random, settings):
 def draw_periodic(random, settings, volume):
     """Without what cells that repeat themselves do not have."""
     flags = settings.flags
-    if "crop" in settings.prepare or volume.has_scores:
+    if "crop" in settings.prepare:
         return
-    if flags.get("optimizer") != "tetgen" and random.random() < 0.15:
+    if random.random() < 0.15:
         flags["periodic"] = "".join(axis for axis in "xyz" if random.random() < 0.7) or "y"
 
 

@@ -122,6 +122,7 @@ class SharedRuns(unittest.TestCase):
                 ("m.vtkhdf", ["--order", "raster"]),
                 ("m.vtkhdf", ["--element", "tet10-curved"]),
                 ("m.vtkhdf", ["--size", "1.3"]),
+                ("m.vtkhdf", ["--periodic", "xyz"]),
                 ("m.vtkhdf", ["--sample", f"x={self.volume}:mean"]),
                 ("m.vtu", ["--background", "0", "--parts", "3", "--split", "*"]),
                 ("m.inp", ["--background", "0", "--cohesive", "*"]),

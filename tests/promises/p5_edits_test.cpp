@@ -140,6 +140,32 @@ TEST(Promise5SameBytes, AfterEditsFromWhatWasKept) {
   RecordProperty("skipped", std::to_string(chain.skipped));
 }
 
+/// Windows see labels beyond the faces of a cell that repeats itself, which are those of its other
+/// side.
+TEST(Promise5SameBytes, AfterEditsOfCellsThatRepeatThemselves) {
+  std::mt19937 random(3507);
+  Chain chain;
+  for (std::uint32_t i = 0; i < 8 && !HasFailure(); ++i) {
+    const Index3 shape = i % 2 == 0 ? Index3{56, 10, 8} : Index3{12, 10, 40};
+    const auto kind = static_cast<VolumeKind>(i % audit::test::kVolumeKinds);
+    Trial trial = random_trial(
+        random, test::with_room(random_volume_of(random, kind, shape, 2 + below(random, 20))));
+    trial.settings.edge_variance.reset();
+    trial.settings.target_reduction.reset();
+    trial.settings.window = 4;
+    trial.settings.marches = static_cast<int>(1 + below(random, 2));
+    trial.settings.order = Order::kColour;
+    trial.settings.periodic = i < 4 ? 7 : 1 + below(random, 7);
+    if (i % 4 == 3) trial.settings.sizes.rules.others = 3.0;
+    Editor editor(random);
+    run_chain(std::move(trial), random, 4, any_edit(editor), chain);
+  }
+  EXPECT_GT(chain.skipped, 50U);
+  EXPECT_GT(chain.visited, 100U);
+  RecordProperty("visited", std::to_string(chain.visited));
+  RecordProperty("skipped", std::to_string(chain.skipped));
+}
+
 /// Interfaces that are fitted to a source surface look farther than the bound does, and the limits
 /// of a label with a small size reach twenty voxels out of it where they grow slowly.  The volume
 /// is long, so that most windows are beyond what an edit reaches.

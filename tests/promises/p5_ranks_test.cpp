@@ -73,6 +73,27 @@ TEST(Promise5SameBytes, ForEveryNumberOfProcesses) {
   }
 }
 
+/// A cell that repeats itself: grids of later marches begin at other blocks.
+TEST(Promise5SameBytes, OfACellThatRepeatsItselfForEveryNumberOfProcesses) {
+  std::mt19937 random(319);
+  constexpr std::array<Index3, 3> kShapes{{{12, 12, 12}, {20, 10, 8}, {8, 24, 18}}};
+  for (std::size_t i = 0; i < 12 && !::testing::Test::HasFailure(); ++i) {
+    Trial trial = trial_of(random, i, kShapes[i % kShapes.size()]);
+    trial.settings.edge_variance.reset();
+    trial.settings.target_reduction.reset();
+    trial.settings.periodic = 1 + below(random, 7);
+    SCOPED_TRACE(trial.text());
+    const io::MeshData reference = run_in_memory(trial);
+    for (int ranks : {1, 2, 3, 5}) {
+      const RunHooks hooks{.threads = 1 + static_cast<int>(below(random, 3))};
+      const ThreadExchangeOptions options{.ranks = ranks,
+                                          .seed = static_cast<std::uint32_t>(i),
+                                          .max_delay = std::chrono::microseconds(100)};
+      expect_same(run_shared(trial, options, hooks).mesh, reference);
+    }
+  }
+}
+
 /// What the routes of this run say.
 std::vector<std::uint64_t> predicted_blocks(const Trial& trial, int ranks) {
   const test::MemoryVolume volume(trial.volume, trial.frame);

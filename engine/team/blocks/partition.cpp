@@ -112,11 +112,20 @@ std::vector<std::uint32_t> tiles_by_turns(std::int64_t rows_y, std::int64_t rows
   return out;
 }
 
+std::vector<WindowGrid> grids_of(const RunLayout& layout) {
+  std::vector<WindowGrid> out;
+  for (std::uint32_t march = 0; march < layout.marches(); ++march)
+    out.push_back(layout.grid(march));
+  return out;
+}
+
 }  // namespace
 
 Partition::Partition(const RunLayout& layout, Order order, int ranks,
                      std::span<const double> row_costs)
-    : rows_y_(layout.grid(0).windows().y), rows_z_(layout.grid(0).windows().z) {
+    : grids_(grids_of(layout)),
+      rows_y_(layout.grid(0).windows().y),
+      rows_z_(layout.grid(0).windows().z) {
   MW_ASSERT(ranks >= 1);
   MW_ASSERT(row_costs.empty() || row_costs.size() == static_cast<std::size_t>(rows_y_ * rows_z_));
   const auto count = static_cast<std::uint32_t>(ranks);
@@ -130,7 +139,8 @@ Partition::Partition(const RunLayout& layout, Order order, int ranks,
 }
 
 Partition::Partition(const RunLayout& layout, std::vector<std::uint32_t> owners)
-    : rows_y_(layout.grid(0).windows().y),
+    : grids_(grids_of(layout)),
+      rows_y_(layout.grid(0).windows().y),
       rows_z_(layout.grid(0).windows().z),
       owners_(std::move(owners)) {
   MW_ASSERT(owners_.size() == static_cast<std::size_t>(rows_y_ * rows_z_));
@@ -138,10 +148,16 @@ Partition::Partition(const RunLayout& layout, std::vector<std::uint32_t> owners)
 
 /// A window of a later march belongs to the rank of the first march's row in its middle.
 int Partition::rank_of(const WindowKey& key) const {
-  const auto first = [&](std::int64_t w, std::int64_t rows) {
-    return std::min(((w + 1) << key.march) - 1, rows - 1);
+  if (grids_.empty()) return static_cast<int>(owners_[0]);
+  const WindowGrid& grid = grids_[key.march];
+  const std::int64_t times = grid.block_edge() / grids_[0].block_edge();
+  const auto row_along = [&](unsigned axis, std::int64_t rows) {
+    const std::int64_t first = along(grid.first(), axis), blocks = along(grid.blocks(), axis);
+    std::int64_t upper = along(key.window, axis) + 1 + first;
+    if (first > 0) upper %= blocks;
+    return std::clamp<std::int64_t>(times * upper - 1, 0, rows - 1);
   };
-  const std::int64_t row = first(key.window.z, rows_z_) * rows_y_ + first(key.window.y, rows_y_);
+  const std::int64_t row = row_along(2, rows_z_) * rows_y_ + row_along(1, rows_y_);
   return static_cast<int>(owners_[static_cast<std::size_t>(row)]);
 }
 

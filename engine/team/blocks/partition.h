@@ -38,6 +38,7 @@ class Partition {
   [[nodiscard]] const std::vector<std::uint32_t>& owners() const { return owners_; }
 
  private:
+  std::vector<WindowGrid> grids_;  ///< one for each march; none if there is one process
   std::int64_t rows_y_ = 1;
   std::int64_t rows_z_ = 1;
   std::vector<std::uint32_t> owners_{0};

@@ -138,6 +138,41 @@ class Periodic(unittest.TestCase):
                 self.mesh("grains.npy", axes, "m.vtu", "--inner-vertices")
                 self.check("m.vtu", axes)
 
+    def test_again_after_an_edit(self):
+        """What an edit at one face changes beyond the other one is meshed again, too."""
+        labels = grains((32, 24, 40), 6, 1)
+        self.mesh("grains.npy", "xyz", "kept.vtkhdf", "--keep", "kept", "--window", "8")
+        labels[:2, 10:14, 8:20] = 7
+        np.save("edited.npy", labels)
+        self.mesh("edited.npy", "xyz", "kept.vtkhdf", "--from", "kept", "--window", "8")
+        self.mesh("edited.npy", "xyz", "afresh.vtkhdf", "--window", "8")
+        self.assertEqual(run("digest", "kept.vtkhdf"), run("digest", "afresh.vtkhdf"))
+
+    def test_probabilities(self):
+        """Interfaces lie where probabilities are equal, on faces as inside."""
+        step = 2 * np.pi / 24
+        z, y, x = np.meshgrid(*[(np.arange(24) + 0.5) * step] * 3, indexing="ij")
+        gyroid = np.sin(x) * np.cos(y) + np.sin(y) * np.cos(z) + np.sin(z) * np.cos(x)
+        one = 1 / (1 + np.exp(-2 * gyroid))
+        np.save("scores.npy", np.stack([1 - one, one]).astype(np.float32))
+        self.mesh("scores.npy", "xyz", "m.vtu", "--values", "probabilities", "--size", "3")
+        self.check("m.vtu", "xyz")
+        self.mesh("scores.npy", "xyz", "m.mesh", "--values", "probabilities", "--size", "3")
+        mesh = meshio.read("m.mesh")
+        tets = np.vstack([block.data for block in mesh.cells if block.type == "tetra"])
+        labels = np.concatenate([refs for block, refs in zip(mesh.cells, mesh.cell_data["medit:ref"])
+                                 if block.type == "tetra"])
+        first, second = (np.unique(tets[labels == label]) for label in np.unique(labels))
+        points = mesh.points[np.intersect1d(first, second)]
+        on_faces = ((points == 0) | (points == 24)).any(1)
+        x, y, z = (points * step).T
+        value = np.sin(x) * np.cos(y) + np.sin(y) * np.cos(z) + np.sin(z) * np.cos(x)
+        for places in (on_faces, ~on_faces):
+            self.assertGreater(places.sum(), 30)
+            self.assertLess(np.abs(value[places]).mean(), 0.1)
+        refused(["5 layers along z"], "mesh", "scores.npy", "-o", "refused.vtu", "--values", "probabilities",
+                "--periodic", "z", "--spacing", "1,1,5", code=2)
+
     def test_noise(self):
         np.save("noise.npy", np.random.default_rng(3).integers(0, 3, (12, 16, 10)).astype(np.uint8))
         self.mesh("noise.npy", "xyz")
@@ -215,10 +250,7 @@ class Periodic(unittest.TestCase):
         self.assertRegex(judged.stdout, "FAILS? +P2 periodic +x: .* which differ")
 
     def test_refused(self):
-        for options, words in ((("grains.npy", "--periodic", "x", "--optimizer", "tetgen"),
-                                "--periodic: works without"),
-                               (("grains.npy", "--periodic", "x", "--keep", "kept"), "without periodic"),
-                               (("grains.npy", "--pairs", "p.csv"), "give --periodic"),
+        for options, words in ((("grains.npy", "--pairs", "p.csv"), "give --periodic"),
                                (("grains.npy", "--periodic", "x", "--pairs", "p.csv", "--split", "*"),
                                 "vertices are doubled"),
                                (("grains.npy", "--periodic", "x", "--pairs", "p.txt"), "written as .csv")):

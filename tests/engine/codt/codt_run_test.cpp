@@ -67,6 +67,25 @@ TEST(CodtRun, KeepsThePromises) {
   EXPECT_LT(stats.fallbacks, stats.windows / 20);
 }
 
+/// The planes where a cell repeats itself are facets, as interfaces are.
+TEST(CodtRun, KeepsThePromisesOfCellsThatRepeatThemselves) {
+  NEEDS_WORKER();
+  std::mt19937 random(1409);
+  CodtStats stats;
+  for (int i = 0; i < 24 && !HasFailure(); ++i) {
+    Trial trial = codt_trial(random, i, 10);
+    trial.settings.edge_variance.reset();
+    trial.settings.target_reduction.reset();
+    trial.settings.periodic = 1 + below(random, 7);
+    SCOPED_TRACE(trial.text() + " axes " + std::to_string(trial.settings.periodic));
+    const Outcome out = run(trial);
+    expect_promises_of(trial, small_mesh(out.mesh));
+    expect_same(run(trial, 3).mesh, out.mesh);
+    stats += out.report.codt;
+  }
+  EXPECT_GT(stats.replaced.patches, 300U);
+}
+
 TEST(CodtRun, SameBytesForEveryNumberOfThreads) {
   NEEDS_WORKER();
   std::mt19937 random(1402);

@@ -31,10 +31,8 @@ TEST(Together, IsRefusedWhereItContradictsItself) {
   const Row rows[] = {
       {{.keep_bytes = true}, "--keep-bytes:"},
       {{.keep = true}, "keep: needs order colour"},
-      {{.keep = true, .colour = true, .periodic = true}, "keep: works without periodic"},
       {{.keep = true, .colour = true, .count = true}, "count:"},
       {{.keep = true, .update = true, .colour = true, .many = true}, "from:"},
-      {{.periodic = true, .many = true}, "periodic:"},
       {{.changed = true}, "--changed: says what"},
       {{.delta = true}, "--delta:"},
       {{.update = true, .changed = true, .object = true}, "--changed: says nothing"},
@@ -54,13 +52,19 @@ TEST(Together, IsRefusedWhereItContradictsItself) {
 TEST(Together, IsAllowedWhereNothingIsInTheWay) {
   for (const Asked& asked :
        {Asked{}, Asked{.keep = true, .keep_bytes = true, .colour = true, .many = true},
-        Asked{.keep = true, .update = true, .changed = true, .delta = true, .colour = true},
+        Asked{.keep = true,
+        .update = true,
+        .changed = true,
+        .delta = true,
+        .colour = true,
+        .periodic = true},
         Asked{.colour = true,
         .count = true,
         .many = true,
         .merge = true,
         .interpolate = true,
         .weld = true},
+        Asked{.periodic = true, .many = true},
         Asked{.periodic = true, .count = true, .scores = true, .curves = true, .pairs = true},
         Asked{.merge = true, .weld = true, .doubles = true}}) {
     EXPECT_EQ(refusal(asked), "");
