@@ -10,7 +10,6 @@
 
 #include "kernels/distance/point_triangle.h"
 #include "kernels/surface/surface_star.h"
-#include "kernels/surface/thin_label.h"
 
 namespace mw {
 namespace {
@@ -412,42 +411,42 @@ void SurfaceEnergy::yield_to(const VolumeDebts& debts) {
 
 /// Changes the weights of what would pull a thin label to nothing.  Returns whether debts add up.
 bool SurfaceEnergy::yield_to_thin(Point place, const DistanceGuard& guard, bool two_labels) {
-  if (!is_at(is_thin_at, place, guard)) return false;
-  std::vector<Label> thin;
-  for (const Balance& b : balances_) {
-    for (const Label label : {b.low, b.high}) {
-      const bool is_known = std::find(thin.begin(), thin.end(), label) != thin.end();
-      if (!is_known && is_thin_at(guard.labels(), place, label)) thin.push_back(label);
-    }
-  }
-  const auto any_is = [&](LabelTest* test) {
-    return std::any_of(thin.begin(), thin.end(),
-                       [&](Label label) { return test(guard.labels(), place, label); });
-  };
-  const bool is_sheet = any_is(is_sheet_at), is_thread = !is_sheet && any_is(is_thread_at);
+  const std::optional<ThinLabel> thin = find_thin(guard.labels(), place);
+  if (!thin) return false;
   if (two_labels) {
-    const bool is_speck = area_weight_ > 0.0 && any_is(is_speck_at);
-    const ThinShares& shares = is_speck             ? kAtSpeck
-                               : is_sheet           ? kAtSheet
-                               : is_thread          ? kAtThread
-                               : weights_.keep_thin ? kAtKept
-                                                    : kAtThin;
+    const ThinShares& shares = thin->is_speck && area_weight_ > 0.0 ? kAtSpeck
+                               : thin->is_sheet                     ? kAtSheet
+                               : thin->is_thread                    ? kAtThread
+                               : weights_.keep_thin                 ? kAtKept
+                                                                    : kAtThin;
     area_weight_ *= shares.area;
     bend_weight_ *= shares.bend;
     needle_weight_ *= shares.needle;
   }
-  return is_sheet || is_thread || weights_.keep_thin;
+  return thin->is_sheet || thin->is_thread || weights_.keep_thin;
+}
+
+/// Returns what is true of any of v's labels that are thin there, and nothing if none is.
+std::optional<ThinLabel> SurfaceEnergy::find_thin(const LabelBox& labels, Point place) const {
+  std::optional<ThinLabel> out;
+  for (auto b = balances_.begin(); b != balances_.end(); ++b) {
+    for (const Label label : {b->low, b->high}) {
+      const bool is_known = std::any_of(balances_.begin(), b, [label](const Balance& other) {
+        return other.low == label || other.high == label;
+      });
+      if (is_known) continue;
+      if (const auto thin = thin_label_at(labels, place, label)) {
+        if (!out) out.emplace();
+        *out |= *thin;
+      }
+    }
+  }
+  return out;
 }
 
 /// Keeps what v owed before its visit.
 void SurfaceEnergy::remember(const VolumeDebts& debts) {
   for (Balance& b : balances_) b.before = debts.of(star_->vertex(), b.low, b.high);
-}
-
-bool SurfaceEnergy::is_at(LabelTest* test, Point place, const DistanceGuard& guard) const {
-  return std::any_of(balances_.begin(), balances_.end(), [&](const Balance& b) {
-    return test(guard.labels(), place, b.low) || test(guard.labels(), place, b.high);
-  });
 }
 
 double SurfaceEnergy::min_cosine() const {

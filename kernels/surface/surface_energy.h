@@ -5,6 +5,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -15,6 +16,7 @@
 #include "kernels/quality/star_batch.h"
 #include "kernels/surface/line_field.h"
 #include "kernels/surface/surface_star.h"
+#include "kernels/surface/thin_label.h"
 
 namespace mw {
 
@@ -93,12 +95,12 @@ struct SurfaceWeights {
 /// 1 / (1 + (8 d)^8) times as much, where d is the mean distance that is owed, in voxels.
 ///
 /// Thin labels.  A sheet of one voxel whose voxels touch along edges is held there, so what is
-/// between these places has to be thicker than the sheet, and bends count less at a label that
-/// is_thin_at().  Where it is_sheet_at() or is_thread_at(), and with keep_thin everywhere, debts
-/// are added to those that vertices had before, and bends count still less.
+/// between these places has to be thicker than the sheet, and bends count less at a thin label
+/// (thin_label_at()).  Where it is a sheet or a thread, and with keep_thin everywhere, debts are
+/// added to those that vertices had before, and bends count still less.
 ///
 /// Specks.  Area, bends and needles of a part of one to three voxels say nothing, and would pull it
-/// to nothing.  They are left out where a vertex is between two labels, one of which is_speck_at().
+/// to nothing.  They are left out where a vertex is between two labels, one of which is a speck.
 ///
 /// Bends.  The sum of the bend energies (surface_star.h) of spokes and rims.
 ///
@@ -142,8 +144,6 @@ class SurfaceEnergy {
   [[nodiscard]] double min_cosine() const;
 
  private:
-  using LabelTest = bool(const LabelBox& labels, Point place, Label label);
-
   /// Sums of the fit between two labels.
   struct Balance {
     Label low = 0;
@@ -176,7 +176,7 @@ class SurfaceEnergy {
   void yield_to(const VolumeDebts& debts);
   bool yield_to_thin(Point place, const DistanceGuard& guard, bool two_labels);
   void remember(const VolumeDebts& debts);
-  [[nodiscard]] bool is_at(LabelTest* test, Point place, const DistanceGuard& guard) const;
+  [[nodiscard]] std::optional<ThinLabel> find_thin(const LabelBox& labels, Point place) const;
   [[nodiscard]] double raw_value_at(const Vec3& x) const;
   [[nodiscard]] double needles() const;
   void add_area(const Vec3& x, double scale, StarTerms& terms) const;

@@ -61,6 +61,12 @@ struct Surroundings {
     constexpr unsigned kAll = (1U << 2 * kAround) - 1;
     return std::any_of(layers.begin(), layers.end(), [](unsigned some) { return some == kAll; });
   }
+  /// True if none are in the outermost layer.
+  [[nodiscard]] bool are_inside() const {
+    constexpr unsigned kOutermost = 1U | 1U << (2 * kAround - 1);
+    return std::none_of(layers.begin(), layers.end(),
+                        [](unsigned some) { return (some & kOutermost) != 0; });
+  }
   /// True if all are in one layer across some axis.
   [[nodiscard]] bool are_flat() const {
     return std::any_of(layers.begin(), layers.end(),
@@ -93,34 +99,18 @@ Surroundings look_around(const LabelBox& labels, Index3 corner, Label label) {
 
 }  // namespace
 
-bool is_thin_at(const LabelBox& labels, Point place, Label label) {
-  return is_without_cubes(labels, nearest_corner(place), 2, label);
-}
-
-bool is_sheet_at(const LabelBox& labels, Point place, Label label) {
-  constexpr std::int64_t kReach = 5;
-  constexpr int kLeast = 56;
+std::optional<ThinLabel> thin_label_at(const LabelBox& labels, Point place, Label label) {
+  constexpr std::int64_t kReachOfThin = 2, kReachOfSheet = 5;
+  constexpr int kLeastOfSheet = 56, kMostOfThread = 20;
   const Index3 corner = nearest_corner(place);
+  if (!is_without_cubes(labels, corner, kReachOfThin, label)) return std::nullopt;
   const Surroundings around = look_around(labels, corner, label);
-  return around.voxels >= kLeast && !around.are_flat() &&
-         is_without_cubes(labels, corner, kReach, label);
-}
-
-bool is_thread_at(const LabelBox& labels, Point place, Label label) {
-  constexpr int kMost = 20;
-  const Surroundings around = look_around(labels, nearest_corner(place), label);
-  return around.voxels <= kMost && around.go_through() && is_thin_at(labels, place, label);
-}
-
-bool is_speck_at(const LabelBox& labels, Point place, Label label) {
-  constexpr std::int64_t kReach = 3;
-  if (!is_thin_at(labels, place, label)) return false;
-  const Box3 near = voxels_around(nearest_corner(place), kReach);
-  bool goes_on = false;
-  for_each_index(voxels_around(nearest_corner(place), kReach + 1), [&](Index3 voxel) {
-    goes_on = goes_on || (!near.contains(voxel) && has_label(labels, voxel, label));
-  });
-  return !goes_on;
+  return ThinLabel{
+      .is_sheet = around.voxels >= kLeastOfSheet && !around.are_flat() &&
+                  is_without_cubes(labels, corner, kReachOfSheet, label),
+      .is_thread = around.voxels <= kMostOfThread && around.go_through(),
+      .is_speck = around.are_inside(),
+  };
 }
 
 }  // namespace mw

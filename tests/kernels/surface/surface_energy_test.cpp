@@ -159,16 +159,16 @@ struct Shares {
 Shares shares_at(const TetMesh& mesh, const DistanceGuard& guard, const SurfaceStar& star) {
   const LocalVertex v = star.vertex();
   if (mesh.order(v) != (mesh.planes(v) != 0 ? 3 : 2)) return {};
-  const auto any_is = [&](auto test) {
-    return std::any_of(
-        star.triangles().begin(), star.triangles().end(), [&](const SurfaceTriangle& t) {
-          const Point place = mesh.position(v);
-          return test(guard.labels(), place, t.low) || test(guard.labels(), place, t.high);
-        });
-  };
-  if (!any_is(is_thin_at)) return {};
-  if (any_is(is_sheet_at)) return {.area = 1.5, .bend = 0.4};
-  if (any_is(is_thread_at)) return {.area = 0.1, .bend = 0.1};
+  std::optional<ThinLabel> thin;
+  for (const SurfaceTriangle& t : star.triangles()) {
+    for (const Label label : {t.low, t.high}) {
+      const auto found = thin_label_at(guard.labels(), mesh.position(v), label);
+      if (found) thin = thin.value_or(ThinLabel{}) |= *found;
+    }
+  }
+  if (!thin) return {};
+  if (thin->is_sheet) return {.area = 1.5, .bend = 0.4};
+  if (thin->is_thread) return {.area = 0.1, .bend = 0.1};
   return {.bend = 0.6};
 }
 

@@ -84,8 +84,9 @@ TEST(ThinLabel, HasNoCubeOfEightVoxelsWithinTwo) {
     const bool expected = !has_cube(voxels_near(labels, around, 2));
     const bool ends =
         voxels_near(labels, around, 3).size() == voxels_near(labels, around, 4).size();
-    EXPECT_EQ(is_thin_at(labels, corner(around), 1), expected) << i;
-    EXPECT_EQ(is_speck_at(labels, corner(around), 1), expected && ends) << i;
+    const auto found = thin_label_at(labels, corner(around), 1);
+    EXPECT_EQ(found.has_value(), expected) << i;
+    EXPECT_EQ(found && found->is_speck, expected && ends) << i;
     thin += expected ? 1 : 0;
     specks += expected && ends ? 1 : 0;
   }
@@ -141,8 +142,9 @@ TEST(ThinLabel, IsASheetOrAThreadWhereItGoesOn) {
                           !has_cube(voxels_near(labels, around, 5));
     const bool is_thread = near.size() <= 20 && !layers_of(near, 8).empty() &&
                            !has_cube(voxels_near(labels, around, 2));
-    EXPECT_EQ(is_sheet_at(labels, corner(around), 1), is_sheet) << i;
-    EXPECT_EQ(is_thread_at(labels, corner(around), 1), is_thread) << i;
+    const auto thin = thin_label_at(labels, corner(around), 1);
+    EXPECT_EQ(thin && thin->is_sheet, is_sheet) << i;
+    EXPECT_EQ(thin && thin->is_thread, is_thread) << i;
     ++found[is_sheet ? 2 : is_thread ? 1 : 0];
   }
   for (const int count : found) EXPECT_GT(count, 50);
@@ -154,9 +156,9 @@ TEST(ThinLabel, IsThatOfTheNearestCorner) {
   for_each_index(Box3{{0, 8, 4}, {2, 10, 6}}, [&](Index3 v) { at(labels, v) = 1; });
   Point place = corner({3, 9, 5});
   place.x += kUnitsPerVoxel / 2 - 1;
-  EXPECT_TRUE(is_thin_at(labels, place, 1));
+  EXPECT_TRUE(thin_label_at(labels, place, 1));
   place.x -= kUnitsPerVoxel;
-  EXPECT_FALSE(is_thin_at(labels, place, 1));
+  EXPECT_FALSE(thin_label_at(labels, place, 1));
 }
 
 }  // namespace
