@@ -4,6 +4,8 @@
 #include "kernels/simplify/simplify.h"
 
 #include <algorithm>
+#include <limits>
+#include <span>
 
 #include "kernels/mesh/failed_pairs.h"
 #include "kernels/mesh/star_boxes.h"
@@ -12,6 +14,7 @@
 #include "kernels/simplify/contraction_filters.h"
 #include "kernels/simplify/vertex_queue.h"
 #include "kernels/size/edge_limits.h"
+#include "kernels/surface/line_edges.h"
 #include "kernels/topology/link_condition.h"
 
 namespace mw {
@@ -120,6 +123,15 @@ void push_cheapest(CandidateFinder& finder, LocalVertex v, VertexQueue& queue) {
   if (!candidates.empty()) queue.push(v, least_cost(candidates));
 }
 
+/// Where the limits on edges are above this many voxels, touches go in the order of cost
+/// (bench/parameters.md, "Lines").
+constexpr double kShortLimit = 3.5;
+
+/// Are edges contracted up to sizes, and not down to a number of vertices?
+bool is_sized(const SimplifyOptions& options) {
+  return options.demands.sizes != nullptr && options.enough_vertices == 0;
+}
+
 class Simplifier {
  public:
   Simplifier(TetMesh& mesh, const Metric& metric, const SimplifyOptions& options,
@@ -133,6 +145,7 @@ class Simplifier {
         finder_(mesh, metric, finished_),
         shape_(mesh, metric, options),
         limits_(mesh, metric, options.demands.sizes),
+        limits_of_touches_(EdgeLimits::of_moves(mesh, metric, options.demands.sizes)),
         inner_(mesh, options.demands.inner),
         topology_(mesh, options.topology),
         topology_on_box_(mesh, KeptTopology::kInterfaces),
@@ -141,6 +154,9 @@ class Simplifier {
         bends_(mesh, metric) {}
 
   SimplifyStats run() {
+    if (is_sized(options_) && options_.demands.sizes->least() < kShortLimit * voxel_edge()) {
+      contract_touches();
+    }
     options_.seeding(mesh_.vertex_count(), [this](std::size_t first, std::size_t last) {
       CandidateFinder scout(mesh_, metric_, finished_);
       for (auto v = static_cast<LocalVertex>(first); v < last; ++v) {
@@ -180,9 +196,40 @@ class Simplifier {
     }
   }
 
+  [[nodiscard]] double voxel_edge() const { return metric_.voxel().minCoeff(); }
+
+  /// Contracts touches (LineEdges) wherever that leaves good tets, at any cost.  They come first,
+  /// because edges around them are short at first, and limits would refuse longer ones later.
+  void contract_touches() {
+    at_touch_ = true;
+    std::vector<LocalVertex> ends;
+    for (LocalVertex v = 0; v < mesh_.vertex_count(); ++v) {
+      while (mesh_.is_alive(v) && mesh_.is_free(v) && contract_touch(v, ends)) {
+      }
+    }
+    at_touch_ = false;
+  }
+
+  bool contract_touch(LocalVertex v, std::vector<LocalVertex>& ends) {
+    if (mesh_.order(v) < kLabelsOfLine) return false;
+    const std::span<const LocalVertex> found = lines_.at(mesh_, v);
+    ends.assign(found.begin(), found.end());
+    return std::any_of(ends.begin(), ends.end(), [&](LocalVertex w) {
+      if (!mesh_.is_free(w) || !lines_.is_touch(mesh_, v, w)) return false;
+      const std::optional<Contraction> c = plan_contraction(mesh_, metric_, v, w);
+      return c && try_contraction(*c);
+    });
+  }
+
+  /// The most that a place may cost.
+  [[nodiscard]] double bound() const {
+    return at_touch_ ? std::numeric_limits<double>::infinity() : queue_.current_bound();
+  }
+
   [[nodiscard]] bool keeps_lengths(const Contraction& c) const {
-    return limits_.allow_star(c.drop, c.keep, c.position) &&
-           (!c.moves || limits_.allow_star(c.keep, c.drop, c.position));
+    const EdgeLimits& limits = at_touch_ ? limits_of_touches_ : limits_;
+    return limits.allow_star(c.drop, c.keep, c.position) &&
+           (!c.moves || limits.allow_star(c.keep, c.drop, c.position));
   }
 
   /// The verdict on edges and tets at the place of c alone.
@@ -204,7 +251,7 @@ class Simplifier {
       return verdict;
     }
     for (const Contraction& other : other_positions(mesh_, metric_, c)) {
-      if (other.cost > queue_.current_bound()) continue;
+      if (other.cost > bound()) continue;
       if (judge_junction(other) != StarVerdict::kGood) continue;
       c = other;
       return StarVerdict::kGood;
@@ -217,7 +264,7 @@ class Simplifier {
     if (bends_.stays_smooth(c)) return true;
     if (!may_go_elsewhere(c)) return false;
     for (const Contraction& other : other_positions(mesh_, metric_, c)) {
-      if (other.position == c.position || other.cost > queue_.current_bound()) continue;
+      if (other.position == c.position || other.cost > bound()) continue;
       if (!bends_.stays_smooth(other) || judge_junction(other) != StarVerdict::kGood) continue;
       c = other;
       return true;
@@ -250,7 +297,7 @@ class Simplifier {
 
   bool try_contraction(Contraction c) {
     ++stats_.tried;
-    if (options_.only_short && !limits_.is_short(c.keep, c.drop)) return false;
+    if (options_.only_short && !at_touch_ && !limits_.is_short(c.keep, c.drop)) return false;
     if (!inner_.allows_contraction(c.keep, c.drop)) {
       ++stats_.no_inner;
       return false;
@@ -297,7 +344,9 @@ class Simplifier {
   FinishedVertices finished_;
   CandidateFinder finder_;
   ShapeFilter shape_;
-  EdgeLimits limits_;
+  EdgeLimits limits_, limits_of_touches_;
+  LineEdges lines_;
+  bool at_touch_ = false;
   InnerFilter inner_;
   LinkCondition topology_;
   LinkCondition topology_on_box_;
@@ -324,8 +373,7 @@ SimplifyStats& SimplifyStats::operator+=(const SimplifyStats& other) {
 SimplifyStats simplify(TetMesh& mesh, const Metric& metric, const SimplifyOptions& options,
                        DistanceGuard* guard) {
   SimplifyStats stats = Simplifier(mesh, metric, options, guard).run();
-  const bool sized = options.demands.sizes != nullptr && options.enough_vertices == 0;
-  if (!sized || options.inner_quality <= options.quality_floor) return stats;
+  if (!is_sized(options) || options.inner_quality <= options.quality_floor) return stats;
   SimplifyOptions rest = options;
   rest.inner_quality = options.quality_floor;
   rest.only_short = true;

@@ -58,7 +58,9 @@ struct SimplifyStats {
 /// bound of VertexQueue.  Where shapes refuse the planned place, other_positions() are tried,
 /// except with options.edge_variance, the paper's filter, which goes with the paper's place.  Where
 /// sizes are asked and enough_vertices is 0, a second pass contracts much shorter edges, also of
-/// inner vertices, down to quality_floor.  guard keeps the distance bound; null means no bound.
+/// inner vertices, down to quality_floor; and where sizes are small touches
+/// (kernels/surface/line_edges.h) are contracted first, up to the limits that moves have, so that
+/// lines of three labels do not fork.  guard keeps the distance bound; null means no bound.
 /// ENSURES: all tets strictly positive (exactly), options.topology kept, box kept, fixed vertices
 ///          untouched; the result depends on the mesh's content only.
 SimplifyStats simplify(TetMesh& mesh, const Metric& metric, const SimplifyOptions& options,

@@ -1,78 +1,94 @@
 // SPDX-FileCopyrightText: The mwmesh authors
 // SPDX-License-Identifier: Apache-2.0
-// Counts the labels around the edges of a star, and interpolates along lines.
+// Follows lines from vertex to vertex, and fits cubics to them.
 #include "kernels/surface/line_field.h"
 
 #include <algorithm>
+#include <span>
+#include <utility>
 
-#include "kernels/core/sort_distinct.h"
+#include "kernels/surface/line_edges.h"
 
 namespace mw {
 namespace {
 
-/// A label around the edge from a vertex to `end`.
-struct EdgeLabel {
-  LocalVertex end = 0;
-  Label label = 0;
-
-  friend auto operator<=>(const EdgeLabel&, const EdgeLabel&) = default;
-};
-
-/// Finds the far ends of the edges at v that have three labels around them or more, ascending.
-void find_line_edges(const TetMesh& mesh, LocalVertex v, std::vector<EdgeLabel>& around,
-                     std::vector<LocalVertex>& ends) {
-  around.clear();
-  ends.clear();
-  for (const LinkTriangle& t : mesh.star(v)) {
-    for (const LocalVertex w : {t.a, t.b, t.c}) {
-      if (w != mesh.infinity()) around.push_back({w, without_side(t.label)});
-    }
-  }
-  sort_distinct(around);
-  for (std::size_t i = 0; i + 2 < around.size(); ++i) {
-    const LocalVertex w = around[i].end;
-    if (around[i + 2].end == w && (ends.empty() || ends.back() != w)) ends.push_back(w);
-  }
-}
+/// How far along a line vertices count, and how far from a cubic they may be in the mean for all of
+/// them to count, in voxels: voxels make a line no more uneven (bench/parameters.md, "Lines").
+constexpr double kReachOfLine = 6.0, kMostAstray = 0.25;
+/// The place on a curve through more than a few vertices counts as much more, because their own
+/// errors cancel (bench/parameters.md, "Lines").
+constexpr double kShareOfMany = 2.0;
+constexpr std::size_t kFew = 4;
 
 /// The known vertices of a line around the one that is looked for, which is at 0.
 class Curve {
  public:
   /// along: the length of the line from 0, negative on one side.
-  void add(const Vec3& place, double along) {
-    places_[count_] = place;
-    along_[count_++] = along;
+  void add(const Vec3& place, double along, double weight) {
+    known_.push_back({place, along, weight});
   }
-  /// Returns the value at 0 of the polynomial through all that were added (Lagrange).
-  [[nodiscard]] Vec3 at_zero() const {
-    Vec3 sum = Vec3::Zero();
-    for (std::size_t i = 0; i < count_; ++i) {
-      double weight = 1.0;
-      for (std::size_t j = 0; j < count_; ++j) {
-        if (j != i) weight *= along_[j] / (along_[j] - along_[i]);
-      }
-      sum += weight * places_[i];
+  [[nodiscard]] std::size_t size() const { return known_.size(); }
+
+  /// Fits the cubic that is nearest to all that were added; of three vertices it is a parabola.
+  /// It is a sum of polynomials that are orthogonal over the vertices (Forsythe).
+  /// REQUIRES: three at least.
+  void fit() {
+    constexpr std::size_t kTerms = 4;
+    at_zero_ = Vec3::Zero();
+    astray_ = weights_ = 0.0;
+    for (const Known& k : known_) {
+      astray_ += k.weight * k.place.squaredNorm();
+      weights_ += k.weight;
     }
-    return sum;
+    double now_at_zero = 1.0, last_at_zero = 0.0, last_norm = 0.0;
+    for (std::size_t degree = 0; degree < std::min(kTerms, known_.size()); ++degree) {
+      double norm = 0.0, moment = 0.0;
+      Vec3 product = Vec3::Zero();
+      for (const Known& k : known_) {
+        norm += k.weight * k.now * k.now;
+        moment += k.weight * k.now * k.now * k.along;
+        product += k.weight * k.now * k.place;
+      }
+      at_zero_ += now_at_zero / norm * product;
+      astray_ -= product.squaredNorm() / norm;
+      const double shift = moment / norm, back = degree == 0 ? 0.0 : norm / last_norm;
+      for (Known& k : known_) {
+        const double next = (k.along - shift) * k.now - back * k.last;
+        k.last = std::exchange(k.now, next);
+      }
+      const double next_at_zero = -shift * now_at_zero - back * last_at_zero;
+      last_at_zero = std::exchange(now_at_zero, next_at_zero);
+      last_norm = norm;
+    }
   }
+  [[nodiscard]] const Vec3& at_zero() const { return at_zero_; }
+  /// The mean squared distance of the vertices from the curve.
+  [[nodiscard]] double astray() const { return astray_ / weights_; }
 
  private:
-  std::array<Vec3, 4> places_;
-  std::array<double, 4> along_{};
-  std::size_t count_ = 0;
+  struct Known {
+    Vec3 place;
+    double along = 0.0;
+    double weight = 0.0;
+    double now = 1.0;   ///< value of the polynomial of the present degree
+    double last = 0.0;  ///< and of the one before
+  };
+
+  std::vector<Known> known_;
+  Vec3 at_zero_ = Vec3::Zero();
+  double astray_ = 0.0;
+  double weights_ = 0.0;
 };
 
 }  // namespace
 
 void LineField::find(const TetMesh& mesh) {
-  constexpr int kLabelsOfLine = 3;
   neighbours_.resize(mesh.vertex_count());
-  std::vector<EdgeLabel> around;
-  std::vector<LocalVertex> ends;
+  LineEdges edges;
   for (LocalVertex v = 0; v < mesh.vertex_count(); ++v) {
     neighbours_[v] = {v, v};
     if (!mesh.is_alive(v) || !mesh.is_free(v) || mesh.order(v) < kLabelsOfLine) continue;
-    find_line_edges(mesh, v, around, ends);
+    const std::span<const LocalVertex> ends = edges.at(mesh, v);
     if (ends.size() == 2) neighbours_[v] = {ends[0], ends[1]};
   }
 }
@@ -87,22 +103,47 @@ std::optional<LinePlace> LineField::place(const TetMesh& mesh, const Metric& met
                                           LocalVertex v) const {
   if (!has(v)) return std::nullopt;
   const auto [p, q] = neighbours_[v];
-  const std::optional<LocalVertex> before = beyond(p, v), after = beyond(q, v);
-  if (!before && !after) return std::nullopt;
+  if (!has(p) && !has(q)) return std::nullopt;
   const Point origin = mesh.position(v);
   const auto to = [&](LocalVertex w) { return metric.vector(origin, mesh.position(w)); };
   const Vec3 to_p = to(p), to_q = to(q), way = to_q - to_p;
   const double chord = way.norm(), mean = 0.5 * (to_p.norm() + to_q.norm());
   if (!(chord > 0.0)) return std::nullopt;
+  const double voxel = metric.voxel().minCoeff(), reach = kReachOfLine * voxel;
   // Lengths count as half the mean at least: the curve would swing out beside a short edge.
-  const auto length = [mean](const Vec3& edge) { return std::max(edge.norm(), 0.5 * mean); };
-  const double at_p = -length(to_p), at_q = length(to_q);
-  Curve curve;
-  curve.add(to_p, at_p);
-  curve.add(to_q, at_q);
-  if (before) curve.add(to(*before), at_p - length(to(*before) - to_p));
-  if (after) curve.add(to(*after), at_q + length(to(*after) - to_q));
-  return LinePlace{curve.at_zero(), way / chord, mean};
+  const auto add_side = [&](LocalVertex first, double sign, std::size_t most, Curve& curve) {
+    LocalVertex last = v, w = first;
+    Vec3 before = Vec3::Zero();
+    double along = 0.0;
+    for (std::size_t count = 0; count < most && w != v; ++count) {
+      const Vec3 place = to(w);
+      along += std::max((place - before).norm(), 0.5 * mean);
+      const double share = 1.0 - along * along / (reach * reach);
+      if (most > kFew && !(share > 0.0)) return;
+      curve.add(place, sign * along, most > kFew ? share * share : 1.0);
+      const std::optional<LocalVertex> next = beyond(w, last);
+      if (!next) return;
+      last = std::exchange(w, *next);
+      before = place;
+    }
+  };
+  const auto curve_of = [&](std::size_t most) {
+    Curve curve;
+    add_side(p, -1.0, most, curve);
+    add_side(q, 1.0, most, curve);
+    return curve;
+  };
+  constexpr std::size_t kMany = 32;
+  if (Curve wide = curve_of(kMany); wide.size() > kFew) {
+    wide.fit();
+    const double most = kMostAstray * voxel;
+    if (wide.astray() < most * most) {
+      return LinePlace{wide.at_zero(), way / chord, mean, kShareOfMany};
+    }
+  }
+  Curve near = curve_of(kFew / 2);
+  near.fit();
+  return LinePlace{near.at_zero(), way / chord, mean};
 }
 
 }  // namespace mw

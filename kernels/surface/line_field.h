@@ -14,9 +14,10 @@ namespace mw {
 
 /// Where a smooth line would have a vertex, and how the line runs there.
 struct LinePlace {
-  Vec3 place;         ///< from the vertex, metric units
-  Vec3 direction;     ///< unit vector from one neighbour on the line to the other
-  double edge = 0.0;  ///< mean length of the line's two edges at the vertex, metric units
+  Vec3 place;          ///< from the vertex, metric units
+  Vec3 direction;      ///< unit vector from one neighbour on the line to the other
+  double edge = 0.0;   ///< mean length of the line's two edges at the vertex, metric units
+  double share = 1.0;  ///< how much the place counts, 1 where few vertices tell it
 };
 
 /// The edges that have three labels around them or more, the exterior included.  A vertex is on a
@@ -27,10 +28,17 @@ class LineField {
   /// Finds the neighbours on lines of all free vertices.
   void find(const TetMesh& mesh);
 
-  /// Returns where the curve through the two neighbours on each side has the vertex: the cubic over
-  /// the lengths of the edges, so that a line of even curvature keeps it.  Where one of the two
-  /// neighbours is an end, the curve is the parabola through the other three vertices.  Returns
-  /// nothing where both are, and where v is on no line.
+  /// Returns where a curve along the line has the vertex: a cubic over the lengths of the edges, so
+  /// that a line of even curvature keeps it.
+  ///
+  /// Where more than four vertices lie within six voxels along the line, and are within 0.25 voxel
+  /// of a cubic in the mean, it is that cubic (least squares, weights that fall to nothing at six
+  /// voxels), and the place counts twice.  The zigzag of the voxels is some voxels long, so a curve
+  /// through the nearest vertices alone follows it where edges are short.  Otherwise the curve goes
+  /// through the two neighbours on each side; where one of the two neighbours is an end, it is the
+  /// parabola through the other three vertices.
+  ///
+  /// Returns nothing where both are ends, and where v is on no line.
   [[nodiscard]] std::optional<LinePlace> place(const TetMesh& mesh, const Metric& metric,
                                                LocalVertex v) const;
 

@@ -257,7 +257,7 @@ void SurfaceEnergy::collect(const TetMesh& mesh, const Metric& metric, const Sur
 void SurfaceEnergy::add_line(const LinePlace& place) {
   const Eigen::Matrix3d across =
       Eigen::Matrix3d::Identity() - place.direction * place.direction.transpose();
-  line_square_ = weights_.line / (place.edge * place.edge) * across;
+  line_square_ = weights_.line * place.share / (place.edge * place.edge) * across;
   line_linear_ = line_square_ * place.place;
   present_ = raw_value_at(Vec3::Zero());
 }
