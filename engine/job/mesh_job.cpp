@@ -232,7 +232,8 @@ class MeshRun {
     run_.why_no_certificate = plan_.why_not;
     run_.why_no_volumes =
         opened_.scores() != nullptr ? kVolumesOfScores : why_no_volumes(promises());
-    run_.stages = stages_.costs();
+    // Other work of the process would be told as work of this run.
+    if (job_.run.owns_process) run_.stages = stages_.costs();
     run_.resources = meter_.read();
   }
 

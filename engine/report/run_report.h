@@ -65,8 +65,8 @@ struct FinishedRun {
   std::optional<io::WeldFacts> welds;
   std::vector<engine::SampleFacts> samples;
   engine::RunReport engine;
-  double labels_seconds = 0;  ///< reading the volume once for its labels
-  std::vector<engine::StageCost> stages;
+  double labels_seconds = 0;              ///< reading the volume once for its labels
+  std::vector<engine::StageCost> stages;  ///< empty where the process is not the run's own
   engine::Resources resources;  ///< times until the mesh was written, memory until its digest
   std::string digest;           ///< empty if it was not made
   std::string fingerprint;      ///< of the labels

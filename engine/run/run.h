@@ -100,7 +100,8 @@ struct RunHooks {
   /// Optional, with several processes, on the one that speaks.  A thread of its own often asks it
   /// whether to save and end the run, which then throws StoppedAfterSave.
   std::function<bool()> stop_after_save;
-  /// If true, the allocator gives large pieces back at once under a tight budget (mallopt).
+  /// If true, nothing else goes on in this process: its processor time is the run's, and the
+  /// allocator gives large pieces back at once under a tight budget (mallopt).
   bool owns_process = false;
 };
 

@@ -199,12 +199,16 @@ std::uint64_t prepared_bytes(const io::DenseVolume& volume, const MeshSettings& 
                              const LabelNeed* need) {
   const Index3 margin = periodic_margin(settings);
   const Index3 shape = volume.info().shape + margin + margin;
+  // Labels of a cell are coarsened without its copies, so bricks of both have places meanwhile.
+  const bool has_cell = settings.periodic != 0 && is_coarsened(settings);
+  const std::uint64_t of_cell = has_cell ? brick_place_bytes(volume.info().shape) : 0;
   const bool sized = settings.sizes.limits_edges();
   const bool has_source = volume.raw().scores() != nullptr && !sized;
   if (need == nullptr) {
-    return prepared_label_bytes(shape, sized) + (has_source ? source_place_bytes(shape) : 0);
+    return of_cell + prepared_label_bytes(shape, sized) +
+           (has_source ? brick_place_bytes(shape) : 0);
   }
-  return prepared_label_bytes(bricks_of(*need, shape, settings), shape, sized);
+  return of_cell + prepared_label_bytes(bricks_of(*need, shape, settings), shape, sized);
 }
 
 LabelReaders::LabelReaders(const io::DenseVolume& volume, const MeshSettings& settings,

@@ -35,7 +35,8 @@ struct StageCost {
   double alone_seconds = 0.0;
 };
 
-/// Divides the time of a run among its stages.  Thread safety: one thread at a time.
+/// Divides the time of a run among its stages, which has the process for itself.
+/// Thread safety: one thread at a time.
 class StageMeter {
  public:
   StageMeter();

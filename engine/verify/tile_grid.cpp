@@ -50,27 +50,42 @@ Box3 TileGrid::meeting(const Box3& voxels) const {
 
 void PieceBuckets::make_pieces(int threads) {
   radius_ = audit::piece_radius(estimates_);
-  each_in_order<std::vector<PieceOfTile>>(
+  each_in_order<TilePieces>(
       {.threads = threads, .at_once = static_cast<std::size_t>(threads)}, grid_.size(),
       [this](std::uint32_t tile) { return pieces_of(tile); },
-      [this](std::uint32_t, std::vector<PieceOfTile>&& found) {
-        for (const PieceOfTile& piece : found) pieces_.add(piece.tile, piece.piece);
+      [this](std::uint32_t, TilePieces&& found) {
+        for (const PieceOfTile& piece : found.pieces) pieces_.add(piece.tile, piece.piece);
+        for (const audit::InterfaceTriangle& triangle : found.whole) {
+          cut(triangle, [this](const PieceOfTile& piece) { pieces_.add(piece.tile, piece.piece); });
+        }
       });
 }
 
-/// Returns the pieces of a tile's triangles, each with the tile that its middle lies in.
-std::vector<PieceBuckets::PieceOfTile> PieceBuckets::pieces_of(std::uint32_t tile) const {
+/// Calls visit on each piece of a triangle, with the tile that its middle lies in.
+template <class Visit>
+void PieceBuckets::cut(const audit::InterfaceTriangle& triangle, Visit visit) const {
   const std::array<double, 3> layers{static_cast<double>(layers_.x), static_cast<double>(layers_.y),
                                      static_cast<double>(layers_.z)};
+  audit::for_each_piece(triangle.corners, radius_, [&](const audit::VoxelTriangle& piece) {
+    audit::VoxelPoint middle = audit::centroid(piece);
+    for (std::size_t k = 0; k < 3; ++k) middle[k] /= layers[k];
+    visit(PieceOfTile{grid_.at(middle), {piece, triangle.labels}});
+  });
+}
+
+/// Cuts triangles until their pieces are many; those that are left, and large ones, stay whole.
+PieceBuckets::TilePieces PieceBuckets::pieces_of(std::uint32_t tile) const {
+  constexpr std::size_t kMostPieces = std::size_t{1} << 15U;
+  constexpr double kMostRadii = 8;
   std::vector<audit::InterfaceTriangle> triangles;
   triangles_.load(tile, triangles);
-  std::vector<PieceOfTile> out;
+  TilePieces out;
   for (const audit::InterfaceTriangle& t : triangles) {
-    audit::for_each_piece(t.corners, radius_, [&](const audit::VoxelTriangle& piece) {
-      audit::VoxelPoint middle = audit::centroid(piece);
-      for (std::size_t k = 0; k < 3; ++k) middle[k] /= layers[k];
-      out.push_back({grid_.at(middle), {piece, t.labels}});
-    });
+    if (out.pieces.size() >= kMostPieces || audit::radius(t.corners) > kMostRadii * radius_) {
+      out.whole.push_back(t);
+    } else {
+      cut(t, [&](const PieceOfTile& piece) { out.pieces.push_back(piece); });
+    }
   }
   return out;
 }

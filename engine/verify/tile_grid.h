@@ -123,8 +123,8 @@ class PieceBuckets {
     triangles_.add(tile, triangle);
     audit::add_estimates(triangle.corners, estimates_);
   }
-  /// REQUIRES: called once, after the last triangle.  Memory: a tile's triangles and pieces for
-  /// each thread.
+  /// REQUIRES: called once, after the last triangle.  Memory: a tile's triangles twice, and 6 MiB,
+  /// for each thread.
   void make_pieces(int threads);
 
   /// Returns the radius that no piece exceeds.
@@ -138,8 +138,14 @@ class PieceBuckets {
     std::uint32_t tile = 0;
     audit::InterfaceTriangle piece;
   };
+  struct TilePieces {
+    std::vector<PieceOfTile> pieces;
+    std::vector<audit::InterfaceTriangle> whole;  ///< triangles that are still to be cut
+  };
 
-  [[nodiscard]] std::vector<PieceOfTile> pieces_of(std::uint32_t tile) const;
+  template <class Visit>
+  void cut(const audit::InterfaceTriangle& triangle, Visit visit) const;
+  [[nodiscard]] TilePieces pieces_of(std::uint32_t tile) const;
 
   const TileGrid& grid_;
   Index3 layers_;

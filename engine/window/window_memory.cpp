@@ -139,7 +139,7 @@ std::uint64_t prepared_label_bytes(const NeededBricks& share, Index3 shape, bool
          (sized ? SizeField::making_bytes(shape) + kSourceBytesPerBrick * held : 0);
 }
 
-std::uint64_t source_place_bytes(Index3 shape) {
+std::uint64_t brick_place_bytes(Index3 shape) {
   return kSourceBytesPerBrick * static_cast<std::uint64_t>(bricks_of(shape).original.voxels());
 }
 

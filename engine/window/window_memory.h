@@ -55,8 +55,8 @@ struct WindowNeeds {
 /// Returns what PreparedLabels holds when it prepares only these bricks of the volume.
 [[nodiscard]] std::uint64_t prepared_label_bytes(const NeededBricks& share, Index3 shape,
                                                  bool sized = false);
-/// Returns what the places of a source surface in its file take; labels with scores have one, too.
-[[nodiscard]] std::uint64_t source_place_bytes(Index3 shape);
+/// Returns what the places of bricks in a file take: of a source surface, or of labels.
+[[nodiscard]] std::uint64_t brick_place_bytes(Index3 shape);
 /// Returns what PreparedLabels takes in addition while it is made.  has_scores says that labels
 /// come from scores.
 [[nodiscard]] std::uint64_t preparation_bytes(const MeshSettings& settings,

@@ -4,6 +4,7 @@
 
 #include <cerrno>
 #include <clocale>
+#include <cmath>
 #include <cstdlib>
 #include <string>
 
@@ -19,7 +20,9 @@ bool read_real_by_c(std::string_view text, double& value) {
   char* stop = nullptr;
   errno = 0;
   const double found = ::strtod_l(whole.c_str(), &stop, plain);
-  if (stop != whole.c_str() + whole.size() || errno == ERANGE) return false;
+  if (stop != whole.c_str() + whole.size()) return false;
+  const bool is_subnormal = found != 0.0 && std::isfinite(found);
+  if (errno == ERANGE && !is_subnormal) return false;
   value = found;
   return true;
 }

@@ -19,6 +19,7 @@ namespace mw::io {
 template <class T>
 [[nodiscard]] bool read_number(std::string_view text, T& value) {
 #ifndef __cpp_lib_to_chars
+  static_assert(std::is_integral_v<T> || std::is_same_v<T, double>);
   if constexpr (std::is_floating_point_v<T>)
     return read_real_by_c(text, value);
   else

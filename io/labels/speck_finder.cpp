@@ -79,6 +79,11 @@ struct Part {
   RawLabel label = 0;
 };
 
+/// Returns an amount of memory, in the unit of --memory where that sets the limits.
+std::string amount(std::uint64_t bytes, const SpeckLimits& limits) {
+  return limits.is_of_budget ? size_words(bytes) : text(bytes, " bytes");
+}
+
 class Finder {
  public:
   Finder(const SpeckRule& rule, const SpeckLimits& limits)
@@ -243,7 +248,8 @@ class Finder {
     throw Error(ErrorKind::kResource,
                 text("--drop-specks: two slices of the volume have more runs of labels than fit: "
                      "they take ",
-                     size_words(bytes), ", more than ", size_words(limits_.memory), "; ", way_out));
+                     amount(bytes, limits_), ", more than ", amount(limits_.memory, limits_), "; ",
+                     way_out));
   }
 
   SpeckRule rule_;
@@ -273,9 +279,9 @@ Specks find_specks(const LabelVolume& volume, const SpeckRule& rule, const Speck
 
 void fail_too_many_specks(const SpeckRule& rule, std::uint64_t specks, const SpeckLimits& limits,
                           std::uint64_t enough) {
-  std::string message = text("--drop-specks ", rule.min, ": ", specks,
-                             " components are smaller, and do not fit into ",
-                             size_words(limits.memory), "; they take ", size_words(enough), "; ");
+  std::string message = text(
+      "--drop-specks ", rule.min, ": ", specks, " components are smaller, and do not fit into ",
+      amount(limits.memory, limits), "; they take ", amount(enough, limits), "; ");
   if (limits.is_of_budget) {
     message += text("--memory ", mebibytes(SpeckLimits::kShare * enough),
                     " is enough, a quarter of which is theirs; or ");

@@ -215,7 +215,8 @@ class Simplifier {
     const std::span<const LocalVertex> found = lines_.at(mesh_, v);
     ends.assign(found.begin(), found.end());
     return std::any_of(ends.begin(), ends.end(), [&](LocalVertex w) {
-      if (!mesh_.is_free(w) || !lines_.is_touch(mesh_, v, w)) return false;
+      if (!mesh_.is_free(w) || (finished_.has(v) && finished_.has(w))) return false;
+      if (!lines_.is_touch(mesh_, v, w)) return false;
       const std::optional<Contraction> c = plan_contraction(mesh_, metric_, v, w);
       return c && try_contraction(*c);
     });

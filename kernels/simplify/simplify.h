@@ -28,7 +28,7 @@ struct SimplifyOptions {
   KeptTopology topology = KeptTopology::kLabels;
   bool keep_smooth = false;  ///< contractions that fold interfaces are refused (BendFilter)
   TetDemands demands;        ///< demands that are met stay met; others may stay unmet
-  bool only_short = false;   ///< only edges that EdgeLimits::is_short() finds short are contracted
+  bool only_short = false;   ///< touches, and edges that EdgeLimits::is_short() finds short alone
   /// Boxes that an earlier march has finished.  Edges between vertices whose stars lie in one of
   /// these boxes, and that have not changed in this window, are not looked at.
   std::vector<LatticeBox> finished;

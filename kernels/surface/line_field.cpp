@@ -19,6 +19,9 @@ constexpr double kReachOfLine = 6.0, kMostAstray = 0.25;
 /// errors cancel (bench/parameters.md, "Lines").
 constexpr double kShareOfMany = 2.0;
 constexpr std::size_t kFew = 4;
+/// A vertex at the end of the reach, which would count for less, is left out: a fit to places of no
+/// weight would divide by rounding errors.
+constexpr double kLeastShare = 1e-3;
 
 /// The known vertices of a line around the one that is looked for, which is at 0.
 class Curve {
@@ -119,7 +122,7 @@ std::optional<LinePlace> LineField::place(const TetMesh& mesh, const Metric& met
       const Vec3 place = to(w);
       along += std::max((place - before).norm(), 0.5 * mean);
       const double share = 1.0 - along * along / (reach * reach);
-      if (most > kFew && !(share > 0.0)) return;
+      if (most > kFew && !(share > kLeastShare)) return;
       curve.add(place, sign * along, most > kFew ? share * share : 1.0);
       const std::optional<LocalVertex> next = beyond(w, last);
       if (!next) return;

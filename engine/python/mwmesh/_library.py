@@ -214,8 +214,8 @@ def call(name, *arguments):
     error = c_void_p()
     with _counted():
         result = getattr(LIB, f"mw_{name}")(*arguments, byref(error))
-    if error.value:
-        _raise(error, arguments)
+        if error.value:
+            _raise(error, arguments)
     return result
 
 

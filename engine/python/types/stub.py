@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """Writes the types of the package's functions, with the arguments that the table of options has.
 
-Usage: stub.py TEMPLATE STUB    with the package on PYTHONPATH
+Usage: stub.py FOLDER TEMPLATE STUB    where the package is in FOLDER
 
 A line `# options: USE` of the template becomes the arguments of a use ("open", "mesh", "write",
 "verify") that the function does not have already and that are no settings.
@@ -12,9 +12,9 @@ import pathlib
 import re
 import sys
 
-import mwmesh
-from mwmesh import _options
-from mwmesh._errors import NAMES
+sys.path.insert(0, sys.argv[1])
+from mwmesh import _options  # noqa: E402
+from mwmesh._errors import NAMES  # noqa: E402
 
 
 def type_of(name):
@@ -45,5 +45,5 @@ def with_arguments(template):
     return "".join(lines)
 
 
-source, target = map(pathlib.Path, sys.argv[1:])
+source, target = map(pathlib.Path, sys.argv[2:])
 target.write_text(with_arguments(source.read_text(encoding="utf-8")), encoding="utf-8")

@@ -3,6 +3,7 @@
 // Names of outputs while they are written, and what killed runs have left under such names.
 #include "io/file/sink/partial_file.h"
 
+#include <dirent.h>
 #include <fcntl.h>
 #include <linux/magic.h>
 #include <sys/file.h>
@@ -17,6 +18,7 @@
 #include <charconv>
 #include <fstream>
 #include <map>
+#include <memory>
 #include <mutex>
 #include <string>
 #include <vector>
@@ -145,6 +147,10 @@ void remove_if_left(const fs::path& path, std::string_view mark) {
   fs::remove_all(path, ignored);
 }
 
+struct CloseFolder {
+  void operator()(DIR* folder) const { ::closedir(folder); }
+};
+
 /// Returns the names of all partial outputs that were in the folder at the first call for it.
 std::vector<std::string> found_in(const fs::path& folder) {
   static std::mutex mutex;
@@ -153,13 +159,12 @@ std::vector<std::string> found_in(const fs::path& folder) {
   std::error_code ignored;
   const auto [position, is_new] = found.try_emplace(fs::absolute(folder, ignored));
   if (!is_new) return position->second;
-  try {
-    for (const auto& entry : fs::directory_iterator(folder)) {
-      std::string name = entry.path().filename().string();
-      if (name.find(kPartial) != name.npos) position->second.push_back(std::move(name));
-    }
-  } catch (const fs::filesystem_error&) {
-    // A folder that cannot be listed keeps what it has; files may be made there all the same.
+  // std::filesystem's iterator ends the process where memory is out while it goes on.  A folder
+  // that cannot be listed keeps what it has; files may be made there all the same.
+  const std::unique_ptr<DIR, CloseFolder> entries(::opendir(position->first.c_str()));
+  while (const dirent* const entry = entries ? ::readdir(entries.get()) : nullptr) {
+    std::string name = static_cast<const char*>(entry->d_name);
+    if (name.find(kPartial) != name.npos) position->second.push_back(std::move(name));
   }
   return position->second;
 }
