@@ -43,8 +43,8 @@ constexpr const char* kJsonUser = "io/json/json.cpp";
 /// What the system offers beside C++.
 bool is_posix(const std::string& name) {
   return name.starts_with("sys/") ||
-         is_any(name, {"dlfcn.h", "errno.h", "fcntl.h", "linux/magic.h", "malloc.h", "poll.h",
-                       "pthread.h", "signal.h", "spawn.h", "stdlib.h", "unistd.h"});
+         is_any(name, {"dirent.h", "dlfcn.h", "errno.h", "fcntl.h", "linux/magic.h", "malloc.h",
+                       "poll.h", "pthread.h", "signal.h", "spawn.h", "stdlib.h", "unistd.h"});
 }
 
 bool touches_files_or_clocks(const std::string& name) {
