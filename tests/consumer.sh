@@ -54,7 +54,7 @@ END
 fail_allocations() { # TIMES
   local preload="$build/libfailing_malloc.so" all n code
   [[ -e "$preload" ]] || return 0
-  # An output's folder is listed, so many files in it make many allocations there.
+  # An output's folder is listed: 2,000 files in it make thousands of allocations there.
   for ((n = 0; n < 2000; ++n)); do : >"$folder/a neighbour of the output $n"; done
   local run=(env LD_LIBRARY_PATH="$library" LD_PRELOAD="$preload")
   "${run[@]}" FAILING_MALLOC_COUNT="$folder/count" "$folder/in_c" "$folder/v.raw" "$folder/c.vtu" local >/dev/null
