@@ -10,6 +10,7 @@
 #include "engine/keep/window_records.h"
 #include "engine/store/journal/folder_lock.h"
 #include "engine/store/journal/mapped_file.h"
+#include "io/file/folder.h"
 #include "io/file/sink/partial_file.h"
 
 namespace mw::engine {
@@ -40,8 +41,8 @@ std::uint64_t sectors_of(const Extent& extent) {
 /// would count as somebody else's after a kill or a power cut.
 void remove_part(const std::filesystem::path& part) {
   std::error_code ignored;  // what stays holds no records, and the next run removes it
-  for (const auto& entry : std::filesystem::directory_iterator(part, ignored)) {
-    if (entry.path().filename() != kLockFile) std::filesystem::remove(entry.path(), ignored);
+  for (const std::string& name : io::names_in(part, ignored)) {
+    if (name != kLockFile) std::filesystem::remove(part / name, ignored);
   }
   io::sync_folder(part);
   std::filesystem::remove(part / kLockFile, ignored);

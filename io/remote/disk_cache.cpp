@@ -18,6 +18,7 @@
 #include "io/file/byte_order.h"
 #include "io/file/errors.h"
 #include "io/file/file_descriptor.h"
+#include "io/file/folder.h"
 #include "io/file/source/file_source.h"
 
 namespace mw::io {
@@ -152,13 +153,12 @@ bool is_hexadecimal(const std::string& text, std::size_t digits) {
 void add_files_in(const fs::path& folder, std::vector<KeptFile>& out) {
   std::error_code error;
   const auto now = fs::file_time_type::clock::now();
-  for (fs::directory_iterator entry(folder, error), end; !error && entry != end;
-       entry.increment(error)) {
+  for (const std::string& name : names_in(folder, error)) {
     std::error_code gone;  // others may remove files meanwhile
-    const KeptFile file{entry->path(), entry->last_write_time(gone),
-                        gone ? 0 : entry->file_size(gone)};
-    if (gone || !entry->is_regular_file(gone)) continue;
-    const std::string name = file.path.filename().string();
+    const fs::path path = folder / name;
+    const KeptFile file{path, fs::last_write_time(path, gone),
+                        gone ? 0 : fs::file_size(path, gone)};
+    if (gone || !fs::is_regular_file(path, gone)) continue;
     if (is_hexadecimal(name, kFileDigits)) out.push_back(file);
     const bool is_unfinished = name.size() > kFileDigits && name.ends_with(kUnfinished) &&
                                is_hexadecimal(name.substr(0, kFileDigits), kFileDigits);
@@ -169,11 +169,8 @@ void add_files_in(const fs::path& folder, std::vector<KeptFile>& out) {
 std::vector<KeptFile> files_in(const fs::path& folder) {
   std::vector<KeptFile> out;
   std::error_code error;
-  for (fs::directory_iterator entry(folder, error), end; !error && entry != end;
-       entry.increment(error)) {
-    if (is_hexadecimal(entry->path().filename().string(), kFolderDigits)) {
-      add_files_in(entry->path(), out);
-    }
+  for (const std::string& name : names_in(folder, error)) {
+    if (is_hexadecimal(name, kFolderDigits)) add_files_in(folder / name, out);
   }
   return out;
 }

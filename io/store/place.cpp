@@ -6,6 +6,7 @@
 #include <algorithm>
 
 #include "io/file/errors.h"
+#include "io/file/folder.h"
 #include "io/file/source/file_source.h"
 
 namespace mw::io {
@@ -42,13 +43,11 @@ class FileSystem : public Store {
   }
   [[nodiscard]] std::optional<std::vector<std::string>> folders_in(
       const std::string& name) const override {
-    std::vector<std::string> names;
-    std::error_code failed;
-    for (fs::directory_iterator at(name, failed), end; !failed && at != end; at.increment(failed)) {
-      std::error_code ignored;
-      if (at->is_directory(ignored)) names.push_back(at->path().filename().string());
-    }
-    std::sort(names.begin(), names.end());
+    std::error_code ignored;
+    std::vector<std::string> names = names_in(name, ignored);
+    std::erase_if(names, [&](const std::string& entry) {
+      return !fs::is_directory(fs::path(name) / entry, ignored);
+    });
     return names;
   }
   [[nodiscard]] bool is_near() const override { return true; }

@@ -10,6 +10,7 @@
 #include <string_view>
 
 #include "io/file/errors.h"
+#include "io/file/folder.h"
 #include "io/file/source/file_source.h"
 #include "io/file/source/inflated_source.h"
 #include "io/file/text_numbers.h"
@@ -187,11 +188,11 @@ const VolumeFormat& format_of(std::span<const std::byte> head, std::filesystem::
 bool holds_dicom(const std::filesystem::path& folder) {
   int left = 8;
   std::error_code failed;
-  for (std::filesystem::directory_iterator at(folder, failed), end; !failed && at != end;
-       at.increment(failed)) {
+  for (const std::string& name : names_in(folder, failed)) {
+    const std::filesystem::path path = folder / name;
     std::error_code ignored;
-    if (!at->is_regular_file(ignored)) continue;
-    if (has_dicom_magic(read_prefix(FileSource(at->path()), kNiftiHeaderBytes))) return true;
+    if (!std::filesystem::is_regular_file(path, ignored)) continue;
+    if (has_dicom_magic(read_prefix(FileSource(path), kNiftiHeaderBytes))) return true;
     if (--left == 0) return false;
   }
   return false;

@@ -70,6 +70,14 @@ TEST(Layers, NoFileIncludesWhatItMayNot) {
   }
 }
 
+/// std::filesystem's iterator ends the process where memory is out; names_in of io/file does not.
+TEST(Layers, NoFileListsAFolderByAnIterator) {
+  for (const auto& [file, includes] : read_tree()) {
+    const std::string content = content_of(std::filesystem::path(MW_SOURCE_DIR) / file);
+    EXPECT_EQ(content.find("directory_iterator"), std::string::npos) << file;
+  }
+}
+
 TEST(Layers, NoCircleOfHeaders) {
   const Tree tree = read_tree();
   EXPECT_EQ(CircleFinder(tree).find(), "");

@@ -15,6 +15,7 @@
 #include <string>
 
 #include "io/file/errors.h"
+#include "io/file/folder.h"
 #include "io/file/sink/partial_file.h"
 
 namespace mw::engine {
@@ -69,11 +70,8 @@ bool is_of_runs(const fs::path& folder) {
   if (content == kMark) return true;
   if (!is_part_of_mark(content)) return false;
   std::error_code failed;
-  const fs::directory_iterator entries(folder, failed);
-  if (failed) return false;
-  return std::all_of(begin(entries), end(entries), [](const fs::directory_entry& entry) {
-    return entry.path().filename() == kLockFile;
-  });
+  const std::vector<std::string> names = io::names_in(folder, failed);
+  return !failed && std::ranges::all_of(names, [](const auto& name) { return name == kLockFile; });
 }
 
 std::optional<io::FileDescriptor> lock_folder(const fs::path& folder) {

@@ -16,6 +16,7 @@
 #include "engine/store/journal/journal.h"
 #include "engine/store/journal/mapped_file.h"
 #include "io/file/errors.h"
+#include "io/file/folder.h"
 #include "io/file/scratch/scratch_file.h"
 #include "io/file/sink/atomic_file.h"
 #include "io/file/sink/partial_file.h"
@@ -90,10 +91,10 @@ void RunFolder::refuse(const std::string& why) const {
 
 std::vector<fs::path> RunFolder::entries() const {
   std::error_code error;
-  const fs::directory_iterator all(path_, error);
+  const std::vector<std::string> names = io::names_in(path_, error);
   if (error) io::fail_output(path_.string(), "read the folder", error.value());
   std::vector<fs::path> out;
-  for (const auto& entry : all) out.push_back(entry.path());
+  for (const std::string& name : names) out.push_back(path_ / name);
   return out;
 }
 

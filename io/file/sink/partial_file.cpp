@@ -3,7 +3,6 @@
 // Names of outputs while they are written, and what killed runs have left under such names.
 #include "io/file/sink/partial_file.h"
 
-#include <dirent.h>
 #include <fcntl.h>
 #include <linux/magic.h>
 #include <sys/file.h>
@@ -26,6 +25,7 @@
 #include "io/codec/checksums.h"
 #include "io/file/errors.h"
 #include "io/file/file_descriptor.h"
+#include "io/file/folder.h"
 
 namespace mw::io {
 
@@ -147,10 +147,6 @@ void remove_if_left(const fs::path& path, std::string_view mark) {
   fs::remove_all(path, ignored);
 }
 
-struct CloseFolder {
-  void operator()(DIR* folder) const { ::closedir(folder); }
-};
-
 /// Returns the names of all partial outputs that were in the folder at the first call for it.
 std::vector<std::string> found_in(const fs::path& folder) {
   static std::mutex mutex;
@@ -159,14 +155,11 @@ std::vector<std::string> found_in(const fs::path& folder) {
   std::error_code ignored;
   const auto [position, is_new] = found.try_emplace(fs::absolute(folder, ignored));
   if (!is_new) return position->second;
-  // std::filesystem's iterator ends the process where memory is out while it goes on.  A folder
-  // that cannot be listed keeps what it has; files may be made there all the same.
-  const std::unique_ptr<DIR, CloseFolder> entries(::opendir(position->first.c_str()));
-  while (const dirent* const entry = entries ? ::readdir(entries.get()) : nullptr) {
-    std::string name = static_cast<const char*>(entry->d_name);
-    if (name.find(kPartial) != name.npos) position->second.push_back(std::move(name));
-  }
-  return position->second;
+  // A folder that cannot be listed keeps what it has; files may be made there all the same.
+  std::vector<std::string>& names = position->second;
+  names = names_in(position->first, ignored);
+  std::erase_if(names, [](const std::string& name) { return name.find(kPartial) == name.npos; });
+  return names;
 }
 
 void remove_leftovers(const fs::path& target) {

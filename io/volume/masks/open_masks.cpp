@@ -8,6 +8,7 @@
 #include <optional>
 
 #include "io/file/errors.h"
+#include "io/file/folder.h"
 #include "io/file/text_numbers.h"
 #include "io/remote/address.h"
 #include "io/volume/open_volume.h"
@@ -28,10 +29,10 @@ std::string stem(const std::filesystem::path& path) {
   return {};
 }
 
-bool is_mask(const std::filesystem::directory_entry& entry) {
+bool is_mask(const std::filesystem::path& path) {
   std::error_code ignored;
-  return !stem(entry.path()).empty() && entry.path().filename().string().front() != '.' &&
-         entry.is_regular_file(ignored);
+  return !stem(path).empty() && path.filename().string().front() != '.' &&
+         std::filesystem::is_regular_file(path, ignored);
 }
 
 }  // namespace
@@ -42,15 +43,15 @@ std::string mask_name(const std::filesystem::path& file) {
 }
 
 bool is_mask_folder(const std::filesystem::path& folder) {
-  const auto found = entries_of(folder);
-  return std::any_of(begin(found), end(found), is_mask);
+  return std::ranges::any_of(names_in(folder),
+                             [&](const std::string& name) { return is_mask(folder / name); });
 }
 
 std::unique_ptr<LabelVolume> open_mask_folder(const std::filesystem::path& folder,
                                               const OpenOptions& options) {
   std::vector<std::filesystem::path> files;
-  for (const auto& entry : entries_of(folder)) {
-    if (is_mask(entry)) files.push_back(entry.path());
+  for (const std::string& name : names_in(folder)) {
+    if (is_mask(folder / name)) files.push_back(folder / name);
   }
   std::sort(files.begin(), files.end(), [](const auto& a, const auto& b) {
     return comes_before(a.filename().string(), b.filename().string());

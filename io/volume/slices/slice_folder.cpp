@@ -7,19 +7,13 @@
 #include <cstdint>
 
 #include "io/file/errors.h"
+#include "io/file/folder.h"
 #include "io/file/text_numbers.h"
 #include "io/volume/checks.h"
 #include "io/volume/png/open_png.h"
 #include "io/volume/tiff/open_tiff.h"
 
 namespace mw::io {
-
-std::filesystem::directory_iterator entries_of(const std::filesystem::path& folder) {
-  std::error_code failure;
-  std::filesystem::directory_iterator found(folder, failure);
-  if (!failure) return found;
-  fail_input(folder.string(), {}, "cannot list: " + failure.message(), "check the path");
-}
 
 namespace {
 
@@ -31,18 +25,17 @@ bool is_png(const std::filesystem::path& path) {
   return lower_extension(path) == ".png";
 }
 
-bool is_slice(const std::filesystem::directory_entry& entry) {
-  const std::filesystem::path& path = entry.path();
+bool is_slice(const std::filesystem::path& path) {
   const std::string extension = lower_extension(path);
   std::error_code ignored;
   return (extension == ".tif" || extension == ".tiff" || extension == ".png") &&
-         path.filename().string().front() != '.' && entry.is_regular_file(ignored);
+         path.filename().string().front() != '.' && std::filesystem::is_regular_file(path, ignored);
 }
 
 std::vector<std::string> slice_names(const std::filesystem::path& folder) {
   std::vector<std::string> names;
-  for (const auto& entry : entries_of(folder)) {
-    if (is_slice(entry)) names.push_back(entry.path().filename().string());
+  for (std::string& name : names_in(folder)) {
+    if (is_slice(folder / name)) names.push_back(std::move(name));
     if (static_cast<std::int64_t>(names.size()) > kMaxAxisVoxels) {
       fail_input(folder.string(), {}, text("more than ", kMaxAxisVoxels, " slices"),
                  "cut the volume into parts");
@@ -71,8 +64,8 @@ void check_names(const std::filesystem::path& folder, const std::vector<std::str
 }  // namespace
 
 bool is_slice_folder(const std::filesystem::path& folder) {
-  const auto found = entries_of(folder);
-  return std::any_of(begin(found), end(found), is_slice);
+  return std::ranges::any_of(names_in(folder),
+                             [&](const std::string& name) { return is_slice(folder / name); });
 }
 
 std::unique_ptr<LabelVolume> open_slice_folder(const std::filesystem::path& folder,

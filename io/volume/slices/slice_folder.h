@@ -17,9 +17,6 @@ namespace mw::io {
 /// leading zeros only are in the order of their bytes.  A strict total order.
 [[nodiscard]] bool comes_before(std::string_view a, std::string_view b);
 
-/// Returns what is in a folder, in no order.  ERRORS: mw::Error(kInput) when it cannot be read.
-[[nodiscard]] std::filesystem::directory_iterator entries_of(const std::filesystem::path& folder);
-
 /// A place where numbered names miss one: b follows a by another step than the least one between
 /// two names.
 struct NumberGap {
