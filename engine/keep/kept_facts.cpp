@@ -41,7 +41,7 @@ std::uint64_t sectors_of(const Extent& extent) {
 /// would count as somebody else's after a kill or a power cut.
 void remove_part(const std::filesystem::path& part) {
   std::error_code ignored;  // what stays holds no records, and the next run removes it
-  for (const std::string& name : io::names_in(part, ignored)) {
+  for (const std::string& name : io::entries_in(part, ignored)) {
     if (name != kLockFile) std::filesystem::remove(part / name, ignored);
   }
   io::sync_folder(part);

@@ -220,13 +220,16 @@ void finish_keep(RunContext& run) {
 }
 
 void go(RunContext& run) {
-  ReadyLabels labels;
-  prepare(run, labels);
+  std::optional<ReadyLabels> labels(std::in_place);
+  prepare(run, *labels);
   end_stage(run, "prepare");
-  RunForecast forecast(labels.counts().faces, run.layout, run.settings, run.hooks.threads);
-  const std::uint64_t windows = march(run, labels, forecast);
+  const LabelCounts counts = labels->counts();
+  RunForecast forecast(counts.faces, run.layout, run.settings, run.hooks.threads);
+  const std::uint64_t windows = march(run, *labels, forecast);
   end_stage(run, "march");
-  write(run, labels.counts(), forecast);
+  // What is kept for later runs refers to the labels; else their memory and disk serve what follows.
+  if (run.keep == nullptr) labels.reset();
+  write(run, counts, forecast);
   end_stage(run, "output");
   finish_keep(run);
   if (run.hooks.store.stays) run.report.work = run.part->keep_for_rest(run.store);

@@ -58,7 +58,7 @@ double of_ordered_bits(std::uint64_t bits) {
 
 class MeshStage {
  public:
-  MeshStage(const MeshTiles& mesh, std::size_t label_count, const audit::ValidityTask& validity,
+  MeshStage(MeshTiles& mesh, std::size_t label_count, const audit::ValidityTask& validity,
             const VerifyTask& task, const MeshSinks& sinks)
       : mesh_(mesh),
         validity_(validity),
@@ -96,7 +96,7 @@ class MeshStage {
 
  private:
   [[nodiscard]] TileFindings look_at(std::uint32_t tile) const {
-    const LoadedMesh loaded = mesh_.load(tile);
+    const LoadedMesh loaded = mesh_.take_tile(tile);
     const audit::MeshTile view = loaded.view();
     task_.between();
     const audit::MeshStars stars(view);
@@ -200,7 +200,7 @@ class MeshStage {
     found_.overlap = check.verdict();
   }
 
-  const MeshTiles& mesh_;
+  MeshTiles& mesh_;
   const audit::ValidityTask& validity_;
   const VerifyTask& task_;
   CentreBuckets& centres_;
@@ -217,7 +217,7 @@ class MeshStage {
 
 }  // namespace
 
-MeshFindings look_at_mesh(const MeshTiles& mesh, std::size_t label_count,
+MeshFindings look_at_mesh(MeshTiles& mesh, std::size_t label_count,
                           const audit::ValidityTask& validity, const VerifyTask& task,
                           const MeshSinks& sinks) {
   return MeshStage(mesh, label_count, validity, task, sinks).run();

@@ -34,7 +34,7 @@ struct MeshSinks {
 
 /// Looks at each tile of the mesh; validity says what is asked.  ENSURES: the mesh's side of
 /// sinks.junctions is closed.  REQUIRES: mesh.input_check() passed.
-[[nodiscard]] MeshFindings look_at_mesh(const MeshTiles& mesh, std::size_t label_count,
+[[nodiscard]] MeshFindings look_at_mesh(MeshTiles& mesh, std::size_t label_count,
                                         const audit::ValidityTask& validity, const VerifyTask& task,
                                         const MeshSinks& sinks);
 

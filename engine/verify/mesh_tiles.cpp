@@ -233,9 +233,9 @@ LoadedMesh MeshTiles::make(const std::vector<Tet>& tets) const {
   return out;
 }
 
-LoadedMesh MeshTiles::load(std::uint32_t tile) const {
+LoadedMesh MeshTiles::take_tile(std::uint32_t tile) {
   std::vector<Tet> tets;
-  tets_.load(tile, tets);
+  tets_.take(tile, tets);
   LoadedMesh out = make(tets);
   for (const std::uint64_t id : out.vertex_ids) {
     out.owned.push_back(tile_of_vertex_[id] == tile ? 1 : 0);

@@ -38,7 +38,7 @@ struct LoadedMesh {
 /// Takes a mesh in and gives it back in tiles: each vertex is owned by the tile that it lies in,
 /// and a tile has every tet with a vertex that it owns.  A mesh whose rows or numbers make no sense
 /// is taken note of, not kept.  Memory: `memory_bytes` while it is taken in, and for each vertex 4
-/// bytes and a bit.  Disk: 24 bytes a vertex, some 60 a tet.  ERRORS: see io::ScratchFile;
+/// bytes and a bit.  Disk: 24 bytes a vertex, some 20 a tet.  ERRORS: see io::ScratchFile;
 /// kResource from 2^32 - 1 vertices on.
 class MeshTiles : public io::MeshSink {
  public:
@@ -79,8 +79,9 @@ class MeshTiles : public io::MeshSink {
   /// Returns where the array's axes lie, for the audit.
   [[nodiscard]] audit::Frame frame() const;
 
-  /// Loads a tile.  REQUIRES: finished, and input_check() passed.  Thread-safe.
-  [[nodiscard]] LoadedMesh load(std::uint32_t tile) const;
+  /// Returns a tile and lets go of it.  REQUIRES: finished, and input_check() passed; called once
+  /// for each tile.  Thread-safe.
+  [[nodiscard]] LoadedMesh take_tile(std::uint32_t tile);
 
  private:
   struct Tet {

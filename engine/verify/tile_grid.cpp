@@ -74,11 +74,11 @@ void PieceBuckets::cut(const audit::InterfaceTriangle& triangle, Visit visit) co
 }
 
 /// Cuts triangles until their pieces are many; those that are left, and large ones, stay whole.
-PieceBuckets::TilePieces PieceBuckets::pieces_of(std::uint32_t tile) const {
+PieceBuckets::TilePieces PieceBuckets::pieces_of(std::uint32_t tile) {
   constexpr std::size_t kMostPieces = std::size_t{1} << 15U;
   constexpr double kMostRadii = 8;
   std::vector<audit::InterfaceTriangle> triangles;
-  triangles_.load(tile, triangles);
+  triangles_.take(tile, triangles);
   TilePieces out;
   for (const audit::InterfaceTriangle& t : triangles) {
     if (out.pieces.size() >= kMostPieces || audit::radius(t.corners) > kMostRadii * radius_) {

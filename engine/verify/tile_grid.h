@@ -7,12 +7,9 @@
 #include <algorithm>
 #include <array>
 #include <cstdint>
-#include <mutex>
-#include <span>
-#include <type_traits>
 #include <vector>
 
-#include "io/file/scratch/scratch_file.h"
+#include "io/file/scratch/packed_scratch.h"
 #include "kernels/audit/distance/mesh.h"
 #include "kernels/audit/partition/centres.h"
 #include "kernels/core/index.h"
@@ -47,13 +44,11 @@ class TileGrid {
 };
 
 /// Holds a list of records for each tile, in the order in which they were added.
-/// Memory: `memory_bytes` or 32 records a tile, and 16 bytes each time that a tile's share fills
-/// up.
-/// Thread safety: one thread adds, or several load.  ERRORS: see io::ScratchFile.
+/// Memory: `memory_bytes` or 32 records a tile, and 24 bytes each time that a tile's share fills
+/// up.  Disk: a third of what the records take in memory, or half.
+/// Thread safety: one thread adds, or several load and take.  ERRORS: see io::ScratchFile.
 template <typename Record>
 class TileBuckets {
-  static_assert(std::is_trivially_copyable_v<Record>);
-
  public:
   TileBuckets(const std::filesystem::path& folder, std::uint32_t tiles, std::uint64_t memory_bytes)
       : file_(folder),
@@ -65,14 +60,13 @@ class TileBuckets {
     Tile& t = tiles_[tile];
     t.waiting.push_back(record);
     if (t.waiting.size() < max_) return;
-    t.chunks.push_back({file_.size(), t.waiting.size()});
-    file_.append(std::as_bytes(std::span(t.waiting)));
+    t.chunks.push_back(file_.append(t.waiting));
     t.waiting.clear();
   }
 
   [[nodiscard]] std::uint64_t count(std::uint32_t tile) const {
     std::uint64_t sum = tiles_[tile].waiting.size();
-    for (const Chunk& chunk : tiles_[tile].chunks) sum += chunk.records;
+    for (const io::PackedChunk& chunk : tiles_[tile].chunks) sum += chunk.records;
     return sum;
   }
 
@@ -80,30 +74,27 @@ class TileBuckets {
   void load(std::uint32_t tile, std::vector<Record>& out) const {
     const Tile& t = tiles_[tile];
     out.reserve(out.size() + count(tile));
-    const std::lock_guard lock(mutex_);
-    for (const Chunk& chunk : t.chunks) {
-      const std::size_t first = out.size();
-      out.resize(first + chunk.records);
-      file_.read_at(chunk.offset, std::as_writable_bytes(std::span(out).subspan(first)));
-    }
+    for (const io::PackedChunk& chunk : t.chunks) file_.read(chunk, out);
     out.insert(out.end(), t.waiting.begin(), t.waiting.end());
+  }
+
+  /// Adds the tile's records to a list and lets go of them, on disk, too.
+  void take(std::uint32_t tile, std::vector<Record>& out) {
+    load(tile, out);
+    for (const io::PackedChunk& chunk : tiles_[tile].chunks) file_.give_up(chunk);
+    tiles_[tile] = {};
   }
 
  private:
   static constexpr std::size_t kFewest = 32;
   static constexpr std::size_t kMax = 4096;
 
-  struct Chunk {
-    std::uint64_t offset = 0;
-    std::uint64_t records = 0;
-  };
   struct Tile {
     std::vector<Record> waiting;
-    std::vector<Chunk> chunks;
+    std::vector<io::PackedChunk> chunks;
   };
 
-  mutable std::mutex mutex_;
-  mutable io::ScratchFile file_;
+  io::PackedScratch<Record> file_;
   std::vector<Tile> tiles_;
   std::size_t max_;
 };
@@ -123,8 +114,8 @@ class PieceBuckets {
     triangles_.add(tile, triangle);
     audit::add_estimates(triangle.corners, estimates_);
   }
-  /// REQUIRES: called once, after the last triangle.  Memory: a tile's triangles twice, and 6 MiB,
-  /// for each thread.
+  /// REQUIRES: called once, after the last triangle, which lets go of them.  Memory: a tile's
+  /// triangles twice, and 6 MiB, for each thread.
   void make_pieces(int threads);
 
   /// Returns the radius that no piece exceeds.
@@ -145,7 +136,7 @@ class PieceBuckets {
 
   template <class Visit>
   void cut(const audit::InterfaceTriangle& triangle, Visit visit) const;
-  [[nodiscard]] TilePieces pieces_of(std::uint32_t tile) const;
+  [[nodiscard]] TilePieces pieces_of(std::uint32_t tile);
 
   const TileGrid& grid_;
   Index3 layers_;

@@ -39,7 +39,7 @@ audit::AuditOptions asked_of(const MeshTiles& mesh, audit::AuditOptions options)
 
 }  // namespace
 
-audit::AuditReport verify_mesh(const io::DenseVolume& volume, const MeshTiles& mesh,
+audit::AuditReport verify_mesh(const io::DenseVolume& volume, MeshTiles& mesh,
                                const VerifyTask& task) {
   const audit::Check input = mesh.input_check();
   audit::AuditFindings findings;

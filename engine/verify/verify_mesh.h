@@ -39,8 +39,8 @@ struct VerifyTask {
 /// ENSURES: the report depends on mesh and volume only, except for distances farther than memory
 /// lets it look (DistanceReport::far_samples); sums are rounded in the order of the tiles.
 /// ERRORS: kResource when a temporary file cannot be written.
-/// REQUIRES: mesh is finished, and of that volume.
-[[nodiscard]] audit::AuditReport verify_mesh(const io::DenseVolume& volume, const MeshTiles& mesh,
+/// REQUIRES: mesh is finished, and of that volume; its tiles are used up.
+[[nodiscard]] audit::AuditReport verify_mesh(const io::DenseVolume& volume, MeshTiles& mesh,
                                              const VerifyTask& task);
 
 }  // namespace mw::engine

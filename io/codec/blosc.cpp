@@ -4,6 +4,7 @@
 #include <blosc.h>
 
 #include <cstdint>
+#include <new>
 
 #include "io/codec/codec.h"
 #include "io/codec/stream.h"
@@ -42,6 +43,18 @@ std::vector<std::byte> unpack_blosc(std::span<const std::byte> packed, std::size
   if (count < 0 || static_cast<std::size_t>(count) != size) {
     fail_packed(named, "damaged, or packed by a codec that Blosc was built without");
   }
+  return out;
+}
+
+std::vector<std::byte> pack_rows(std::span<const std::byte> rows, std::size_t row_bytes) {
+  constexpr int kLevel = 1, kOneThread = 1;
+  std::vector<std::byte> out(rows.size() + BLOSC_MAX_OVERHEAD);
+  const int size =
+      blosc_compress_ctx(kLevel, BLOSC_SHUFFLE, row_bytes, rows.size(), rows.data(), out.data(),
+                         out.size(), BLOSC_LZ4_COMPNAME, /*blocksize=*/0, kOneThread);
+  // There is room for bytes that do not shrink, so only memory can be missing.
+  if (size <= 0) throw std::bad_alloc();
+  out.resize(static_cast<std::size_t>(size));
   return out;
 }
 

@@ -78,6 +78,12 @@ inline constexpr std::uint64_t kMaxZstdWindow = std::uint64_t{32} << 20U;
 [[nodiscard]] std::vector<std::byte> unpack_blosc(std::span<const std::byte> packed,
                                                   std::size_t max, std::string_view name);
 
+/// Returns rows of `row_bytes` packed by Blosc, their bytes shuffled, LZ4 quickly: for data that a
+/// run reads again.  REQUIRES: some rows, less than 2 GiB; 1 <= row_bytes <= 255.  ERRORS:
+/// std::bad_alloc.
+[[nodiscard]] std::vector<std::byte> pack_rows(std::span<const std::byte> rows,
+                                               std::size_t row_bytes);
+
 /// Returns the bytes of a block that Blosc's header tells; nothing where there is no whole header.
 [[nodiscard]] std::optional<std::uint64_t> blosc_block(std::span<const std::byte> packed);
 

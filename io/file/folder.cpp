@@ -25,7 +25,7 @@ std::error_code last_error() {
 
 }  // namespace
 
-std::vector<std::string> names_in(const std::filesystem::path& folder, std::error_code& error) {
+std::vector<std::string> entries_in(const std::filesystem::path& folder, std::error_code& error) {
   error.clear();
   std::vector<std::string> names;
   const std::unique_ptr<DIR, CloseFolder> handle(::opendir(folder.c_str()));
@@ -45,9 +45,9 @@ std::vector<std::string> names_in(const std::filesystem::path& folder, std::erro
   return names;
 }
 
-std::vector<std::string> names_in(const std::filesystem::path& folder) {
+std::vector<std::string> entries_in(const std::filesystem::path& folder) {
   std::error_code error;
-  std::vector<std::string> names = names_in(folder, error);
+  std::vector<std::string> names = entries_in(folder, error);
   if (!error) return names;
   fail_input(folder.string(), {}, "cannot list: " + error.message(), "check the path");
 }

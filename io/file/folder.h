@@ -15,10 +15,10 @@ namespace mw::io {
 /// ENSURES: `error` is clear, or says why the folder could not be read to its end; then the names
 /// are those that were read.
 /// ERRORS: std::bad_alloc.
-[[nodiscard]] std::vector<std::string> names_in(const std::filesystem::path& folder,
-                                                std::error_code& error);
+[[nodiscard]] std::vector<std::string> entries_in(const std::filesystem::path& folder,
+                                                  std::error_code& error);
 
-/// Returns names_in(folder).  ERRORS: mw::Error(kInput) where the folder cannot be read.
-[[nodiscard]] std::vector<std::string> names_in(const std::filesystem::path& folder);
+/// Returns entries_in(folder).  ERRORS: mw::Error(kInput) where the folder cannot be read.
+[[nodiscard]] std::vector<std::string> entries_in(const std::filesystem::path& folder);
 
 }  // namespace mw::io

@@ -34,8 +34,9 @@ void hash_vertices(ExternalSort<4>& positions, ExternalSort<2>& ranks, Hasher& h
 }
 
 /// Adds the tets to keys, with ranks in the place of rows.
-void rank_tets(ScratchFile& tet_rows, PagedFile<std::uint64_t>& rank, ExternalSort<5>& keys) {
-  tet_rows.each_batch<TetRecord>([&](std::span<const TetRecord> batch) {
+void rank_tets(const PackedRecords<TetRecord>& tet_rows, PagedFile<std::uint64_t>& rank,
+               ExternalSort<5>& keys) {
+  tet_rows.each_batch([&](std::span<const TetRecord> batch) {
     for (TetRecord tet : batch) {
       for (std::size_t i = 0; i < 4; ++i) {
         if (tet[i] >= rank.size()) {

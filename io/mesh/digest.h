@@ -7,6 +7,7 @@
 
 #include "io/file/scratch/external_sort.h"
 #include "io/mesh/mesh_sink.h"
+#include "io/mesh/tet_record.h"
 
 namespace mw::io {
 
@@ -21,7 +22,7 @@ namespace mw::io {
 /// at one position share a rank.  The digest does not depend on the order of rows, the orientation
 /// of tets, the signedness of labels or the format.
 /// Memory: 3 * memory_bytes and 10 MiB; what does not fit waits in temporary files in `folder`,
-/// about 50 bytes a vertex and 80 a tet. ERRORS: kInternal when a tet names a vertex that never
+/// about 50 bytes a vertex and 60 a tet. ERRORS: kInternal when a tet names a vertex that never
 /// came; see also ScratchFile.
 class DigestSink : public NoSink {
  public:
@@ -44,7 +45,7 @@ class DigestSink : public NoSink {
   std::uint64_t vertices_ = 0;
   std::uint64_t tets_ = 0;
   ExternalSort<4> positions_;  ///< sortable coordinates, row
-  ScratchFile tet_rows_;       ///< a TetRecord of each tet
+  PackedRecords<TetRecord> tet_rows_;
 };
 
 }  // namespace mw::io

@@ -87,7 +87,7 @@ void MergedVertices::pass_vertices() {
 
 void MergedVertices::pass_tets() {
   const DoubledVertices& doubles = waiting_->doubles;
-  waiting_->tets.each_batch<TetRecord>([&](std::span<const TetRecord> batch) {
+  waiting_->tets.each_batch([&](std::span<const TetRecord> batch) {
     between_();
     std::vector<TetRows> tets;
     std::vector<RawLabel> labels;

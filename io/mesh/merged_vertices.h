@@ -10,6 +10,7 @@
 
 #include "io/file/scratch/external_sort.h"
 #include "io/mesh/mesh_sink.h"
+#include "io/mesh/tet_record.h"
 
 namespace mw::io {
 
@@ -67,7 +68,7 @@ class MergedVertices : public MeshSink {
 
     DoubledVertices doubles;
     ScratchFile positions;
-    ScratchFile tets;  ///< a TetRecord of each
+    PackedRecords<TetRecord> tets;
   };
 
   void pass_vertices();

@@ -8,7 +8,7 @@
 #include <cstdint>
 #include <span>
 
-#include "io/file/scratch/scratch_file.h"
+#include "io/file/scratch/packed_scratch.h"
 #include "io/mesh/mesh_sink.h"
 
 namespace mw::io {
@@ -23,12 +23,11 @@ namespace mw::io {
 using TetRecord = std::array<std::uint64_t, 5>;
 
 /// Appends a TetRecord for each tet.  REQUIRES: tets.size() == labels.size().
-inline void append_tets(ScratchFile& file, std::span<const TetRows> tets,
+inline void append_tets(PackedRecords<TetRecord>& file, std::span<const TetRows> tets,
                         std::span<const RawLabel> labels) {
   for (std::size_t i = 0; i < tets.size(); ++i) {
     const auto [a, b, c, d] = tets[i];
-    const TetRecord record{a, b, c, d, labels[i]};
-    file.append(std::as_bytes(std::span(record)));
+    file.append({a, b, c, d, labels[i]});
   }
 }
 

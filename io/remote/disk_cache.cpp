@@ -153,7 +153,7 @@ bool is_hexadecimal(const std::string& text, std::size_t digits) {
 void add_files_in(const fs::path& folder, std::vector<KeptFile>& out) {
   std::error_code error;
   const auto now = fs::file_time_type::clock::now();
-  for (const std::string& name : names_in(folder, error)) {
+  for (const std::string& name : entries_in(folder, error)) {
     std::error_code gone;  // others may remove files meanwhile
     const fs::path path = folder / name;
     const KeptFile file{path, fs::last_write_time(path, gone),
@@ -169,7 +169,7 @@ void add_files_in(const fs::path& folder, std::vector<KeptFile>& out) {
 std::vector<KeptFile> files_in(const fs::path& folder) {
   std::vector<KeptFile> out;
   std::error_code error;
-  for (const std::string& name : names_in(folder, error)) {
+  for (const std::string& name : entries_in(folder, error)) {
     if (is_hexadecimal(name, kFolderDigits)) add_files_in(folder / name, out);
   }
   return out;

@@ -44,7 +44,7 @@ class FileSystem : public Store {
   [[nodiscard]] std::optional<std::vector<std::string>> folders_in(
       const std::string& name) const override {
     std::error_code ignored;
-    std::vector<std::string> names = names_in(name, ignored);
+    std::vector<std::string> names = entries_in(name, ignored);
     std::erase_if(names, [&](const std::string& entry) {
       return !fs::is_directory(fs::path(name) / entry, ignored);
     });

@@ -188,7 +188,7 @@ const VolumeFormat& format_of(std::span<const std::byte> head, std::filesystem::
 bool holds_dicom(const std::filesystem::path& folder) {
   int left = 8;
   std::error_code failed;
-  for (const std::string& name : names_in(folder, failed)) {
+  for (const std::string& name : entries_in(folder, failed)) {
     const std::filesystem::path path = folder / name;
     std::error_code ignored;
     if (!std::filesystem::is_regular_file(path, ignored)) continue;

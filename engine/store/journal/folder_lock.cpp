@@ -70,7 +70,7 @@ bool is_of_runs(const fs::path& folder) {
   if (content == kMark) return true;
   if (!is_part_of_mark(content)) return false;
   std::error_code failed;
-  const std::vector<std::string> names = io::names_in(folder, failed);
+  const std::vector<std::string> names = io::entries_in(folder, failed);
   return !failed && std::ranges::all_of(names, [](const auto& name) { return name == kLockFile; });
 }
 

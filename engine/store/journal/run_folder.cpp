@@ -91,7 +91,7 @@ void RunFolder::refuse(const std::string& why) const {
 
 std::vector<fs::path> RunFolder::entries() const {
   std::error_code error;
-  const std::vector<std::string> names = io::names_in(path_, error);
+  const std::vector<std::string> names = io::entries_in(path_, error);
   if (error) io::fail_output(path_.string(), "read the folder", error.value());
   std::vector<fs::path> out;
   for (const std::string& name : names) out.push_back(path_ / name);

@@ -53,6 +53,13 @@ void UnlinkedFile::read_at(std::uint64_t offset, std::span<std::byte> out) const
   fail_output(told(folder_), "read a temporary file there", done.error != 0 ? done.error : EIO);
 }
 
+void UnlinkedFile::give_up(std::uint64_t offset, std::uint64_t bytes) const {
+  // Where the file system cannot do it, the bytes go with the file.
+  if (bytes == 0) return;
+  ::fallocate(file_.get(), FALLOC_FL_PUNCH_HOLE | FALLOC_FL_KEEP_SIZE, static_cast<off_t>(offset),
+              static_cast<off_t>(bytes));
+}
+
 std::filesystem::path scratch_folder() {
   const char* chosen = std::getenv("TMPDIR");  // NOLINT(concurrency-mt-unsafe)
   return chosen != nullptr && *chosen != '\0' ? chosen : "/tmp";

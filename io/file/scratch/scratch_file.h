@@ -33,6 +33,9 @@ class UnlinkedFile {
   void write_at(std::uint64_t offset, std::span<const std::byte> bytes) const;
   /// REQUIRES: these bytes were written.
   void read_at(std::uint64_t offset, std::span<std::byte> out) const;
+  /// Gives the disk back what lies in this range, as far as the file system can; reads of it give
+  /// anything from then on.
+  void give_up(std::uint64_t offset, std::uint64_t bytes) const;
   /// Returns the file itself.  REQUIRES: the object is not used afterwards.
   [[nodiscard]] FileDescriptor release() { return std::move(file_); }
 
@@ -84,6 +87,8 @@ class ScratchFile {
       file.append(batch);
     }
   }
+  /// See UnlinkedFile.  REQUIRES: all of the range was read since it was appended.
+  void give_up(std::uint64_t offset, std::uint64_t bytes) const { file_.give_up(offset, bytes); }
   /// Returns the file itself with all bytes in it.  REQUIRES: the object is not used afterwards.
   [[nodiscard]] FileDescriptor release();
 

@@ -157,7 +157,7 @@ std::vector<std::string> found_in(const fs::path& folder) {
   if (!is_new) return position->second;
   // A folder that cannot be listed keeps what it has; files may be made there all the same.
   std::vector<std::string>& names = position->second;
-  names = names_in(position->first, ignored);
+  names = entries_in(position->first, ignored);
   std::erase_if(names, [](const std::string& name) { return name.find(kPartial) == name.npos; });
   return names;
 }

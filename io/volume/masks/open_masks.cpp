@@ -43,14 +43,14 @@ std::string mask_name(const std::filesystem::path& file) {
 }
 
 bool is_mask_folder(const std::filesystem::path& folder) {
-  return std::ranges::any_of(names_in(folder),
+  return std::ranges::any_of(entries_in(folder),
                              [&](const std::string& name) { return is_mask(folder / name); });
 }
 
 std::unique_ptr<LabelVolume> open_mask_folder(const std::filesystem::path& folder,
                                               const OpenOptions& options) {
   std::vector<std::filesystem::path> files;
-  for (const std::string& name : names_in(folder)) {
+  for (const std::string& name : entries_in(folder)) {
     if (is_mask(folder / name)) files.push_back(folder / name);
   }
   std::sort(files.begin(), files.end(), [](const auto& a, const auto& b) {

@@ -34,7 +34,7 @@ bool is_slice(const std::filesystem::path& path) {
 
 std::vector<std::string> slice_names(const std::filesystem::path& folder) {
   std::vector<std::string> names;
-  for (std::string& name : names_in(folder)) {
+  for (std::string& name : entries_in(folder)) {
     if (is_slice(folder / name)) names.push_back(std::move(name));
     if (static_cast<std::int64_t>(names.size()) > kMaxAxisVoxels) {
       fail_input(folder.string(), {}, text("more than ", kMaxAxisVoxels, " slices"),
@@ -64,7 +64,7 @@ void check_names(const std::filesystem::path& folder, const std::vector<std::str
 }  // namespace
 
 bool is_slice_folder(const std::filesystem::path& folder) {
-  return std::ranges::any_of(names_in(folder),
+  return std::ranges::any_of(entries_in(folder),
                              [&](const std::string& name) { return is_slice(folder / name); });
 }
 

@@ -81,6 +81,21 @@ TEST(Codec, RoundTripsOfAllSizes) {
   }
 }
 
+TEST(Codec, RowsComeBack) {
+  std::mt19937 random(417);
+  for (int round = 0; round < 200; ++round) {
+    const std::size_t row = 1 + random() % 255, rows = 1 + random() % 3000;
+    const unsigned kinds = 1 + random() % 256;
+    std::vector<std::byte> bytes(row * rows);
+    for (std::byte& b : bytes) b = static_cast<std::byte>(random() % kinds);
+    const std::vector<std::byte> packed = pack_rows(bytes, row);
+    EXPECT_EQ(unpack_blosc(packed, bytes.size(), "rows"), bytes);
+    if (kinds < 4 && bytes.size() > 10000) {
+      EXPECT_LT(packed.size(), bytes.size());
+    }
+  }
+}
+
 TEST(Codec, MoreThanTheMostIsRefused) {
   std::mt19937 random(2);
   for (const Packer& packer : kPackers) {

@@ -14,9 +14,9 @@ namespace {
 
 namespace fs = std::filesystem;
 
-TEST(NamesIn, AreAllOfThemInTheOrderOfTheirBytes) {
+TEST(EntriesIn, AreAllOfThemInTheOrderOfTheirBytes) {
   const TempDir folder;
-  EXPECT_EQ(names_in(folder.path()), std::vector<std::string>());
+  EXPECT_EQ(entries_in(folder.path()), std::vector<std::string>());
   const std::vector<std::string> names{".hidden", "10", "9", "B", "a", "a folder", "\xc3\xa4"};
   for (const std::string& name : {names[4], names[2], names[0], names[6], names[1], names[3]}) {
     std::ofstream(folder.path() / name) << "x";
@@ -24,21 +24,21 @@ TEST(NamesIn, AreAllOfThemInTheOrderOfTheirBytes) {
   fs::create_directory(folder.path() / names[5]);
   std::ofstream(folder.path() / names[5] / "below") << "x";
   std::error_code error = std::make_error_code(std::errc::io_error);
-  EXPECT_EQ(names_in(folder.path(), error), names);
+  EXPECT_EQ(entries_in(folder.path(), error), names);
   EXPECT_FALSE(error);
 }
 
-TEST(NamesIn, WhatIsNoFolderIsAnError) {
+TEST(EntriesIn, WhatIsNoFolderIsAnError) {
   const TempDir folder;
   const fs::path file = folder.path() / "file", missing = folder.path() / "missing";
   std::ofstream(file) << "x";
   std::error_code error;
-  EXPECT_TRUE(names_in(file, error).empty());
+  EXPECT_TRUE(entries_in(file, error).empty());
   EXPECT_EQ(error, std::errc::not_a_directory);
-  EXPECT_TRUE(names_in(missing, error).empty());
+  EXPECT_TRUE(entries_in(missing, error).empty());
   EXPECT_EQ(error, std::errc::no_such_file_or_directory);
   try {
-    (void)names_in(missing);
+    (void)entries_in(missing);
     FAIL() << "a missing folder was listed";
   } catch (const Error& failure) {
     EXPECT_EQ(failure.kind(), ErrorKind::kInput);

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Temporary files: what was written is read, no name is left, and errors name the folder.
 #include <fcntl.h>
+#include <sys/stat.h>
 
 #include <chrono>
 
@@ -49,6 +50,26 @@ TEST(UnlinkedFile, HoldsWhatWasWrittenAndHasNoName) {
     file.read_at(at, found);
     EXPECT_TRUE(std::ranges::equal(found, std::span(expected).subspan(at, found.size())));
   }
+}
+
+TEST(UnlinkedFile, GivesTheDiskBackWhatItIsTold) {
+  const TempDir dir;
+  UnlinkedFile file(dir.path());
+  std::mt19937 random(1053);
+  const std::vector<std::byte> expected = random_bytes(random, std::size_t{1} << 20U);
+  file.write_at(0, expected);
+  file.give_up(100000, 800000);
+  for (const auto& [at, size] :
+       {std::pair<std::size_t, std::size_t>(0, 100000), {900000, 148576}}) {
+    std::vector<std::byte> found(size);
+    file.read_at(at, found);
+    EXPECT_TRUE(std::ranges::equal(found, std::span(expected).subspan(at, size)));
+  }
+  const FileDescriptor handle = file.release();
+  struct stat found {};
+  ASSERT_EQ(::fstat(handle.get(), &found), 0);
+  if (found.st_blocks * 512 >= 1 << 20) GTEST_SKIP() << "no holes on this file system";
+  EXPECT_LT(found.st_blocks * 512, 300000);
 }
 
 /// Appended in pieces smaller and larger than its buffer, read while it grows.
