@@ -68,7 +68,8 @@ def row(volume, name, command):
     made, found = (json.loads(pathlib.Path(name).read_text()) for name in ("run.json", "check.json"))
     seconds, tets = made["performance"]["cpu_s"], made["output"]["tets"]
     volumes = found["volume"]
-    cells = (pathlib.Path(volume).name, name, f"{seconds:.1f}", f"{made['output']['vertices']:,}", f"{tets / seconds:,.0f}",
+    cells = (pathlib.Path(volume).name, name, f"{seconds:.1f}", f"{made['performance']['peak_rss_bytes'] / 2**20:.0f}",
+             f"{made['output']['vertices']:,}", f"{tets / seconds:,.0f}",
              f"{found['topology']['labels_changed']} of {found['labels']}", f"{100 * found['shape']['sharp_share']:.1f} %",
              f"{100 * volumes['volume_error_max_abs']:.1f} / {100 * volumes['volume_error_mean_abs']:.2f} %",
              f"{found['quality']['radius_ratio_min']:.2f} / {found['quality']['radius_ratio_mean']:.3f}")
@@ -80,8 +81,8 @@ def main():
     volumes = [str(pathlib.Path(name).resolve()) for name in sys.argv[1:]]
     with tempfile.TemporaryDirectory() as folder:
         os.chdir(folder)
-        print("| volume | program | CPU s | vertices | tets a second and core | labels changed | sharp | volumes off, most / mean "
-              "| radius ratio, least / mean |\n|---|---|---|---|---|---|---|---|---|")
+        print("| volume | program | CPU s | MiB | vertices | tets a second and core | labels changed | sharp "
+              "| volumes off, most / mean | radius ratio, least / mean |\n|---|---|---|---|---|---|---|---|---|---|")
         for volume in volumes:
             sizes = {name: row(volume, name, command) for name, command in PROGRAMS.items()}
             row(volume, "CGAL, as many, improved", (*PROGRAMS["CGAL"], *alike(volume, sizes["default"])))
