@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <array>
+#include <bitset>
 #include <utility>
 
 #include "kernels/core/index.h"
@@ -39,6 +40,29 @@ std::vector<FaceStep> steps_to(const std::vector<VoxelFace>& faces, const Box3& 
   for (const VoxelFace& f : faces) out.push_back({f, step(f.lower), step(f.upper())});
   return out;
 }
+
+/// Faces near a cube that were looked at.
+class FacesNear {
+ public:
+  explicit FacesNear(Index3 cube) : lo_(cube - Index3{kReach, kReach, kReach}) {}
+
+  /// Returns whether it is the first time.  REQUIRES: the face's lower voxel is at most three
+  /// voxels before the cube's first, and four behind it.
+  bool is_new(const VoxelFace& face) {
+    const Index3 at = face.lower - lo_;
+    const auto bit =
+        static_cast<std::size_t>(((at.z * kEdge + at.y) * kEdge + at.x) * 3 + face.axis);
+    const bool is_new = !seen_[bit];
+    seen_[bit] = true;
+    return is_new;
+  }
+
+ private:
+  static constexpr std::int64_t kReach = 3, kEdge = 8;
+
+  Index3 lo_;
+  std::bitset<3 * kEdge * kEdge * kEdge> seen_;
+};
 
 /// REQUIRES: `original` and `labels` cover the same box.
 class Coarsener {
@@ -220,6 +244,7 @@ class Coarsener {
   /// still has one.
   bool keeps_carriers(Index3 cube, const CubeLabels& before) {
     const Label now = labels_.at(cube);
+    FacesNear seen(cube);
     const auto label_before = [&](Index3 v) {
       const Index3 i = v - cube;
       const bool in_cube = ((i.x | i.y | i.z) & ~std::int64_t{1}) == 0;
@@ -233,20 +258,23 @@ class Coarsener {
         for (const VoxelFace& face : {VoxelFace{v, axis}, VoxelFace{v - step, axis}}) {
           const LabelPair pair = label_pair(label_before(face.lower), label_before(face.upper()));
           if (pair.low == pair.high || pair.high == kExterior) continue;
-          if (!others_carry(face, pair, cube)) return false;
+          if (!others_carry(face, pair, cube, seen)) return false;
         }
       }
     }
     return true;
   }
 
-  [[nodiscard]] bool others_carry(const VoxelFace& lost, LabelPair labels, Index3 cube) const {
+  /// True if each input face that a face may have carried, and that was not seen yet, has a
+  /// carrier.
+  [[nodiscard]] bool others_carry(const VoxelFace& lost, LabelPair labels, Index3 cube,
+                                  FacesNear& seen) const {
     const Label* at = original_.labels.data() + original_.box.offset(lost.lower);
     for (const FaceStep& f : carried_by_[lost.axis]) {
       const Label lower = at[f.lower], upper = at[f.upper];
       if (label_pair(lower, upper) != labels) continue;
       const VoxelFace face{lost.lower + f.face.lower, f.face.axis};
-      if (!has_carrier(face, lower, upper, cube)) return false;
+      if (seen.is_new(face) && !has_carrier(face, lower, upper, cube)) return false;
     }
     return true;
   }
@@ -260,12 +288,12 @@ class Coarsener {
     const Label* at = labels_.labels.data() + labels_.box.offset(face.lower);
     return std::any_of(carriers_[face.axis].begin(), carriers_[face.axis].end(),
                        [&](const FaceStep& c) {
-                         const VoxelFace carrier{face.lower + c.face.lower, c.face.axis};
-                         if (!seen.contains(carrier.lower) || !seen.contains(carrier.upper()))
-                           return false;
                          const Label below = at[c.lower], above = at[c.upper];
-                         if (below == lower && above == upper) return true;
-                         return carrier.axis != face.axis && below == upper && above == lower;
+                         const bool is_turned = c.face.axis != face.axis && below == upper;
+                         if (!(below == lower && above == upper) && !(is_turned && above == lower))
+                           return false;
+                         const VoxelFace carrier{face.lower + c.face.lower, c.face.axis};
+                         return seen.contains(carrier.lower) && seen.contains(carrier.upper());
                        });
   }
 
