@@ -3,6 +3,7 @@
 // Cases 1 to 3 of Sec 5.3.3: survivor, position and cost.
 #include "kernels/simplify/contraction.h"
 
+#include <algorithm>
 #include <utility>
 
 namespace mw {
@@ -93,6 +94,31 @@ std::array<Contraction, 4> other_positions(const TetMesh& mesh, const Metric& me
     out[i].cost = sum.value(metric.vector(keep, positions[i]));
     out[i].moves = positions[i] != keep;
   }
+  return out;
+}
+
+std::vector<Contraction> positions_around(const TetMesh& mesh, const Metric& metric,
+                                          const Contraction& contraction) {
+  constexpr std::int32_t kStep = kUnitsPerVoxel / 5;
+  const Point keep = mesh.position(contraction.keep), drop = mesh.position(contraction.drop);
+  const Quadric sum = sum_at(mesh, metric, contraction.keep, contraction.drop);
+  const unsigned fixed = fixed_axes(mesh.planes(contraction.keep));
+  std::vector<Contraction> out;
+  for (const Point& base : {contraction.position, between(keep, drop)}) {
+    for_each_index(Box3{{-2, -2, -2}, {3, 3, 3}}, [&](Index3 steps) {
+      const auto step = [&](std::int64_t count, unsigned axis) {
+        return (fixed >> axis & 1U) != 0 ? 0 : static_cast<std::int32_t>(count) * kStep;
+      };
+      Contraction other = contraction;
+      other.position = {base.x + step(steps.x, 0), base.y + step(steps.y, 1),
+                        base.z + step(steps.z, 2)};
+      other.cost = sum.value(metric.vector(keep, other.position));
+      other.moves = other.position != keep;
+      out.push_back(other);
+    });
+  }
+  std::stable_sort(out.begin(), out.end(),
+                   [](const Contraction& a, const Contraction& b) { return a.cost < b.cost; });
   return out;
 }
 

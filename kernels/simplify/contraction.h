@@ -5,6 +5,7 @@
 
 #include <array>
 #include <optional>
+#include <vector>
 
 #include "kernels/mesh/tet_mesh.h"
 
@@ -45,6 +46,13 @@ struct Contraction {
 /// ENSURES: cost is the quadric error of the place, which is on all planes that the ends are on.
 [[nodiscard]] std::array<Contraction, 4> other_positions(const TetMesh& mesh, const Metric& metric,
                                                          const Contraction& contraction);
+
+/// Returns places 0.2 and 0.4 voxel around that of a contraction and around the middle of the edge,
+/// cheapest first, for edges that should go at any cost.
+/// REQUIRES: contraction.has_others.
+/// ENSURES: as other_positions().
+[[nodiscard]] std::vector<Contraction> positions_around(const TetMesh& mesh, const Metric& metric,
+                                                        const Contraction& contraction);
 
 /// The quadric of the surviving vertex, relative to its new position.
 [[nodiscard]] Quadric contracted_quadric(const TetMesh& mesh, const Metric& metric,

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <limits>
 #include <span>
+#include <utility>
 
 #include "kernels/mesh/failed_pairs.h"
 #include "kernels/mesh/star_boxes.h"
@@ -123,14 +124,35 @@ void push_cheapest(CandidateFinder& finder, LocalVertex v, VertexQueue& queue) {
   if (!candidates.empty()) queue.push(v, least_cost(candidates));
 }
 
-/// Where the limits on edges are above this many voxels, touches go in the order of cost
-/// (bench/parameters.md, "Lines").
-constexpr double kShortLimit = 3.5;
-
 /// Are edges contracted up to sizes, and not down to a number of vertices?
 bool is_sized(const SimplifyOptions& options) {
   return options.demands.sizes != nullptr && options.enough_vertices == 0;
 }
+
+/// What an edge is contracted for: its cost, or for the sake of a line of three labels.
+enum class Aim { kCost, kTouch, kShortLine };
+
+/// Vertices that are to be looked at again, each once, in the order in which they came.
+class WaitingVertices {
+ public:
+  explicit WaitingVertices(std::size_t vertices) : waits_(vertices, 0) {}
+
+  [[nodiscard]] bool has(LocalVertex v) const { return v < waits_.size() && waits_[v] != 0; }
+  /// REQUIRES: v is one of as many vertices as there were to be.
+  void add(LocalVertex v) {
+    if (waits_[v] == 0) list_.push_back(v);
+    waits_[v] = 1;
+  }
+  /// Returns all that wait, after which none does.
+  [[nodiscard]] std::vector<LocalVertex> take() {
+    for (const LocalVertex v : list_) waits_[v] = 0;
+    return std::exchange(list_, {});
+  }
+
+ private:
+  std::vector<std::uint8_t> waits_;
+  std::vector<LocalVertex> list_;
+};
 
 class Simplifier {
  public:
@@ -145,7 +167,9 @@ class Simplifier {
         finder_(mesh, metric, finished_),
         shape_(mesh, metric, options),
         limits_(mesh, metric, options.demands.sizes),
-        limits_of_touches_(EdgeLimits::of_moves(mesh, metric, options.demands.sizes)),
+        limits_of_lines_(EdgeLimits::of_moves(mesh, metric, options.demands.sizes)),
+        failed_on_lines_(is_sized(options) ? mesh.vertex_count() / 4 : 0),
+        touches_(is_sized(options) ? mesh.vertex_count() : 0),
         inner_(mesh, options.demands.inner),
         topology_(mesh, options.topology),
         topology_on_box_(mesh, KeptTopology::kInterfaces),
@@ -154,9 +178,7 @@ class Simplifier {
         bends_(mesh, metric) {}
 
   SimplifyStats run() {
-    if (is_sized(options_) && options_.demands.sizes->least() < kShortLimit * voxel_edge()) {
-      contract_touches();
-    }
+    if (is_sized(options_)) contract_on_lines(Aim::kTouch);
     options_.seeding(mesh_.vertex_count(), [this](std::size_t first, std::size_t last) {
       CandidateFinder scout(mesh_, metric_, finished_);
       for (auto v = static_cast<LocalVertex>(first); v < last; ++v) {
@@ -165,12 +187,14 @@ class Simplifier {
     });
     std::vector<LocalVertex> round;
     while (queue_.take_round(round)) {
+      for (const LocalVertex v : touches_.take()) contract_line_edges(v, Aim::kTouch);
       for (LocalVertex v : round) {
         const std::size_t left = mesh_.vertex_count() - stats_.contracted;
         if (left <= options_.enough_vertices) return stats_;
         if (mesh_.is_alive(v)) visit(v);
       }
     }
+    if (is_sized(options_)) contract_on_lines(Aim::kShortLine);
     return stats_;
   }
 
@@ -196,39 +220,49 @@ class Simplifier {
     }
   }
 
-  [[nodiscard]] double voxel_edge() const { return metric_.voxel().minCoeff(); }
-
-  /// Contracts touches (LineEdges) wherever that leaves good tets, at any cost.  They come first,
-  /// because edges around them are short at first, and limits would refuse longer ones later.
-  void contract_touches() {
-    at_touch_ = true;
-    std::vector<LocalVertex> ends;
-    for (LocalVertex v = 0; v < mesh_.vertex_count(); ++v) {
-      while (mesh_.is_alive(v) && mesh_.is_free(v) && contract_touch(v, ends)) {
-      }
-    }
-    at_touch_ = false;
+  /// Contracts all line edges (LineEdges) that are touches, or that are short, wherever that leaves
+  /// good tets, at any cost.  Touches come before all else, because edges around them are short at
+  /// first, and limits would refuse longer ones later; those that fail wait until others have made
+  /// room.  Short edges come last, as they are what shapes have refused so far.
+  void contract_on_lines(Aim aim) {
+    for (LocalVertex v = 0; v < mesh_.vertex_count(); ++v) contract_line_edges(v, aim);
   }
 
-  bool contract_touch(LocalVertex v, std::vector<LocalVertex>& ends) {
+  void contract_line_edges(LocalVertex v, Aim aim) {
+    aim_ = aim;
+    while (mesh_.is_alive(v) && mesh_.is_free(v) && contract_line_edge(v)) {
+    }
+    aim_ = Aim::kCost;
+  }
+
+  bool contract_line_edge(LocalVertex v) {
     if (mesh_.order(v) < kLabelsOfLine) return false;
     const std::span<const LocalVertex> found = lines_.at(mesh_, v);
-    ends.assign(found.begin(), found.end());
-    return std::any_of(ends.begin(), ends.end(), [&](LocalVertex w) {
-      if (!mesh_.is_free(w) || (finished_.has(v) && finished_.has(w))) return false;
-      if (!lines_.is_touch(mesh_, v, w)) return false;
-      const std::optional<Contraction> c = plan_contraction(mesh_, metric_, v, w);
-      return c && try_contraction(*c);
-    });
+    line_ends_.assign(found.begin(), found.end());
+    return std::any_of(line_ends_.begin(), line_ends_.end(),
+                       [&](LocalVertex w) { return try_line_edge(v, w); });
+  }
+
+  bool try_line_edge(LocalVertex v, LocalVertex w) {
+    if (!mesh_.is_free(w) || (finished_.has(v) && finished_.has(w))) return false;
+    const bool is_touch = aim_ == Aim::kTouch;
+    if (is_touch ? !lines_.is_touch(mesh_, v, w) : !limits_.is_short(v, w)) return false;
+    if (is_touch) touches_.add(v);
+    if (failed_on_lines_.contains(mesh_, v, w)) return false;
+    const std::optional<Contraction> c = plan_contraction(mesh_, metric_, v, w);
+    // Of touches that stay most do so for their topology, which is asked before many places are.
+    if (c && keeps_topology(*c) && try_contraction(*c)) return true;
+    failed_on_lines_.insert(mesh_, v, w);
+    return false;
   }
 
   /// The most that a place may cost.
   [[nodiscard]] double bound() const {
-    return at_touch_ ? std::numeric_limits<double>::infinity() : queue_.current_bound();
+    return aim_ == Aim::kCost ? queue_.current_bound() : std::numeric_limits<double>::infinity();
   }
 
   [[nodiscard]] bool keeps_lengths(const Contraction& c) const {
-    const EdgeLimits& limits = at_touch_ ? limits_of_touches_ : limits_;
+    const EdgeLimits& limits = aim_ == Aim::kCost ? limits_ : limits_of_lines_;
     return limits.allow_star(c.drop, c.keep, c.position) &&
            (!c.moves || limits.allow_star(c.keep, c.drop, c.position));
   }
@@ -253,6 +287,12 @@ class Simplifier {
     }
     for (const Contraction& other : other_positions(mesh_, metric_, c)) {
       if (other.cost > bound()) continue;
+      if (judge_junction(other) != StarVerdict::kGood) continue;
+      c = other;
+      return StarVerdict::kGood;
+    }
+    if (aim_ != Aim::kTouch) return verdict;
+    for (const Contraction& other : positions_around(mesh_, metric_, c)) {
       if (judge_junction(other) != StarVerdict::kGood) continue;
       c = other;
       return StarVerdict::kGood;
@@ -298,7 +338,8 @@ class Simplifier {
 
   bool try_contraction(Contraction c) {
     ++stats_.tried;
-    if (options_.only_short && !at_touch_ && !limits_.is_short(c.keep, c.drop)) return false;
+    if (options_.only_short && aim_ == Aim::kCost && !limits_.is_short(c.keep, c.drop))
+      return false;
     if (!inner_.allows_contraction(c.keep, c.drop)) {
       ++stats_.no_inner;
       return false;
@@ -333,6 +374,7 @@ class Simplifier {
     const Quadric quadric = contracted_quadric(mesh_, metric_, c);
     mesh_.contract(c.keep, c.drop, c.position, quadric);
     if (guarded) guard_->commit();
+    if (touches_.has(c.drop)) touches_.add(c.keep);
     ++stats_.contracted;
     return true;
   }
@@ -345,9 +387,12 @@ class Simplifier {
   FinishedVertices finished_;
   CandidateFinder finder_;
   ShapeFilter shape_;
-  EdgeLimits limits_, limits_of_touches_;
+  EdgeLimits limits_, limits_of_lines_;
+  Aim aim_ = Aim::kCost;
   LineEdges lines_;
-  bool at_touch_ = false;
+  std::vector<LocalVertex> line_ends_;
+  FailedPairs failed_on_lines_;
+  WaitingVertices touches_;
   InnerFilter inner_;
   LinkCondition topology_;
   LinkCondition topology_on_box_;

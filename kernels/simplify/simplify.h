@@ -28,7 +28,7 @@ struct SimplifyOptions {
   KeptTopology topology = KeptTopology::kLabels;
   bool keep_smooth = false;  ///< contractions that fold interfaces are refused (BendFilter)
   TetDemands demands;        ///< demands that are met stay met; others may stay unmet
-  bool only_short = false;   ///< touches, and edges that EdgeLimits::is_short() finds short alone
+  bool only_short = false;   ///< besides touches, edges that EdgeLimits::is_short() finds short
   /// Boxes that an earlier march has finished.  Edges between vertices whose stars lie in one of
   /// these boxes, and that have not changed in this window, are not looked at.
   std::vector<LatticeBox> finished;
@@ -58,9 +58,10 @@ struct SimplifyStats {
 /// bound of VertexQueue.  Where shapes refuse the planned place, other_positions() are tried,
 /// except with options.edge_variance, the paper's filter, which goes with the paper's place.  Where
 /// sizes are asked and enough_vertices is 0, a second pass contracts much shorter edges, also of
-/// inner vertices, down to quality_floor; and where sizes are small touches
-/// (kernels/surface/line_edges.h) are contracted first, up to the limits that moves have, so that
-/// lines of three labels do not fork.  guard keeps the distance bound; null means no bound.
+/// inner vertices, down to quality_floor.  In both, lines of three labels come before costs, up to
+/// the limits that moves have: touches (kernels/surface/line_edges.h) are contracted first, also at
+/// positions_around(), so that lines do not fork, and edges of lines that are still short at the
+/// end.  guard keeps the distance bound; null means no bound.
 /// ENSURES: all tets strictly positive (exactly), options.topology kept, box kept, fixed vertices
 ///          untouched; the result depends on the mesh's content only.
 SimplifyStats simplify(TetMesh& mesh, const Metric& metric, const SimplifyOptions& options,

@@ -3,6 +3,9 @@
 // Sec 5.3.3: survivor, position and cost of planned contractions, and what their shape filter says.
 #include "kernels/simplify/contraction.h"
 
+#include <array>
+#include <set>
+
 #include "kernels/quality/quality.h"
 #include "kernels/simplify/contraction_filters.h"
 #include "kernels/topology/link_condition.h"
@@ -164,6 +167,36 @@ TEST(Sec533Case3, TheHigherOrderMayAlsoGoTowardsTheOptimum) {
   });
   EXPECT_GT(seen, 200);
   EXPECT_GT(others, seen);
+}
+
+TEST(Sec533Contraction, PlacesAroundAreOnTheSamePlanesAndTheCheapestIsFirst) {
+  int seen = 0, on_box = 0;
+  each_random_edge(719, [&](const TetMesh& mesh, const Metric& metric, auto p, auto q) {
+    const auto c = plan_contraction(mesh, metric, p, q);
+    if (!c || !c->has_others) return;
+    const Point keep = mesh.position(c->keep);
+    const unsigned fixed = fixed_axes(mesh.planes(c->keep));
+    double last = 0.0;
+    std::set<std::array<std::int32_t, 3>> places;
+    for (const Contraction& other : positions_around(mesh, metric, *c)) {
+      EXPECT_EQ(other.keep, c->keep);
+      EXPECT_EQ(other.drop, c->drop);
+      EXPECT_EQ(other.moves, other.position != keep);
+      for (unsigned axis = 0; axis < 3; ++axis) {
+        if ((fixed >> axis & 1U) == 0) continue;
+        EXPECT_EQ(along(other.position, axis), along(keep, axis));
+      }
+      const double error = joint_error(mesh, metric, p, q, other.position);
+      EXPECT_NEAR(other.cost, error, 1e-9 * (1.0 + error));
+      EXPECT_GE(other.cost, last);
+      last = other.cost;
+      places.insert({other.position.x, other.position.y, other.position.z});
+    }
+    EXPECT_GE(places.size(), fixed == 0 ? 125U : 1U);
+    ++(fixed == 0 ? seen : on_box);
+  });
+  EXPECT_GT(seen, 100);
+  EXPECT_GT(on_box, 10);
 }
 
 TEST(Sec533Case2, TheBoundaryVertexStaysWhereItIs) {
