@@ -38,7 +38,8 @@ class Asked {
 /// Flags that are no option of the library stay as they are: they belong to commands.
 [[nodiscard]] std::string in_words(const std::string& message);
 
-/// Returns the name of the option that a message begins with; empty if it begins with none.
+/// Returns the name of the option that a message is about, which begins with its flag, as "--crop:
+/// " and "--scale 7: " do; empty if it is about none.
 [[nodiscard]] std::string option_of(const std::string& message);
 
 }  // namespace mw::api

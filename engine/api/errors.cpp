@@ -41,12 +41,9 @@ mw_status kind_of(ErrorKind kind) {
 }
 
 mw_error told(const Error& error) {
-  mw_error out{.kind = kind_of(error.kind()), .text = in_words(error.what())};
-  out.option = option_of(out.text);
-  // Settings name themselves, and so do the options that they are.
-  const std::string twice = out.option + ": " + flag_of(out.option) + " ";
-  if (out.text.starts_with(twice)) out.text.replace(0, twice.size(), out.option + ": ");
-  return out;
+  return {.kind = kind_of(error.kind()),
+          .text = in_words(error.what()),
+          .option = option_of(error.what())};
 }
 
 /// Returns the exception that is being handled as an error.

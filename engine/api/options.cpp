@@ -75,10 +75,13 @@ io::Json row_of(const OptionSet::Entry& entry) {
   return out;
 }
 
-/// Returns the end of the flag that begins at `at` with "--".
-std::size_t end_of_flag(const std::string& message, std::size_t at) {
+/// Returns the option whose flag a message has at `at`; empty if there is none.
+std::string flag_at(const std::string& message, std::size_t at) {
+  const bool starts_word = at == 0 || message[at - 1] == ' ' || message[at - 1] == '(';
+  if (!starts_word || message.compare(at, 2, "--") != 0) return "";
   const std::size_t end = message.find_first_not_of("abcdefghijklmnopqrstuvwxyz-", at + 2);
-  return std::min(end, message.size());
+  std::string flag = message.substr(at + 2, end - at - 2);
+  return is_option(flag) ? flag : "";
 }
 
 }  // namespace
@@ -100,23 +103,17 @@ std::string flag_of(std::string name) {
 std::string in_words(const std::string& message) {
   std::string out;
   std::size_t done = 0;
-  for (std::size_t at = message.find("--"); at != message.npos; at = message.find("--", at)) {
-    const std::size_t end = end_of_flag(message, at);
-    const std::string flag = message.substr(at + 2, end - at - 2);
-    const bool starts_word = at == 0 || message[at - 1] == ' ' || message[at - 1] == '(';
-    if (starts_word && is_option(flag)) {
-      out += message.substr(done, at - done) + request::key_of(flag);
-      done = end;
-    }
-    at = std::max(end, at + 2);
+  for (std::size_t at = message.find("--"); at != message.npos; at = message.find("--", at + 2)) {
+    const std::string flag = flag_at(message, at);
+    if (flag.empty()) continue;
+    out += message.substr(done, at - done) + request::key_of(flag);
+    done = at + 2 + flag.size();
   }
   return out + message.substr(done);
 }
 
 std::string option_of(const std::string& message) {
-  const std::string name =
-      message.substr(0, message.find_first_not_of("abcdefghijklmnopqrstuvwxyz_"));
-  return is_option(flag_of(name)) ? name : "";
+  return request::key_of(flag_at(message, 0));
 }
 
 }  // namespace mw::api

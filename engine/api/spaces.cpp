@@ -21,7 +21,7 @@ io::WorldFrame frame_of(const std::string& name, const char* expected = "own, ra
        {io::WorldFrame::kOwn, io::WorldFrame::kRas, io::WorldFrame::kLps}) {
     if (name == io::name(frame)) return frame;
   }
-  io::fail_usage("frame ", name, ": expected ", expected);
+  io::fail_usage("--frame ", name, ": expected ", expected);
 }
 
 void check_axes(const std::array<io::Vector3, 3>& axes) {

@@ -23,7 +23,7 @@ int halvings_of(const io::VolumeInfo& volume, const MeshJob& job, double in_imag
   if (!sizes.rules.any() || sizes.count > 0) return 0;
   const double kept = least_size(volume), listed = sizes.rules.least();
   if (std::ldexp(listed, io::kMostHalvings) < kept) {
-    io::fail_usage("size ", listed,
+    io::fail_usage("--size ", listed,
                    " is too small: the marches make edges as long as the diagonals of "
                    "voxels, and tets are cut ",
                    io::kMostHalvings, " times at most; ",

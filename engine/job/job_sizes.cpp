@@ -17,7 +17,7 @@ std::optional<SizeImage> size_image(const io::VolumeInfo& labels, const MeshJob&
   const std::string& file = job.settings.sizes.rules.image;
   if (file.empty()) return std::nullopt;
   if (job.size_image != nullptr) return SizeImage(*job.size_image, labels, file);
-  io::fail_usage("size: the image " + file + " was not opened");
+  io::fail_usage("--size: the image " + file + " was not opened");
 }
 
 /// Returns the smallest size of an image.  ERRORS: mw::Error(kInput) if it asks for none.

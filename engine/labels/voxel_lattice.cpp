@@ -66,7 +66,7 @@ void check_sizes(const io::VolumeInfo& volume, const MeshSettings& settings) {
   if (!settings.sizes.rules.any() || settings.sizes.count > 0) return;
   const double least = settings.sizes.rules.least(), kept = least_size(volume);
   if (least >= kept) return;
-  io::fail_usage("size ", least,
+  io::fail_usage("--size ", least,
                  " is too small: the finest start mesh has the diagonals of voxels; ",
                  told_size(kept), " can be kept");
 }
@@ -157,7 +157,7 @@ void check(const io::LabelTable& labels, const MeshSettings& settings) {
     if (labels.contains(label)) return;
     const std::string name = labels.is_signed() ? std::to_string(static_cast<std::int64_t>(label))
                                                 : std::to_string(label);
-    io::fail_usage("size: the volume has no label " + name);
+    io::fail_usage("--size: the volume has no label " + name);
   };
   const SizeRules& rules = settings.sizes.rules;
   for (const LabelSize& s : rules.labels) require(s.label);

@@ -6,7 +6,7 @@
 #include "engine/request/values.h"
 #include "engine/settings/named_labels.h"
 #include "engine/settings/setting_table.h"
-#include "kernels/core/error.h"
+#include "io/file/errors.h"
 
 namespace mw::request {
 namespace {
@@ -28,7 +28,7 @@ constexpr const char* kKeepsZero = "none";
 
 int parse_threads(const std::string& text) {
   const std::int64_t threads = parse_integer(text);
-  engine::check_threads(threads);
+  if (threads < 0 || threads > 1024) io::fail_usage("must be from 1 to 1024, or 0 for all cores");
   return static_cast<int>(threads);
 }
 

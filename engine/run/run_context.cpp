@@ -24,7 +24,7 @@ void check_copies_of_scores(const io::VolumeInfo& info, const MeshSettings& sett
   for (unsigned axis = 0; axis < 3; ++axis) {
     const std::int64_t around = along(margin, axis), each = along(layers, axis);
     if (around % each == 0) continue;
-    io::fail_usage(io::text("periodic: --values are seen ", around,
+    io::fail_usage(io::text("--periodic: --values are seen ", around,
                             " layers beyond a face, but voxels have ", each, " layers along ",
                             "xyz"[axis], ", which do not divide that; resample the volume"));
   }

@@ -6,8 +6,10 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <functional>
+#include <concepts>
 #include <limits>
+#include <optional>
+#include <type_traits>
 #include <utility>
 
 #include "engine/settings/number_text.h"
@@ -21,14 +23,11 @@ namespace {
 using Settings = MeshSettings;
 using Text = std::string;
 
-constexpr int kMaxMarches = 4;
-constexpr double kMaxQualityFloor = 0.5;
-constexpr double kMaxInnerQuality = 0.8;
-constexpr double kMaxDistance = 16.0;
-constexpr int kMaxOdtIterations = 1000;
-constexpr double kMaxGradation = 10.0;
-constexpr std::int64_t kMaxCount = 1'000'000'000'000;
-constexpr int kMaxAcross = 16;
+constexpr double kAboveZero = std::numeric_limits<double>::denorm_min();
+constexpr double kBelowOne = 1 - std::numeric_limits<double>::epsilon() / 2;
+constexpr double kMaxDistance = 16;
+constexpr double kMaxCount = 1e12;
+constexpr double kMaxAcross = 16;
 constexpr const char* kNone = "none";
 constexpr const char* kAuto = "auto";
 
@@ -48,51 +47,96 @@ constexpr Names<StartMesh, 3> kStarts{
 constexpr Names<PeriodicAxes, 8> kPeriodic{
     {{kNone, 0}, {"x", 1}, {"y", 2}, {"z", 4}, {"xy", 3}, {"xz", 5}, {"yz", 6}, {"xyz", 7}}};
 
-template <class T, std::size_t N>
-std::vector<Text> words(const Names<T, N>& names) {
-  std::vector<Text> out;
-  for (const auto& [name, value] : names) out.emplace_back(name);
-  return out;
-}
-
-template <class T, std::size_t N>
-Text name_of(const Names<T, N>& names, T value) {
-  return std::find_if(names.begin(), names.end(), [&](const auto& n) { return n.second == value; })
-      ->first;
-}
-
-template <class T, std::size_t N>
-T value_of(const Names<T, N>& names, const Text& text) {
-  Text expected = "one of";
-  for (const auto& [name, value] : names) {
-    if (text == name) return value;
-    expected += (name == names.front().first ? " " : ", ") + Text(name);
-  }
-  fail_expected(expected, text);
-}
-
-/// Parses an integer; one that no int holds becomes the nearest int, which no setting allows.
-int parse_int(const Text& text) {
-  using Limits = std::numeric_limits<int>;
-  return static_cast<int>(
-      std::clamp<std::int64_t>(parse_integer(text), Limits::min(), Limits::max()));
-}
-
-std::optional<double> parse_bound(const Text& text, const char* no_bound = kNone) {
-  return text == no_bound ? std::nullopt : std::optional(parse_number(text));
-}
-
-Text bound_text(const std::optional<double>& bound, const char* no_bound = kNone) {
-  return bound ? format_number(*bound) : no_bound;
-}
-
 Text range_text(double min, double max) {
   return "from " + format_number(min) + " to " + format_number(max);
 }
 
+// A field of the settings, or of the sizes among them.
+
+template <class S, class T>
+auto& at(S& settings, T Settings::*field) {
+  return settings.*field;
+}
+template <class S, class T>
+auto& at(S& settings, T SizeSettings::*field) {
+  return settings.sizes.*field;
+}
+
+// Numbers to text and back; `word` stands for none.
+
+Text text_of(std::integral auto value, const char* /*word*/) {
+  return std::to_string(value);
+}
+Text text_of(const std::optional<double>& value, const char* word) {
+  return value ? format_number(*value) : word;
+}
+
+/// An integer that T does not hold becomes the nearest that it holds, which no setting allows.
+template <std::integral T>
+void read_into(T& value, const Text& text, const char* /*word*/) {
+  using Limits = std::numeric_limits<T>;
+  value =
+      static_cast<T>(std::clamp<std::int64_t>(parse_integer(text), Limits::min(), Limits::max()));
+}
+void read_into(double& value, const Text& text, const char* /*word*/) {
+  value = parse_number(text);
+}
+void read_into(std::optional<double>& value, const Text& text, const char* word) {
+  value = text == word ? std::nullopt : std::optional(parse_number(text));
+}
+
 /// Returns false if the value is not a number.
-bool is_within(double value, double min, double max) {
-  return value >= min && value <= max;
+bool is_within(const Setting& row, const std::optional<double>& value) {
+  return !value || (*value >= row.least && *value <= row.most);
+}
+bool is_within(const Setting& row, std::integral auto value) {
+  return is_within(row, std::optional(static_cast<double>(value))) && value % row.step == 0;
+}
+
+// What completes a row: its functions, and what follows from the type of its field.
+
+template <class T, class Group>
+Setting number(T Group::*field, Setting row) {
+  constexpr bool may_lack = !std::is_arithmetic_v<T>;
+  if (row.kind == ValueKind::kText) {
+    row.kind = std::is_integral_v<T> ? ValueKind::kInteger
+               : may_lack            ? ValueKind::kNumberOrNone
+                                     : ValueKind::kNumber;
+  }
+  const char* const word = row.kind == ValueKind::kNumberOrAuto ? kAuto : kNone;
+  if (row.allowed.empty()) {
+    row.allowed = range_text(row.least, row.most) + (may_lack ? Text(", or ") + word : "");
+  }
+  row.text = [=](const Settings& s) { return text_of(at(s, field), word); };
+  row.read = [=](Settings& s, const Text& t) { read_into(at(s, field), t, word); };
+  row.is_allowed = [=](const Settings& s) { return is_within(row, at(s, field)); };
+  return row;
+}
+
+template <class T, std::size_t N>
+Setting choice(T Settings::*field, const Names<T, N>& names, Setting row) {
+  Text expected = "one of";
+  for (const auto& [name, value] : names) {
+    row.choices.emplace_back(name);
+    expected += (row.choices.size() == 1 ? " " : ", ") + row.choices.back();
+  }
+  row.text = [field, &names](const Settings& s) -> Text {
+    return std::ranges::find(names, s.*field, [](const auto& n) { return n.second; })->first;
+  };
+  row.read = [field, &names, expected](Settings& s, const Text& t) {
+    const auto found = std::ranges::find(names, t, [](const auto& n) { return Text(n.first); });
+    if (found == names.end()) fail_expected(expected, t);
+    s.*field = found->second;
+  };
+  return row;
+}
+
+template <class Group>
+Setting yes_or_no(bool Group::*field, Setting row) {
+  row.kind = ValueKind::kSwitch;
+  row.text = [=](const Settings& s) -> Text { return at(s, field) ? "true" : "false"; };
+  row.read = [=](Settings& s, const Text& t) { at(s, field) = parse_switch(t); };
+  return row;
 }
 
 /// Returns whether sizes are positive, and ascending, so that each place has one.
@@ -111,140 +155,100 @@ bool are_sizes(const SizeRules& rules) {
 
 std::vector<Setting> march_settings() {
   return {
-      {.name = "window",
-       .value = "N",
-       .help = "edge of windows in voxels of the lattice, even",
-       .kind = ValueKind::kInteger,
-       .expert = true,
-       .allowed = "an even number from 4 to " + std::to_string(kMaxWindow),
-       .text = [](const Settings& s) { return std::to_string(s.window); },
-       .read = [](Settings& s, const Text& t) { s.window = parse_int(t); },
-       .is_allowed =
-           [](const Settings& s) {
-             return is_within(s.window, 4, kMaxWindow) && s.window % 2 == 0;
-           }},
-      {.name = "marches",
-       .value = "N",
-       .help = "marches over the volume, each with windows twice as large",
-       .kind = ValueKind::kInteger,
-       .expert = true,
-       .allowed = range_text(1, kMaxMarches),
-       .text = [](const Settings& s) { return std::to_string(s.marches); },
-       .read = [](Settings& s, const Text& t) { s.marches = parse_int(t); },
-       .is_allowed = [](const Settings& s) { return is_within(s.marches, 1, kMaxMarches); }},
-      {.name = "order",
-       .help = "raster: the paper's, another mesh, narrow on small volumes",
-       .choices = words(kOrders),
-       .expert = true,
-       .text = [](const Settings& s) { return name_of(kOrders, s.order); },
-       .read = [](Settings& s, const Text& t) { s.order = value_of(kOrders, t); }},
-      {.name = "start",
-       .help = "labels coarsened; larger cells inside them; the paper's",
-       .choices = words(kStarts),
-       .expert = true,
-       .text = [](const Settings& s) { return name_of(kStarts, s.start); },
-       .read = [](Settings& s, const Text& t) { s.start = value_of(kStarts, t); }},
+      number(&Settings::window, {.name = "window",
+                                 .value = "N",
+                                 .help = "edge of windows in voxels of the lattice, even",
+                                 .expert = true,
+                                 .least = 4,
+                                 .most = kMaxWindow,
+                                 .step = 2,
+                                 .allowed = "an even number " + range_text(4, kMaxWindow)}),
+      number(&Settings::marches,
+             {.name = "marches",
+              .value = "N",
+              .help = "marches over the volume, each with windows twice as large",
+              .expert = true,
+              .least = 1,
+              .most = 4}),
+      choice(&Settings::order, kOrders,
+             {.name = "order",
+              .help = "raster: the paper's, another mesh, narrow on small volumes",
+              .expert = true}),
+      choice(&Settings::start, kStarts,
+             {.name = "start",
+              .help = "labels coarsened; larger cells inside them; the paper's",
+              .expert = true}),
   };
 }
 
 std::vector<Setting> bound_settings() {
   return {
-      {.name = "edge-variance",
-       .value = "T|none",
-       .help = "bound on the variance of edge lengths, Eq (3)",
-       .kind = ValueKind::kNumberOrNone,
-       .expert = true,
-       .allowed = "positive, or none",
-       .text = [](const Settings& s) { return bound_text(s.edge_variance); },
-       .read = [](Settings& s, const Text& t) { s.edge_variance = parse_bound(t); },
-       .is_allowed = [](const Settings& s) { return !s.edge_variance || *s.edge_variance > 0.0; }},
-      {.name = "quality-floor",
-       .value = "R",
-       .help = "no tet below this radius ratio; 0: nothing is asked of shapes",
-       .kind = ValueKind::kNumber,
-       .expert = true,
-       .allowed = range_text(0, kMaxQualityFloor),
-       .text = [](const Settings& s) { return format_number(s.quality_floor); },
-       .read = [](Settings& s, const Text& t) { s.quality_floor = parse_number(t); },
-       .is_allowed =
-           [](const Settings& s) { return is_within(s.quality_floor, 0, kMaxQualityFloor); }},
-      {.name = "inner-quality",
-       .value = "R|auto",
-       .help = "the same for contractions inside labels; less is fewer tets",
-       .kind = ValueKind::kNumberOrAuto,
-       .expert = true,
-       .allowed = range_text(0, kMaxInnerQuality) + ", or auto",
-       .text = [](const Settings& s) { return bound_text(s.inner_quality, kAuto); },
-       .read = [](Settings& s, const Text& t) { s.inner_quality = parse_bound(t, kAuto); },
-       .is_allowed =
-           [](const Settings& s) {
-             return !s.inner_quality || is_within(*s.inner_quality, 0, kMaxInnerQuality);
-           }},
-      {.name = "max-distance",
-       .value = "D|none",
-       .help = "voxels at most between interfaces of input and mesh",
-       .kind = ValueKind::kNumberOrNone,
-       .allowed =
-           range_text(0.71, kMaxDistance) + " voxels, or none (the samples are 0.71 voxels apart)",
-       .text = [](const Settings& s) { return bound_text(s.max_distance); },
-       .read = [](Settings& s, const Text& t) { s.max_distance = parse_bound(t); },
-       .is_allowed =
-           [](const Settings& s) {
-             return !s.max_distance ||
-                    is_within(*s.max_distance, DistanceGuard::min_distance(), kMaxDistance);
-           }},
-      {.name = "target-reduction",
-       .value = "F|none",
-       .help = "the paper's: a window stops at that share of voxel corners",
-       .kind = ValueKind::kNumberOrNone,
-       .expert = true,
-       .allowed = "between 0 and 1, or none",
-       .text = [](const Settings& s) { return bound_text(s.target_reduction); },
-       .read = [](Settings& s, const Text& t) { s.target_reduction = parse_bound(t); },
-       .is_allowed =
-           [](const Settings& s) {
-             return !s.target_reduction || (*s.target_reduction > 0.0 && *s.target_reduction < 1.0);
-           }},
+      number(&Settings::edge_variance, {.name = "edge-variance",
+                                        .value = "T|none",
+                                        .help = "bound on the variance of edge lengths, Eq (3)",
+                                        .expert = true,
+                                        .least = kAboveZero,
+                                        .allowed = "positive, or none"}),
+      number(&Settings::quality_floor,
+             {.name = "quality-floor",
+              .value = "R",
+              .help = "no tet below this radius ratio; 0: nothing is asked of shapes",
+              .expert = true,
+              .least = 0,
+              .most = 0.5}),
+      number(&Settings::inner_quality,
+             {.name = "inner-quality",
+              .value = "R|auto",
+              .help = "the same for contractions inside labels; less is fewer tets",
+              .kind = ValueKind::kNumberOrAuto,
+              .expert = true,
+              .least = 0,
+              .most = 0.8}),
+      number(&Settings::max_distance,
+             {.name = "max-distance",
+              .value = "D|none",
+              .help = "voxels at most between interfaces of input and mesh",
+              .least = DistanceGuard::min_distance(),
+              .most = kMaxDistance,
+              .allowed = range_text(0.71, kMaxDistance) +
+                         " voxels, or none (the samples are 0.71 voxels apart)"}),
+      number(&Settings::target_reduction,
+             {.name = "target-reduction",
+              .value = "F|none",
+              .help = "the paper's: a window stops at that share of voxel corners",
+              .expert = true,
+              .least = kAboveZero,
+              .most = kBelowOne,
+              .allowed = "between 0 and 1, or none"}),
   };
 }
 
 std::vector<Setting> method_settings() {
   return {
-      {.name = "topology",
-       .help = "what is kept: topology of labels, or of interfaces, too",
-       .choices = words(kTopologies),
-       .expert = true,
-       .text = [](const Settings& s) { return name_of(kTopologies, s.topology); },
-       .read = [](Settings& s, const Text& t) { s.topology = value_of(kTopologies, t); }},
-      {.name = "surface",
-       .help = "smooth ones that keep volumes, or the paper's",
-       .choices = words(kSurfaces),
-       .expert = true,
-       .text = [](const Settings& s) { return name_of(kSurfaces, s.surface); },
-       .read = [](Settings& s, const Text& t) { s.surface = value_of(kSurfaces, t); }},
-      {.name = "periodic",
-       .value = "AXES",
-       .help = "axes along which the volume repeats itself: x to xyz",
-       .choices = words(kPeriodic),
-       .expert = true,
-       .text = [](const Settings& s) { return name_of(kPeriodic, s.periodic); },
-       .read = [](Settings& s, const Text& t) { s.periodic = value_of(kPeriodic, t); }},
-      {.name = "optimizer",
-       .help = "what improves tets; tetgen: the paper's, at the end",
-       .choices = words(kOptimizers),
-       .expert = true,
-       .text = [](const Settings& s) { return name_of(kOptimizers, s.optimizer); },
-       .read = [](Settings& s, const Text& t) { s.optimizer = value_of(kOptimizers, t); }},
-      {.name = "odt-iterations",
-       .value = "N",
-       .help = "iterations of --optimizer tetgen in a window, at most",
-       .kind = ValueKind::kInteger,
-       .expert = true,
-       .allowed = range_text(1, kMaxOdtIterations),
-       .text = [](const Settings& s) { return std::to_string(s.odt_iterations); },
-       .read = [](Settings& s, const Text& t) { s.odt_iterations = parse_int(t); },
-       .is_allowed =
-           [](const Settings& s) { return is_within(s.odt_iterations, 1, kMaxOdtIterations); }},
+      choice(&Settings::topology, kTopologies,
+             {.name = "topology",
+              .help = "what is kept: topology of labels, or of interfaces, too",
+              .expert = true}),
+      choice(&Settings::surface, kSurfaces,
+             {.name = "surface",
+              .help = "smooth ones that keep volumes, or the paper's",
+              .expert = true}),
+      choice(&Settings::periodic, kPeriodic,
+             {.name = "periodic",
+              .value = "AXES",
+              .help = "axes along which the volume repeats itself: x to xyz",
+              .expert = true}),
+      choice(&Settings::optimizer, kOptimizers,
+             {.name = "optimizer",
+              .help = "what improves tets; tetgen: the paper's, at the end",
+              .expert = true}),
+      number(&Settings::odt_iterations,
+             {.name = "odt-iterations",
+              .value = "N",
+              .help = "iterations of --optimizer tetgen in a window, at most",
+              .expert = true,
+              .least = 1,
+              .most = 1000}),
   };
 }
 
@@ -259,40 +263,31 @@ std::vector<Setting> size_settings() {
        .text = [](const Settings& s) { return format_sizes(s.sizes.rules); },
        .read = [](Settings& s, const Text& t) { s.sizes.rules = parse_sizes(t); },
        .is_allowed = [](const Settings& s) { return are_sizes(s.sizes.rules); }},
-      {.name = "gradation",
-       .value = "G",
-       .help = "around, sizes grow by G times the distance, 0 to 10",
-       .kind = ValueKind::kNumber,
-       .expert = true,
-       .allowed = range_text(0, kMaxGradation),
-       .text = [](const Settings& s) { return format_number(s.sizes.gradation); },
-       .read = [](Settings& s, const Text& t) { s.sizes.gradation = parse_number(t); },
-       .is_allowed =
-           [](const Settings& s) { return is_within(s.sizes.gradation, 0, kMaxGradation); }},
-      {.name = "inner-vertices",
-       .help = "vertices in tets without one inside their label (see --size)",
-       .kind = ValueKind::kSwitch,
-       .expert = true,
-       .text = [](const Settings& s) -> Text { return s.sizes.inner_vertices ? "true" : "false"; },
-       .read = [](Settings& s, const Text& t) { s.sizes.inner_vertices = parse_switch(t); }},
-      {.name = "count",
-       .value = "N",
-       .help = "about N tets: sizes are scaled, after a pilot; 0: any",
-       .kind = ValueKind::kInteger,
-       .allowed = "from 1 to " + std::to_string(kMaxCount) + ", or 0 for any",
-       .text = [](const Settings& s) { return std::to_string(s.sizes.count); },
-       .read = [](Settings& s, const Text& t) { s.sizes.count = parse_integer(t); },
-       .is_allowed =
-           [](const Settings& s) { return s.sizes.count >= 0 && s.sizes.count <= kMaxCount; }},
-      {.name = "across",
-       .value = "N",
-       .help = "edges across thin parts, at least, if voxels allow; 0: any",
-       .kind = ValueKind::kInteger,
-       .expert = true,
-       .allowed = range_text(1, kMaxAcross) + ", or 0 for any",
-       .text = [](const Settings& s) { return std::to_string(s.sizes.across); },
-       .read = [](Settings& s, const Text& t) { s.sizes.across = parse_int(t); },
-       .is_allowed = [](const Settings& s) { return is_within(s.sizes.across, 0, kMaxAcross); }},
+      number(&SizeSettings::gradation,
+             {.name = "gradation",
+              .value = "G",
+              .help = "around, sizes grow by G times the distance, 0 to 10",
+              .expert = true,
+              .least = 0,
+              .most = 10}),
+      yes_or_no(&SizeSettings::inner_vertices,
+                {.name = "inner-vertices",
+                 .help = "vertices in tets without one inside their label (see --size)",
+                 .expert = true}),
+      number(&SizeSettings::count, {.name = "count",
+                                    .value = "N",
+                                    .help = "about N tets: sizes are scaled, after a pilot; 0: any",
+                                    .least = 0,
+                                    .most = kMaxCount,
+                                    .allowed = "from 1 to 1000000000000, or 0 for any"}),
+      number(&SizeSettings::across,
+             {.name = "across",
+              .value = "N",
+              .help = "edges across thin parts, at least, if voxels allow; 0: any",
+              .expert = true,
+              .least = 0,
+              .most = kMaxAcross,
+              .allowed = range_text(1, kMaxAcross) + ", or 0 for any"}),
   };
 }
 
@@ -346,18 +341,12 @@ const std::vector<SettingRule>& setting_rules() {
 
 void check(const Setting& setting, const MeshSettings& settings) {
   if (setting.is_allowed == nullptr || setting.is_allowed(settings)) return;
-  io::fail_usage(setting.name + " must be " + setting.allowed);
+  io::fail_usage("must be " + setting.allowed);
 }
 
 void set(const Setting& setting, MeshSettings& settings, const std::string& text) {
   setting.read(settings, text);
   check(setting, settings);
-}
-
-void check_threads(std::int64_t threads) {
-  constexpr int kMax = 1024;
-  if (threads >= 0 && threads <= kMax) return;
-  io::fail_usage("threads must be " + range_text(1, kMax) + ", or 0 for all cores");
 }
 
 }  // namespace mw::engine

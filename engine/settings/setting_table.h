@@ -4,6 +4,8 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
+#include <limits>
 #include <string>
 #include <utility>
 #include <vector>
@@ -38,20 +40,23 @@ struct Setting {
   std::vector<std::string> choices;  ///< the only texts allowed; empty: any of the kind
   bool has_labels = false;           ///< the value has labels in it
   bool expert = false;               ///< only --help-all lists it
-  std::string allowed;               ///< what messages say after "must be"
+  double least = std::numeric_limits<double>::lowest();  ///< of numbers, and included
+  double most = std::numeric_limits<double>::max();      ///< of numbers, and included
+  int step = 1;                                          ///< integers are multiples of it
+  std::string allowed;                                   ///< what messages say after "must be"
   /// Returns the value as text.  ENSURES: read() makes the same value of it, and different values
   /// have different texts; empty only for sizes without any.
-  std::string (*text)(const MeshSettings&) = nullptr;
+  std::function<std::string(const MeshSettings&)> text;
   /// ERRORS: mw::Error(kUsage) saying what was expected, for text that is not of the kind.
-  void (*read)(MeshSettings&, const std::string&) = nullptr;
+  std::function<void(MeshSettings&, const std::string&)> read;
   /// Returns whether the value, which is of the kind, is in its range; null if all values are.
-  bool (*is_allowed)(const MeshSettings&) = nullptr;
+  std::function<bool(const MeshSettings&)> is_allowed;
 };
 
 /// Every field of MeshSettings once, in the order of the documentation.  Thread-safe.
 [[nodiscard]] const std::vector<Setting>& setting_table();
 
-/// ERRORS: mw::Error(kUsage): "NAME must be ALLOWED".
+/// ERRORS: mw::Error(kUsage): "must be ALLOWED".
 void check(const Setting& setting, const MeshSettings& settings);
 
 /// Takes the value over.  ERRORS: those of Setting::read and check(); settings is then spoilt.
@@ -65,9 +70,6 @@ struct SettingRule {
 
 /// Thread-safe.
 [[nodiscard]] const std::vector<SettingRule>& setting_rules();
-
-/// ERRORS: mw::Error(kUsage) unless from 1 to 1,024, or 0 for all cores.
-void check_threads(std::int64_t threads);
 
 /// A row of values of the table under one name (--preset).
 struct Preset {

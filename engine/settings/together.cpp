@@ -30,13 +30,14 @@ constexpr std::array kRules{
     Rule{&Asked::changed, kNotWith, &Asked::object,
          "--changed: says nothing where --object finds the box anew, leave it out"},
     Rule{&Asked::keep, kNeeds, &Asked::colour,
-         "keep: needs order colour: in raster order an edit changes what all later windows see, so "
+         "--keep: needs --order colour: in raster order an edit changes what all later windows "
+         "see, so "
          "nothing could be used again"},
     Rule{&Asked::keep, kNotWith, &Asked::count,
-         "count: looks at the whole volume, so that an edit anywhere could change sizes "
-         "everywhere; with keep give size instead"},
+         "--count: looks at the whole volume, so that an edit anywhere could change sizes "
+         "everywhere; with --keep give --size instead"},
     Rule{&Asked::update, kNotWith, &Asked::many,
-         "from: works in one process only, run mwmesh without mpirun"},
+         "--from: works in one process only, run mwmesh without mpirun"},
     Rule{&Asked::merge, kNotWith, &Asked::scores,
          "--merge: merged labels have no probabilities or distances; merge these (the sum of "
          "probabilities, the least distance) before they are meshed"},
@@ -46,7 +47,7 @@ constexpr std::array kRules{
     Rule{
         &Asked::interpolate, kNotWith, &Asked::periodic,
         "--interpolate-slices: nothing is interpolated from the last slice to the first, so a cell "
-        "would not repeat itself; leave out periodic, or this"},
+        "would not repeat itself; leave out --periodic, or this"},
     Rule{&Asked::weld, kNotWith, &Asked::scores,
          "--weld: voxels that it fills have no probabilities or distances; mesh a volume of "
          "labels, or without it"},

@@ -366,10 +366,10 @@ void check_place(const std::optional<Vector3>& spacing, const std::optional<Vect
   const auto is_finite = [](double x) { return std::isfinite(x); };
   const auto is_length = [](double x) { return std::isfinite(x) && x > 0; };
   if (spacing && !std::ranges::all_of(*spacing, is_length)) {
-    fail_usage("spacing must be finite and positive");
+    fail_usage("--spacing: must be finite and positive");
   }
   if (origin && !std::ranges::all_of(*origin, is_finite)) {
-    fail_usage("origin must be finite");
+    fail_usage("--origin: must be finite");
   }
 }
 

@@ -215,6 +215,33 @@ TEST(LibraryErrors, NameTheOption) {
   }
 }
 
+/// Nor one that is called as a word with which a message begins.
+TEST(LibraryErrors, NameNoOptionThatAPathBeginsWith) {
+  for (const char* path : {"labels/missing.npy", "crop", "object: a.npy", "sample of names.npy"}) {
+    try {
+      (void)Volume::open(path);
+      ADD_FAILURE() << path;
+    } catch (const Error& error) {
+      EXPECT_EQ(error.option(), "") << path;
+      EXPECT_THAT(error.what(), StartsWith(path));
+    }
+  }
+}
+
+TEST(LibraryErrors, NameTheOptionOfAJobToo) {
+  const auto labels = grains();
+  const std::pair<const char*, const char*> bad[] = {
+      {"size", "999=3"}, {"keep_bytes", "9"}, {"labels", "99"}};
+  for (const auto& [name, text] : bad) {
+    try {
+      (void)mesh(volume_of(labels), {{name, text}});
+      ADD_FAILURE() << name << "=" << text;
+    } catch (const Error& error) {
+      EXPECT_EQ(error.option(), name) << error.what();
+    }
+  }
+}
+
 TEST_F(LibraryPathsTest, FailsAsAnErrorWherePathsCannotBeLookedAt) {
   const std::string loop = folder() / "loop";
   std::filesystem::create_symlink(loop, loop);

@@ -125,7 +125,7 @@ TEST_F(ConfigTest, NamesFileLineAndKey) {
   expect_refused("output = \"a\\u0000b.vtu\"\n", "c.toml:1: output: has a zero byte in it");
   expect_refused("\nwindow = \"40\"\n", "c.toml:2: window: wrong type; expected an integer");
   expect_refused("window = 40.5\n", "c.toml:1: window: wrong type");
-  expect_refused("window = 41\n", "c.toml:1: window = 41: window must be");
+  expect_refused("window = 41\n", "c.toml:1: window = 41: must be");
   expect_refused("spacing = [1, 2]\n", "c.toml:1: spacing");
   expect_refused("spacing = [1, \"2\", 3]\n", "c.toml:1: spacing: wrong type");
   expect_refused("edge_variance = \"some\"\n", "c.toml:1: edge_variance: wrong type");

@@ -357,7 +357,7 @@ class Keep(unittest.TestCase):
 
     def test_refusals(self):
         self.refused(2, "begin it by --keep", "mesh", "v.npy", "-o", "m.vtu", "--from", "k")
-        self.refused(2, "needs order colour", "mesh", "v.npy", "-o", "m.vtu", "--keep", "k",
+        self.refused(2, "needs --order colour", "mesh", "v.npy", "-o", "m.vtu", "--keep", "k",
                      "--order", "raster")
         self.refused(2, "an edit anywhere", "mesh", "v.npy", "-o", "m.vtu", "--keep", "k",
                      "--count", "1000")

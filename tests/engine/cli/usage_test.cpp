@@ -104,7 +104,7 @@ TEST_F(UsageTest, RefusesUnknownWords) {
 
 TEST_F(UsageTest, RefusesBadValues) {
   make_volume();
-  expect_failure(2, "mesh v.npy -o v.vtu --window 41", "--window 41: window must be an even");
+  expect_failure(2, "mesh v.npy -o v.vtu --window 41", "--window 41: must be an even");
   expect_failure(2, "mesh v.npy -o v.vtu --window 4e1", "--window 4e1: expected an integer");
   expect_failure(2, "mesh v.npy -o v.vtu --window 40", "MW_ORDER=x: expected one of", "MW_ORDER=x");
   expect_failure(2, "mesh v.npy -o v.vtu --spacing nan,1,1",

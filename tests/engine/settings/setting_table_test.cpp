@@ -37,37 +37,26 @@ std::string identity(const MeshSettings& settings) {
   return identity_text(io::VolumeInfo{}, settings);
 }
 
-/// A field that MeshSettings gains does not compile here; named here, it fails until its entry in
-/// the table changes it.
-TEST(SettingTable, LeavesOutNoField) {
-  MeshSettings changed;
-  for (const Setting& setting : setting_table()) {
-    set(setting, changed, samples(setting).good.front());
+/// Is taken for a value of any type.
+struct Anything {
+  template <class T>
+  operator T() const;  // NOLINT(google-explicit-constructor)
+};
+
+/// Returns the number of fields of an aggregate.
+template <class T, class... Fields>
+constexpr std::size_t fields() {
+  if constexpr (requires { T{Fields{}..., Anything{}}; }) {
+    return fields<T, Fields..., Anything>();
+  } else {
+    return sizeof...(Fields);
   }
-  const MeshSettings defaults;
-  const auto& [a0, a1, a2, a3, a4, a5, a6, a7, a8, a9, a10, a11, a_sizes, a13, a14] = changed;
-  const auto& [b0, b1, b2, b3, b4, b5, b6, b7, b8, b9, b10, b11, b_sizes, b13, b14] = defaults;
-  const auto& [a_rules, a_gradation, a_inner_vertices, a_count, a_across] = a_sizes;
-  const auto& [b_rules, b_gradation, b_inner_vertices, b_count, b_across] = b_sizes;
-  EXPECT_NE(a0, b0);
-  EXPECT_NE(a1, b1);
-  EXPECT_NE(a2, b2);
-  EXPECT_NE(a3, b3);
-  EXPECT_NE(a4, b4);
-  EXPECT_NE(a5, b5);
-  EXPECT_NE(a6, b6);
-  EXPECT_NE(a7, b7);
-  EXPECT_NE(a8, b8);
-  EXPECT_NE(a9, b9);
-  EXPECT_NE(a10, b10);
-  EXPECT_NE(a11, b11);
-  EXPECT_NE(a13, b13);
-  EXPECT_NE(a14, b14);
-  EXPECT_NE(a_rules, b_rules);
-  EXPECT_NE(a_gradation, b_gradation);
-  EXPECT_NE(a_inner_vertices, b_inner_vertices);
-  EXPECT_NE(a_count, b_count);
-  EXPECT_NE(a_across, b_across);
+}
+
+/// Entries change one value each, as EveryValueHasItsIdentity shows, so as many entries as fields
+/// leave out none.
+TEST(SettingTable, LeavesOutNoField) {
+  EXPECT_EQ(setting_table().size(), fields<MeshSettings>() - 1 + fields<SizeSettings>());
 }
 
 TEST(SettingTable, NamesAreUnlikeAndPlain) {
@@ -78,7 +67,6 @@ TEST(SettingTable, NamesAreUnlikeAndPlain) {
     EXPECT_FALSE(setting.help.empty());
     EXPECT_EQ(setting.choices.empty(), setting.kind != ValueKind::kText);
   }
-  EXPECT_EQ(names.size(), test::kSettingSamples.size());
 }
 
 TEST(SettingTable, DefaultsAreAllowed) {
@@ -122,12 +110,12 @@ TEST(SettingTable, EveryValueHasItsIdentity) {
   }
 }
 
-TEST(SettingTable, OutOfRangeIsRefusedByNameWithWhatIsAllowed) {
+TEST(SettingTable, OutOfRangeIsRefusedWithWhatIsAllowed) {
   for (const Setting& setting : setting_table()) {
     EXPECT_EQ(samples(setting).outside.empty(), setting.is_allowed == nullptr || setting.has_labels)
         << setting.name;
     for (const std::string& text : samples(setting).outside) {
-      EXPECT_EQ(message_of(setting, text), setting.name + " must be " + setting.allowed) << text;
+      EXPECT_EQ(message_of(setting, text), "must be " + setting.allowed) << setting.name << text;
     }
   }
 }
@@ -150,14 +138,13 @@ TEST(SettingTable, CheckNamesSettingValueAndWhatIsAllowed) {
       return error.what();
     }
   };
-  EXPECT_EQ(refusal({.window = 41}), "window = 41: window must be an even number from 4 to 256");
-  EXPECT_EQ(refusal({.quality_floor = 0.75}),
-            "quality-floor = 0.75: quality-floor must be from 0 to 0.5");
+  EXPECT_EQ(refusal({.window = 41}), "window = 41: must be an even number from 4 to 256");
+  EXPECT_EQ(refusal({.quality_floor = 0.75}), "quality-floor = 0.75: must be from 0 to 0.5");
   constexpr double kInfinity = std::numeric_limits<double>::infinity();
   constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
   for (const double size : {0.0, -1.0, kInfinity, kNan}) {
     EXPECT_THAT(refusal({.sizes = {.rules = {.labels = {{3, size}}}}}),
-                HasSubstr("size must be positive"));
+                HasSubstr("must be positive"));
     EXPECT_THAT(refusal({.sizes = {.rules = {.others = size}}}), HasSubstr("positive"));
     EXPECT_THAT(refusal({.sizes = {.rules = {.interfaces = {{3, 4, size}}}}}),
                 HasSubstr("positive"));

@@ -30,9 +30,9 @@ TEST(Together, IsRefusedWhereItContradictsItself) {
   };
   const Row rows[] = {
       {{.keep_bytes = true}, "--keep-bytes:"},
-      {{.keep = true}, "keep: needs order colour"},
-      {{.keep = true, .colour = true, .count = true}, "count:"},
-      {{.keep = true, .update = true, .colour = true, .many = true}, "from:"},
+      {{.keep = true}, "--keep: needs --order colour"},
+      {{.keep = true, .colour = true, .count = true}, "--count:"},
+      {{.keep = true, .update = true, .colour = true, .many = true}, "--from:"},
       {{.changed = true}, "--changed: says what"},
       {{.delta = true}, "--delta:"},
       {{.update = true, .changed = true, .object = true}, "--changed: says nothing"},

@@ -338,7 +338,7 @@ TEST(VolumeErrors, OverridesReplaceBrokenGeometry) {
   const OpenOptions options{.raw = {}, .spacing = std::array{1.0, 2.0, 3.0}, .origin = {}};
   EXPECT_EQ(open_volume(path, options)->info().space.spacing, *options.spacing);
   const OpenOptions bad{.raw = {}, .spacing = std::array{1.0, -2.0, 3.0}, .origin = {}};
-  expect_error(ErrorKind::kUsage, {"spacing must be finite and positive"},
+  expect_error(ErrorKind::kUsage, {"--spacing: must be finite and positive"},
                [&] { static_cast<void>(open_volume(path, bad)); });
 }
 
