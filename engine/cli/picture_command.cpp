@@ -131,12 +131,9 @@ void add_style(OptionSet& options, PictureRequest& request) {
        .fallback = "on",
        .choices = {"on", "off"},
        .assign = [&request](const std::string& text) { request.has_legend = text == "on"; }});
-  options.add({.name = "transparent",
-               .help = "a transparent instead of a white background",
-               .group = kOutputGroup,
-               .kind = ValueKind::kSwitch,
-               .fallback = "false",
-               .assign = into(request.transparent)});
+  options.add(switch_of(request.transparent, {.name = "transparent",
+                                              .help = "a transparent instead of a white background",
+                                              .group = kOutputGroup}));
   add_force_option(options, request.force);
 }
 

@@ -76,9 +76,7 @@ void add_options(OptionSet& options, SynthJob& job) {
                .choices = {"voronoi", "tubes", "spheres", "noise", "checkerboard"},
                .flags = "KIND,--kind",
                .required = true,
-               .assign = into(job.spec.kind, [](const std::string& text) {
-                 return parse_synth_kind(text).value();
-               })});
+               .assign = into(job.spec.kind, chosen(parse_synth_kind))});
   options.add({.name = "shape",
                .value = "X,Y,Z",
                .help = "voxels along each axis",

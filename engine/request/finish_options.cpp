@@ -32,13 +32,13 @@ void add_connect_options(OptionSet& options, engine::ConnectOptions& connect) {
                .listed = Listed::kInHelpAll,
                .has_labels = true,
                .assign = into(connect.cohesive, engine::parse_cohesive)});
-  options.add({.name = "open-hinges",
-               .help = "doubles the vertices at which parts hang, so that they come apart",
-               .group = kOutputGroup,
-               .kind = ValueKind::kSwitch,
-               .fallback = "false",
-               .listed = Listed::kInHelpAll,
-               .assign = into(connect.open_hinges)});
+  options.add(
+      switch_of(connect.open_hinges,
+                {.name = "open-hinges",
+                 .help = "doubles the vertices at which parts hang, so that they come apart",
+                 .group = kOutputGroup,
+
+                 .listed = Listed::kInHelpAll}));
 }
 
 void add_format_options(OptionSet& options, io::MeshExtras& extras, Listed listed) {

@@ -118,12 +118,10 @@ void add_watch_options(OptionSet& options, MeshRequest& request) {
 
 void add_run_options(OptionSet& options, MeshRequest& request) {
   add_resource_options(options, request.job.run.threads, request.memory, "bound for the process");
-  options.add({.name = "resume",
-               .help = "go on from the work of a run that was killed or interrupted",
-               .group = kRunGroup,
-               .kind = ValueKind::kSwitch,
-               .fallback = "false",
-               .assign = into(request.job.run.store.resume)});
+  options.add(switch_of(request.job.run.store.resume,
+                        {.name = "resume",
+                         .help = "go on from the work of a run that was killed or interrupted",
+                         .group = kRunGroup}));
   add_keep_options(options, request);
   options.add({.name = "workdir",
                .value = "DIR",
@@ -171,13 +169,11 @@ void add_report_options(OptionSet& options, MeshRequest& request) {
                .group = kOutputGroup,
                .face = Face::kProgram,
                .assign = into(request.html)});
-  options.add({.name = "measure",
-               .help = "measures quality and shape, for a report",
-               .group = kOutputGroup,
-               .kind = ValueKind::kSwitch,
-               .fallback = "true",
-               .face = Face::kLibrary,
-               .assign = into(request.is_measured)});
+  options.add(switch_of(request.is_measured, {.name = "measure",
+                                              .help = "measures quality and shape, for a report",
+                                              .group = kOutputGroup,
+                                              .fallback = "true",
+                                              .face = Face::kLibrary}));
 }
 
 void add_output_options(OptionSet& options, MeshRequest& request) {
@@ -199,14 +195,12 @@ void add_output_options(OptionSet& options, MeshRequest& request) {
                .assign = into(request.element, parse_element)});
   add_connect_options(options, request.job.connect);
   add_report_options(options, request);
-  options.add({.name = "write-values",
-               .help = "writes the values of tets into a file",
-               .group = kOutputGroup,
-               .kind = ValueKind::kSwitch,
-               .fallback = "true",
-               .face = Face::kLibrary,
-               .calls = kWriting,
-               .assign = into(request.write_values)});
+  options.add(switch_of(request.write_values, {.name = "write-values",
+                                               .help = "writes the values of tets into a file",
+                                               .group = kOutputGroup,
+                                               .fallback = "true",
+                                               .face = Face::kLibrary,
+                                               .calls = kWriting}));
   options.add({.name = "certify",
                .help = "checks P1 to P4 and P8, or exit code 5; auto: where cheap",
                .group = kOutputGroup,
@@ -216,13 +210,12 @@ void add_output_options(OptionSet& options, MeshRequest& request) {
                .assign = into(request.job.certify, parse_certify)});
   add_sample_option(options, request.job.samples);
   add_format_options(options, request.extras, Listed::kInHelpAll);
-  options.add({.name = "force",
-               .help = "replaces files that are not of this program; meshes images",
-               .group = kOutputGroup,
-               .kind = ValueKind::kSwitch,
-               .fallback = "false",
-               .listed = Listed::kInHelpAll,
-               .assign = into(request.force)});
+  options.add(switch_of(request.force,
+                        {.name = "force",
+                         .help = "replaces files that are not of this program; meshes images",
+                         .group = kOutputGroup,
+
+                         .listed = Listed::kInHelpAll}));
 }
 
 void require_room_for_values(const MeshRequest& request) {

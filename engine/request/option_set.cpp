@@ -23,8 +23,15 @@ namespace {
 
 constexpr const char* kPrefix = "MW_";
 
-[[noreturn]] void refuse(const std::string& where, const std::string& reason) {
-  io::fail_usage(where + reason);
+/// Does the work; its errors of usage tell where the value was given.
+template <class Work>
+void with_place(const OptionSet::Entry& entry, const Work& work) {
+  try {
+    work();
+  } catch (const Error& error) {
+    if (error.kind() != ErrorKind::kUsage) throw;
+    io::fail_usage(entry.where, ": ", error.what());
+  }
 }
 
 /// Returns the names of the variables with our prefix that are not empty.
@@ -79,20 +86,11 @@ void OptionSet::resolve(const std::map<std::string, std::string>& flags,
   read_flags(flags);
   read_implied();
   for (Entry& entry : entries_) {
-    if (waits_for_names(entry)) {
-      check_named(entry);
-    } else {
+    if (!waits_for_names(entry)) {
       settle(entry);
+    } else if (entry.option.check_named) {
+      with_place(entry, [&] { entry.option.check_named(entry.text); });
     }
-  }
-}
-
-void OptionSet::check_named(const Entry& entry) {
-  if (!entry.option.check_named) return;
-  try {
-    entry.option.check_named(entry.text);
-  } catch (const Error& error) {
-    refuse(entry.where, std::string(": ") + error.what());
   }
 }
 
@@ -106,11 +104,7 @@ void OptionSet::resolve_names(const std::function<io::LabelNames()>& names) {
   for (Entry& entry : entries_) {
     if (!waits_for_names(entry)) continue;
     if (!known) known = names ? names() : io::LabelNames();
-    try {
-      entry.text = engine::with_numbers(entry.text, *known);
-    } catch (const Error& error) {
-      refuse(entry.where, std::string(": ") + error.what());
-    }
+    with_place(entry, [&] { entry.text = engine::with_numbers(entry.text, *known); });
     settle(entry);
   }
 }
@@ -141,7 +135,7 @@ void OptionSet::read_flags(const std::map<std::string, std::string>& flags) {
     Entry& entry = find(name);
     const bool is_program = face_ == Face::kProgram;
     const std::string flag = "--" + name;
-    if (text.empty()) refuse(flag, ": empty value");
+    if (text.empty()) io::fail_usage(flag, ": empty value");
     entry.text = text;
     const bool has_text = is_program && entry.option.kind != ValueKind::kSwitch;
     entry.where = has_text ? flag + " " + text : flag;
@@ -164,18 +158,14 @@ void OptionSet::read_implied() {
 void OptionSet::settle(Entry& entry) {
   const Option& option = entry.option;
   if (entry.text.empty()) return;
-  try {
+  with_place(entry, [&] {
     if (entry.text != option.word) entry.text = canonical_text(option.kind, entry.text);
     const auto& choices = option.choices;
-    if (!choices.empty() &&
-        std::find(choices.begin(), choices.end(), entry.text) == choices.end()) {
+    if (!choices.empty() && std::ranges::find(choices, entry.text) == choices.end()) {
       io::fail_usage("expected one of " + joined(choices, ", "));
     }
     if (option.assign) option.assign(entry.text);
-  } catch (const Error& error) {
-    if (error.kind() != ErrorKind::kUsage) throw;
-    refuse(entry.where, std::string(": ") + error.what());
-  }
+  });
 }
 
 void OptionSet::require_all() const {
@@ -196,9 +186,10 @@ std::string OptionSet::toml() const {
     const std::string key = key_of(entry.option.name);
     if (!entry.text.empty()) {
       if (!fits_in_toml(entry.text)) {
-        refuse(entry.where,
-               ": has bytes that are no UTF-8, which a config file cannot hold; rename what it "
-               "names, or leave it out here and give it as a flag of each run");
+        io::fail_usage(
+            entry.where,
+            ": has bytes that are no UTF-8, which a config file cannot hold; rename what it "
+            "names, or leave it out here and give it as a flag of each run");
       }
       out += key + " = " + toml_of_text(entry.option.kind, entry.text) + "\n";
     } else if (entry.option.listed != Listed::kNowhere) {

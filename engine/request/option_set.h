@@ -119,7 +119,6 @@ class OptionSet {
   void read_flags(const std::map<std::string, std::string>& flags);
   void read_implied();
   static void settle(Entry& entry);
-  static void check_named(const Entry& entry);
   [[nodiscard]] static bool waits_for_names(const Entry& entry);
 
   Face face_ = Face::kProgram;

@@ -64,6 +64,20 @@ template <class T, class Parse>
   return into(target, parse_switch);
 }
 
+/// Returns the row of a switch, which is off unless the row has another default.
+[[nodiscard]] inline Option switch_of(bool& target, Option row) {
+  row.kind = ValueKind::kSwitch;
+  if (row.fallback.empty()) row.fallback = "false";
+  row.assign = into(target);
+  return row;
+}
+
+/// Returns the parser of an option whose choices are the texts that `parse` knows.
+template <class T>
+[[nodiscard]] auto chosen(std::optional<T> (*parse)(std::string_view)) {
+  return [parse](const std::string& text) { return parse(text).value(); };
+}
+
 /// Returns the word that an option of the kind takes beside numbers: "auto" or "none".
 [[nodiscard]] const char* word_of(ValueKind kind);
 

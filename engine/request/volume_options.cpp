@@ -118,9 +118,7 @@ void add_place_options(OptionSet& options, VolumeRequest& request) {
                .choices = {"file", "ras", "lps", "voxel"},
                .calls = kOpening,
                .listed = Listed::kInHelpAll,
-               .assign = into(request.open.frame, [](const std::string& text) {
-                 return io::parse_frame_choice(text).value();
-               })});
+               .assign = into(request.open.frame, chosen(io::parse_frame_choice))});
   options.add({.name = "use-form",
                .value = "FORM",
                .help = "place of a NIfTI file that has two [sform, else qform]",
@@ -128,9 +126,7 @@ void add_place_options(OptionSet& options, VolumeRequest& request) {
                .choices = {"sform", "qform"},
                .calls = kOpening,
                .listed = Listed::kInHelpAll,
-               .assign = into(request.open.form, [](const std::string& text) {
-                 return io::parse_form_choice(text).value();
-               })});
+               .assign = into(request.open.form, chosen(io::parse_form_choice))});
 }
 
 void add_array_options(OptionSet& options, VolumeRequest& request) {
@@ -167,14 +163,14 @@ void add_step_options(OptionSet& options, VolumeRequest& request) {
                .kind = ValueKind::kNumberOrText,
                .calls = kMeshing | kVerifying,
                .assign = into(request.steps.specks, parse_specks)});
-  options.add({.name = "interpolate-slices",
-               .help = "labels between thick slices, for smooth surfaces instead of steps",
-               .group = kLabelGroup,
-               .kind = ValueKind::kSwitch,
-               .fallback = "false",
-               .calls = kMeshing | kVerifying,
-               .listed = Listed::kInHelpAll,
-               .assign = into(request.steps.interpolate)});
+  options.add(
+      switch_of(request.steps.interpolate,
+                {.name = "interpolate-slices",
+                 .help = "labels between thick slices, for smooth surfaces instead of steps",
+                 .group = kLabelGroup,
+
+                 .calls = kMeshing | kVerifying,
+                 .listed = Listed::kInHelpAll}));
   options.add({.name = "weld",
                .value = "A,B",
                .help = "fill voxels of A and B where others meet by an edge or corner alone",
@@ -213,9 +209,7 @@ void add_volume_options(OptionSet& options, VolumeRequest& request) {
                .choices = {"first", "last", "all"},
                .calls = kOpening,
                .listed = Listed::kInHelpAll,
-               .assign = into(request.open.overlap, [](const std::string& text) {
-                 return io::parse_overlap(text).value();
-               })});
+               .assign = into(request.open.overlap, chosen(io::parse_overlap))});
   options.add({.name = "values",
                .value = "KIND",
                .help = "labels, a probability a class, or a distance a label",
@@ -224,9 +218,7 @@ void add_volume_options(OptionSet& options, VolumeRequest& request) {
                .choices = {"labels", "probabilities", "distances"},
                .calls = kOpening,
                .listed = Listed::kInHelpAll,
-               .assign = into(request.open.values, [](const std::string& text) {
-                 return io::parse_voxel_values(text).value();
-               })});
+               .assign = into(request.open.values, chosen(io::parse_voxel_values))});
   options.add({.name = "crop",
                .value = "X0,Y0,Z0,X1,Y1,Z1",
                .help = "the box from the first voxel to before the second",
@@ -249,14 +241,13 @@ void add_volume_options(OptionSet& options, VolumeRequest& request) {
                .calls = kOpening,
                .listed = Listed::kInHelpAll,
                .assign = into(request.open.cache, engine::parse_cache_folder)});
-  options.add({.name = "trust-paths",
-               .help = "files that headers name may be outside of their folder",
-               .group = kInputGroup,
-               .kind = ValueKind::kSwitch,
-               .fallback = "false",
-               .calls = kOpening,
-               .listed = Listed::kInHelpAll,
-               .assign = into(request.open.trust_paths)});
+  options.add(switch_of(request.open.trust_paths,
+                        {.name = "trust-paths",
+                         .help = "files that headers name may be outside of their folder",
+                         .group = kInputGroup,
+
+                         .calls = kOpening,
+                         .listed = Listed::kInHelpAll}));
 }
 
 std::string volume_note() {

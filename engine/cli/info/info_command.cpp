@@ -196,12 +196,8 @@ void add_files(OptionSet& options, InfoJob& job) {
 }
 
 void add_switch(OptionSet& options, const char* name, const char* help, bool& target) {
-  options.add({.name = name,
-               .help = help,
-               .group = kOutputGroup,
-               .kind = ValueKind::kSwitch,
-               .only_flag = true,
-               .assign = into(target)});
+  options.add(
+      switch_of(target, {.name = name, .help = help, .group = kOutputGroup, .only_flag = true}));
 }
 
 }  // namespace

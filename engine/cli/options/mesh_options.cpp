@@ -25,11 +25,9 @@ struct NamesSink : io::NoSink {
 }  // namespace
 
 void add_force_option(OptionSet& options, bool& force) {
-  options.add({.name = "force",
-               .help = "replaces files that are not of this program",
-               .group = kOutputGroup,
-               .kind = ValueKind::kSwitch,
-               .assign = into(force)});
+  options.add(switch_of(force, {.name = "force",
+                                .help = "replaces files that are not of this program",
+                                .group = kOutputGroup}));
 }
 
 void add_mesh_option(OptionSet& options, std::filesystem::path& mesh, const std::string& what) {

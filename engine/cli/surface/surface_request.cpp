@@ -129,11 +129,10 @@ void add_output_options(OptionSet& options, SurfaceFlags& flags) {
                .flags = "-o,--output",
                .required = true,
                .assign = into(flags.output)});
-  options.add({.name = "each",
-               .help = "a file for each label, as -o 'parts/{label}.stl' or '{name}.stl'",
-               .group = kOutputGroup,
-               .kind = ValueKind::kSwitch,
-               .assign = into(flags.each)});
+  options.add(switch_of(flags.each,
+                        {.name = "each",
+                         .help = "a file for each label, as -o 'parts/{label}.stl' or '{name}.stl'",
+                         .group = kOutputGroup}));
   options.add({.name = "format",
                .value = "FORMAT",
                .help = "precomputed, draco, or an extension of -o [that of -o; --each: stl]",
@@ -175,11 +174,9 @@ void add_surface_options(OptionSet& options, SurfaceFlags& flags) {
                .group = kSurfaceGroup,
                .kind = ValueKind::kLabels,
                .assign = into(flags.pair, parse_pair)});
-  options.add({.name = "open",
-               .help = "without what lies on the sides of the box",
-               .group = kSurfaceGroup,
-               .kind = ValueKind::kSwitch,
-               .assign = into(flags.open)});
+  options.add(switch_of(flags.open, {.name = "open",
+                                     .help = "without what lies on the sides of the box",
+                                     .group = kSurfaceGroup}));
   options.add({.name = "manifold",
                .help = "parts surfaces that touch themselves; --no-manifold [.stl, .obj]",
                .group = kSurfaceGroup,
