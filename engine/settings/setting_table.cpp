@@ -97,15 +97,15 @@ bool is_within(const Setting& row, std::integral auto value) {
 
 template <class T, class Group>
 Setting number(T Group::*field, Setting row) {
-  constexpr bool may_lack = !std::is_arithmetic_v<T>;
+  constexpr bool kMayLack = !std::is_arithmetic_v<T>;
   if (row.kind == ValueKind::kText) {
     row.kind = std::is_integral_v<T> ? ValueKind::kInteger
-               : may_lack            ? ValueKind::kNumberOrNone
+               : kMayLack            ? ValueKind::kNumberOrNone
                                      : ValueKind::kNumber;
   }
   const char* const word = row.kind == ValueKind::kNumberOrAuto ? kAuto : kNone;
   if (row.allowed.empty()) {
-    row.allowed = range_text(row.least, row.most) + (may_lack ? Text(", or ") + word : "");
+    row.allowed = range_text(row.least, row.most) + (kMayLack ? Text(", or ") + word : "");
   }
   row.text = [=](const Settings& s) { return text_of(at(s, field), word); };
   row.read = [=](Settings& s, const Text& t) { read_into(at(s, field), t, word); };

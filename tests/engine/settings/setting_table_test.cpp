@@ -40,7 +40,9 @@ std::string identity(const MeshSettings& settings) {
 /// Is taken for a value of any type.
 struct Anything {
   template <class T>
-  operator T() const;  // NOLINT(google-explicit-constructor)
+  operator T() const {  // NOLINT(google-explicit-constructor)
+    return T();
+  }
 };
 
 /// Returns the number of fields of an aggregate.
