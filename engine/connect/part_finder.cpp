@@ -7,7 +7,6 @@
 #include <limits>
 #include <utility>
 
-#include "engine/system/crew.h"
 #include "io/file/errors.h"
 
 namespace mw::engine {
@@ -16,13 +15,6 @@ namespace {
 /// Returns how things of this size are worked on in the memory that there is for them.
 WorkInOrder work_within(const ConnectTask& task, std::size_t bytes_each) {
   return WorkInOrder::within(task.threads, task.work_bytes, bytes_each);
-}
-
-/// Returns the sort of tets by ranges, which works on all threads where chunks and ranges are.
-RowRanges row_ranges(const std::filesystem::path& folder, const ConnectTask& task) {
-  const bool has_threads = !work_within(task, TetChunk::kBytes).is_alone() &&
-                           !work_within(task, StarRange::kBytes).is_alone();
-  return {folder, task.memory_bytes / 2, has_threads};
 }
 
 }  // namespace
@@ -35,7 +27,7 @@ PartFinder::PartFinder(io::ScratchMesh& mesh, const ConnectTask& task)
       seen_(options_.watched.size()),
       chunk_work_(work_within(task, TetChunk::kBytes)),
       range_work_(work_within(task, StarRange::kBytes)),
-      ranges_(row_ranges(mesh.folder(), task)),
+      ranges_(mesh.folder(), task.memory_bytes / 2),
       pinched_(mesh.folder(), task.memory_bytes / 4),
       insides_(mesh.folder(), task.memory_bytes / 16),
       copied_(mesh.folder(), task.memory_bytes / 16),
@@ -120,11 +112,15 @@ StarRange PartFinder::load(const RangeTets& wanted) {
                 .labels = std::vector<RawLabel>(count),
                 .pieces = std::vector<std::uint32_t>(count),
                 .places = {}};
-  each_run(wanted.tets, [&](std::uint64_t first, std::size_t at, std::size_t tets) {
-    mesh_.read_tets(first, std::span(out.tets).subspan(at, tets),
-                    std::span(out.labels).subspan(at, tets));
-    tet_pieces_.read_at(first * sizeof(std::uint32_t),
-                        std::as_writable_bytes(std::span(out.pieces).subspan(at, tets)));
+  read_tets(mesh_, wanted.tets, out.tets, out.labels);
+  std::vector<std::uint32_t> pieces;
+  each_near(wanted.tets, [&](const NearNumbers& near) {
+    pieces.resize(near.span);
+    tet_pieces_.read_at(near.first * sizeof(std::uint32_t),
+                        std::as_writable_bytes(std::span(pieces)));
+    for (std::size_t i = near.begin; i < near.end; ++i) {
+      out.pieces[i] = pieces[wanted.tets[i] - near.first];
+    }
   });
   out.places.reserve(count);
   for (std::size_t i = 0; i < count; ++i) {

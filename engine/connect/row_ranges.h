@@ -34,10 +34,9 @@ struct RangeTets {
 /// Thread safety: one thread at a time.  ERRORS: those of ExternalSort.
 class RowRanges {
  public:
-  /// If has_threads is true, add() and next() are called within an arena (Crew), whose threads
-  /// sort.
-  RowRanges(const std::filesystem::path& folder, std::size_t bytes, bool has_threads);
+  RowRanges(const std::filesystem::path& folder, std::size_t bytes);
 
+  /// REQUIRES: numbers of tets ascend, from call to call, too.
   void add(std::span<const RangeTet> tets);
   /// Returns the tets of the range that follows, or nothing behind the last.  REQUIRES: nothing is
   /// added afterwards.
@@ -48,14 +47,31 @@ class RowRanges {
   std::optional<RangeTet> ahead_;  ///< behind the range that was taken last
 };
 
-/// Calls visit(first, at, count) for each run of numbers that follow one another: the run begins
-/// with `first`, at this place of the list.
+/// Some ascending numbers that are near each other.
+struct NearNumbers {
+  std::uint64_t first = 0;  ///< the least one
+  std::size_t span = 0;     ///< how many numbers there are from the least to the greatest
+  std::size_t begin = 0;    ///< places in the list
+  std::size_t end = 0;
+};
+
+/// Calls visit(NearNumbers) for parts of an ascending list of numbers.  What is between numbers of
+/// a part costs less to read than another call to the system would.
 template <class Visit>
-void each_run(const std::vector<std::uint64_t>& numbers, Visit visit) {
+void each_near(const std::vector<std::uint64_t>& numbers, Visit visit) {
+  constexpr std::uint64_t kMostGap = 32, kMostSpan = 4096;
   for (std::size_t at = 0, end = 0; at < numbers.size(); at = end) {
-    while (end < numbers.size() && numbers[end] - numbers[at] == end - at) ++end;
-    visit(numbers[at], at, end - at);
+    for (end = at + 1; end < numbers.size(); ++end) {
+      if (numbers[end] - numbers[end - 1] > kMostGap) break;
+      if (numbers[end] - numbers[at] >= kMostSpan) break;
+    }
+    visit(NearNumbers{numbers[at], numbers[end - 1] - numbers[at] + 1, at, end});
   }
 }
+
+/// Reads tets of a settled mesh and their labels.  REQUIRES: ascending numbers of tets; as many
+/// places in both lists.
+void read_tets(io::ScratchMesh& mesh, const std::vector<std::uint64_t>& numbers,
+               std::span<io::TetRows> tets, std::span<RawLabel> labels);
 
 }  // namespace mw::engine

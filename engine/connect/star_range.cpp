@@ -42,13 +42,11 @@ class RangeLooker {
   RangeLooker(const StarRange& range, const StarRules& rules)
       : range_(range),
         rules_(rules),
-        mesh_(local_tets(range.tets)),
+        may_cut_(rules.split.any()),
+        mesh_(local_tets(range.tets, {range.first_row, kRows})),
+        earlier_(earlier_tets(mesh_, kRows)),
         seen_(mesh_.rows.size(), kNoTet),
-        sets_of_tets_(range.tets.size()) {
-    std::vector<bool> is_asked(mesh_.rows.size());
-    for (std::size_t v = 0; v < is_asked.size(); ++v) is_asked[v] = number_in_range(v) < kRows;
-    earlier_ = earlier_tets(mesh_, is_asked);
-  }
+        sets_of_tets_(range.tets.size()) {}
 
   StarFindings look() {
     note_faces();
@@ -65,19 +63,15 @@ class RangeLooker {
   }
 
  private:
-  static constexpr std::size_t kRows = kRowsARange;
-
-  /// Returns the number of a vertex in the range; kRows or more for one that is not in it.
-  [[nodiscard]] std::uint64_t number_in_range(std::size_t vertex) const {
-    return mesh_.rows[vertex] - range_.first_row;
-  }
+  /// Vertices of lower numbers are those of the range.
+  static constexpr std::uint32_t kRows = kRowsARange;
 
   /// Notes what each face that two tets share says about pieces and labels.
   void note_faces() {
     for (std::uint32_t t = 0; t < earlier_.size(); ++t) {
       for (const std::uint32_t other : earlier_[t]) {
         if (other == kNoTet) continue;
-        const PieceJoint joint{range_.pieces[other], range_.pieces[t], cuts(other, t)};
+        const PieceJoint joint{range_.pieces[other], range_.pieces[t], may_cut_ && cuts(other, t)};
         if (joint.one != joint.other) found_.joints.push_back(joint);
         watch(range_.labels[other], range_.labels[t]);
       }
@@ -85,7 +79,7 @@ class RangeLooker {
   }
 
   [[nodiscard]] bool cuts(std::uint32_t one, std::uint32_t other) const {
-    return rules_.split.any() && rules_.split.cuts(range_.labels[one], range_.labels[other]);
+    return rules_.split.cuts(range_.labels[one], range_.labels[other]);
   }
 
   void watch(RawLabel one, RawLabel other) {
@@ -99,19 +93,19 @@ class RangeLooker {
   /// Lists the corners at each vertex of the range.
   void take_corners() {
     first_corner_.assign(kRows + 1, 0);
-    each_corner([&](std::size_t v, Corner) { ++first_corner_[v + 1]; });
+    each_corner([&](std::uint32_t v, Corner) { ++first_corner_[v + 1]; });
     std::partial_sum(first_corner_.begin(), first_corner_.end(), first_corner_.begin());
     corners_.resize(first_corner_.back());
     std::vector<std::size_t> next = first_corner_;
-    each_corner([&](std::size_t v, Corner corner) { corners_[next[v]++] = corner; });
+    each_corner([&](std::uint32_t v, Corner corner) { corners_[next[v]++] = corner; });
   }
 
   template <class Visit>
   void each_corner(Visit visit) const {
     for (std::uint32_t t = 0; t < mesh_.corners.size(); ++t) {
       for (std::uint32_t k = 0; k < 4; ++k) {
-        const std::uint64_t v = number_in_range(mesh_.corners[t][k]);
-        if (v < kRows) visit(static_cast<std::size_t>(v), Corner{t, k});
+        const std::uint32_t v = mesh_.corners[t][k];
+        if (v < kRows) visit(v, Corner{t, k});
       }
     }
   }
@@ -135,11 +129,10 @@ class RangeLooker {
     StarCounts out{.tets = star.size(), .sets = star.size()};
     const std::uint32_t vertex = mesh_.corners[star[0].tet][star[0].corner];
     for (const Corner& at : star) sets_of_tets_[at.tet] = at.tet;
+    const RawLabel label = range_.labels[star[0].tet];
     for (const Corner& at : star) {
-      out.has_one_label = out.has_one_label && range_.labels[at.tet] == range_.labels[star[0].tet];
-      for (std::size_t k = 0; k < 4; ++k) {
-        if (k != at.corner) count_at(at.tet, k, vertex, out);
-      }
+      if (range_.labels[at.tet] != label) out.has_one_label = false;
+      for (std::uint32_t k = 1; k < 4; ++k) count_at(at.tet, (at.corner + k) % 4, vertex, out);
     }
     return out;
   }
@@ -147,24 +140,28 @@ class RangeLooker {
   /// Counts the edge to a corner of a tet, and the tet's face at the vertex without that corner.
   void count_at(std::uint32_t tet, std::size_t corner, std::uint32_t vertex, StarCounts& out) {
     const std::uint32_t end = mesh_.corners[tet][corner];
-    if (seen_[end] != vertex) ++out.others;
+    out.others += seen_[end] != vertex ? 1U : 0U;
     seen_[end] = vertex;
     const std::uint32_t other = earlier_[tet][corner];
     if (other == kNoTet) return;
     ++out.inner_faces;
-    out.is_cut = out.is_cut || cuts(other, tet);
+    if (may_cut_ && cuts(other, tet)) out.is_cut = true;
+    if (out.sets == 1) return;
     const auto [low, high] = std::minmax({set_of(other), set_of(tet)});
     if (low != high) --out.sets;
     sets_of_tets_[high] = low;
   }
 
-  [[nodiscard]] std::uint32_t set_of(std::uint32_t tet) const {
-    while (sets_of_tets_[tet] != tet) tet = sets_of_tets_[tet];
+  [[nodiscard]] std::uint32_t set_of(std::uint32_t tet) {
+    while (sets_of_tets_[tet] != tet) {
+      tet = sets_of_tets_[tet] = sets_of_tets_[sets_of_tets_[tet]];
+    }
     return tet;
   }
 
   const StarRange& range_;
   const StarRules& rules_;
+  bool may_cut_;
   LocalTets mesh_;
   EarlierTets earlier_;
   std::vector<std::size_t> first_corner_;  ///< by vertex of the range, and one behind the last

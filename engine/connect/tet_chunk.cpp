@@ -2,6 +2,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "engine/connect/tet_chunk.h"
 
+#include <algorithm>
+#include <iterator>
+
 #include "engine/connect/star.h"
 #include "engine/connect/tet_faces.h"
 #include "kernels/core/sort_distinct.h"
@@ -30,7 +33,7 @@ void look_at_chunk(std::uint64_t first, const SplitRule& split, TetChunk& chunk)
   for (std::size_t t = 0; t < chunk.tets.size(); ++t) {
     add_ranges(first + t, chunk.tets[t], chunk.ranges);
   }
-  chunk.labels_met = chunk.labels;
+  std::unique_copy(chunk.labels.begin(), chunk.labels.end(), std::back_inserter(chunk.labels_met));
   sort_distinct(chunk.labels_met);
 }
 

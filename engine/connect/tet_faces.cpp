@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <bit>
 #include <cstddef>
+#include <numeric>
 
 namespace mw::engine {
 namespace {
@@ -15,8 +16,8 @@ class NumberTable {
  public:
   static constexpr std::uint32_t kFree = ~std::uint32_t{0};
 
-  /// REQUIRES: no more than `most` numbers are put into it.
-  explicit NumberTable(std::size_t most) : slots_(std::bit_ceil(2 * most + 1), kFree) {}
+  /// REQUIRES: no more than `most` numbers are put into it.  It is quick where half as many are.
+  explicit NumberTable(std::size_t most) : slots_(std::bit_ceil(most + most / 4 + 1), kFree) {}
 
   /// Returns the place of the number that is alike, or a free one.
   template <class IsAlike>
@@ -34,12 +35,10 @@ class NumberTable {
 using Face = std::array<std::uint32_t, 3>;
 
 Face face_opposite(const std::array<std::uint32_t, 4>& corners, std::size_t corner) {
-  Face out{};
-  std::size_t next = 0;
-  for (std::size_t i = 0; i < corners.size(); ++i) {
-    if (i != corner) out[next++] = corners[i];
-  }
-  return out;
+  constexpr std::array<std::array<std::uint8_t, 3>, 4> kOthers{
+      {{1, 2, 3}, {0, 2, 3}, {0, 1, 3}, {0, 1, 2}}};
+  const auto& others = kOthers[corner];
+  return {corners[others[0]], corners[others[1]], corners[others[2]]};
 }
 
 /// Different faces may have one key.
@@ -48,17 +47,41 @@ std::uint64_t key_of(const Face& face) {
   return (two ^ two >> 29U) * 0xbf58476d1ce4e5b9U + face[2];
 }
 
-template <class IsAsked>
-EarlierTets find_earlier(const LocalTets& tets, IsAsked is_asked) {
+/// Sorts four rows without a branch.
+void make_ascending(io::TetRows& rows) {
+  const auto order = [&](std::size_t i, std::size_t k) {
+    const std::uint64_t low = std::min(rows[i], rows[k]), high = std::max(rows[i], rows[k]);
+    rows[i] = low;
+    rows[k] = high;
+  };
+  order(0, 1);
+  order(2, 3);
+  order(0, 2);
+  order(1, 3);
+  order(1, 2);
+}
+
+std::size_t corners_beyond(std::span<const io::TetRows> tets, RowSpan span) {
+  std::size_t out = 0;
+  for (const io::TetRows& rows : tets) {
+    for (const std::uint64_t row : rows) out += row - span.first >= span.count ? 1U : 0U;
+  }
+  return out;
+}
+
+}  // namespace
+
+EarlierTets earlier_tets(const LocalTets& tets, std::uint32_t asked) {
   const auto& corners = tets.corners;
   EarlierTets out(corners.size(), {kNoTet, kNoTet, kNoTet, kNoTet});
   NumberTable faces(4 * corners.size());  // of each face, 4 times its last tet and the corner
   for (std::uint32_t t = 0; t < corners.size(); ++t) {
     for (std::uint32_t k = 0; k < 4; ++k) {
       const Face face = face_opposite(corners[t], k);
-      if (!is_asked(face)) continue;
+      if (std::min({face[0], face[1], face[2]}) >= asked) continue;
       std::uint32_t& last = faces.place(key_of(face), [&](std::uint32_t other) {
-        return face_opposite(corners[other / 4], other % 4) == face;
+        const Face known = face_opposite(corners[other / 4], other % 4);
+        return known[0] == face[0] && known[1] == face[1] && known[2] == face[2];
       });
       if (last != NumberTable::kFree) out[t][k] = last / 4;
       last = 4 * t + k;
@@ -67,16 +90,20 @@ EarlierTets find_earlier(const LocalTets& tets, IsAsked is_asked) {
   return out;
 }
 
-}  // namespace
-
-LocalTets local_tets(std::span<const io::TetRows> tets) {
+LocalTets local_tets(std::span<const io::TetRows> tets, RowSpan first) {
   LocalTets out;
   out.corners.reserve(tets.size());
-  NumberTable numbers(4 * tets.size());
+  out.rows.resize(first.count);
+  std::iota(out.rows.begin(), out.rows.end(), first.first);
+  NumberTable numbers(corners_beyond(tets, first));
   for (io::TetRows rows : tets) {
-    std::sort(rows.begin(), rows.end());
+    make_ascending(rows);
     std::array<std::uint32_t, 4> corners{};
     for (std::size_t i = 0; i < 4; ++i) {
+      if (rows[i] - first.first < first.count) {
+        corners[i] = static_cast<std::uint32_t>(rows[i] - first.first);
+        continue;
+      }
       std::uint32_t& number =
           numbers.place(rows[i], [&](std::uint32_t other) { return out.rows[other] == rows[i]; });
       if (number == NumberTable::kFree) {
@@ -88,16 +115,6 @@ LocalTets local_tets(std::span<const io::TetRows> tets) {
     out.corners.push_back(corners);
   }
   return out;
-}
-
-EarlierTets earlier_tets(const LocalTets& tets, const std::vector<bool>& is_asked) {
-  return find_earlier(tets, [&](const Face& face) {
-    return is_asked[face[0]] || is_asked[face[1]] || is_asked[face[2]];
-  });
-}
-
-EarlierTets earlier_tets(const LocalTets& tets) {
-  return find_earlier(tets, [](const Face&) { return true; });
 }
 
 }  // namespace mw::engine

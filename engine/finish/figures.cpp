@@ -2,9 +2,19 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "engine/finish/figures.h"
 
+#include <algorithm>
+#include <array>
+#include <span>
+
 #include "engine/finish/interface_shape.h"
 
 namespace mw::engine {
+namespace {
+
+/// How many tets are measured at once.
+constexpr std::size_t kAtOnce = 64;
+
+}  // namespace
 
 MeshFigures measure(io::ScratchMesh& mesh, const FiguresTask& task, const TetWork& work) {
   MeshFigures out;
@@ -13,8 +23,13 @@ MeshFigures measure(io::ScratchMesh& mesh, const FiguresTask& task, const TetWor
       mesh, work,
       [](const TetRange& range, io::CornerReader& corners) {
         audit::QualityMeter of_range;
-        for (std::size_t t = 0; t < range.tets.size(); ++t) {
-          of_range.add(range.first + t, corners.corners(range.tets[t]));
+        std::array<audit::NumberedTet, kAtOnce> group;
+        for (std::size_t t = 0; t < range.tets.size(); t += kAtOnce) {
+          const std::size_t count = std::min(kAtOnce, range.tets.size() - t);
+          for (std::size_t i = 0; i < count; ++i) {
+            group[i] = {range.first + t + i, corners.corners(range.tets[t + i])};
+          }
+          of_range.add(std::span(group).first(count));
         }
         return of_range;
       },

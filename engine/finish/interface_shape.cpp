@@ -26,10 +26,7 @@ class RangeTile {
  public:
   RangeTile(io::ScratchMesh& mesh, const RangeTets& wanted)
       : range_(wanted.range), tets_(wanted.tets.size()), labels_(wanted.tets.size()) {
-    each_run(wanted.tets, [&](std::uint64_t first, std::size_t at, std::size_t count) {
-      mesh.read_tets(first, std::span(tets_).subspan(at, count),
-                     std::span(labels_).subspan(at, count));
-    });
+    read_tets(mesh, wanted.tets, tets_, labels_);
     for (io::TetRows& tet : tets_) {
       for (std::uint64_t& row : tet) {
         row = mesh.first_of(row);
@@ -129,7 +126,7 @@ audit::ShapeReport interface_shape(io::ScratchMesh& mesh, std::size_t sort_bytes
   // A tile takes twice as much as a range of tets.
   const WorkInOrder how{.threads = work.how.threads,
                         .at_once = std::max<std::size_t>(1, work.how.at_once / 2)};
-  RowRanges ranges(mesh.folder(), sort_bytes, !how.is_alone());
+  RowRanges ranges(mesh.folder(), sort_bytes);
   sort_tets(mesh, {.how = how, .between = work.between}, ranges);
   audit::ShapeMeter meter;
   items_in_order<RangeTets, audit::ShapeMeter>(

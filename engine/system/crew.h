@@ -3,12 +3,10 @@
 // Threads that work together, as many as the system gives, and loops on them.
 #pragma once
 
-#include <oneapi/tbb/parallel_sort.h>
 #include <oneapi/tbb/task_arena.h>
 
 #include <functional>
 #include <memory>
-#include <span>
 #include <vector>
 
 #include "engine/system/stages.h"
@@ -52,14 +50,6 @@ class Crew {
 /// for the others takes no other tasks of the arena, so a window does not start inside another one.
 /// ERRORS: what a body throws; other bodies may then be left out.
 void tbb_for(std::size_t n, const RangeBody& body);
-
-/// Sorts on the threads of the arena that it is called in, as tbb_for() works.  Equal values must
-/// be alike, since their order is not that of a stable sort.
-template <typename Value>
-void tbb_sort(std::span<Value> values) {
-  const SharedWork counted;
-  tbb::this_task_arena::isolate([&] { tbb::parallel_sort(values.begin(), values.end()); });
-}
 
 /// Calls visit once for every index of an array of the given shape, on `threads` threads or as many
 /// as the system gives.  One thread goes in order, x fastest; several go in any order.

@@ -160,8 +160,7 @@ void ScratchMesh::each_tet_batch(const std::function<void(const TetBatch&)>& vis
 }
 
 std::array<Position, 4> CornerReader::corners(const TetRows& tet) {
-  return places_of(tet, file_.size() / sizeof(Position),
-                   [this](std::uint64_t row) { return pages_.at(file_, row); });
+  return places_of(tet, vertices_, [this](std::uint64_t row) { return pages_.at(file_, row); });
 }
 
 void MeshSink::take(ScratchMesh& mesh, const std::function<void()>& between) {

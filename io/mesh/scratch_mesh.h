@@ -135,12 +135,14 @@ class CornerReader {
   static constexpr std::size_t kPages = 64;
   static constexpr std::uint64_t kBytes = kPages * (4096 + 64);
 
-  explicit CornerReader(ScratchMesh& mesh) : file_(mesh.positions_.file()) {}
+  explicit CornerReader(ScratchMesh& mesh)
+      : file_(mesh.positions_.file()), vertices_(mesh.vertex_count()) {}
 
   [[nodiscard]] std::array<Position, 4> corners(const TetRows& tet);
 
  private:
   ScratchFile& file_;
+  std::uint64_t vertices_;
   RecordPages<Position, kPages> pages_;
 };
 

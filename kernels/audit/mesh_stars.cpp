@@ -33,7 +33,7 @@ void require_sound(const AuditMesh& mesh) {
 }
 
 /// True for an odd permutation of 0 .. 3.
-bool is_odd(const std::array<unsigned, 4>& order) {
+constexpr bool is_odd(const std::array<unsigned, 4>& order) {
   unsigned inversions = 0;
   for (std::size_t i = 0; i < 4; ++i) {
     for (std::size_t k = i + 1; k < 4; ++k) inversions += order[i] > order[k] ? 1U : 0U;
@@ -41,11 +41,20 @@ bool is_odd(const std::array<unsigned, 4>& order) {
   return inversions % 2 != 0;
 }
 
+/// is_odd() of the orders (6 - at - i - k, at, i, k), by 16 at + 4 i + k.
+constexpr std::array<bool, 64> kIsOdd = [] {
+  std::array<bool, 64> out{};
+  for (unsigned place = 0; place < out.size(); ++place) {
+    const unsigned at = place / 16, i = place / 4 % 4, k = place % 4;
+    if (at != i && at != k && i != k) out[place] = is_odd({6 - at - i - k, at, i, k});
+  }
+  return out;
+}();
+
 /// The side of the triangle (vertex, tet[i], tet[k]), where vertex = tet[at].
 FaceSide side_of(const TetRow& tet, std::uint32_t id, unsigned at, unsigned i, unsigned k) {
   if (tet[i] > tet[k]) std::swap(i, k);
-  const unsigned apex = 6 - at - i - k;  // all four sum to 6
-  return {tet[i] << 32 | tet[k], id, is_odd({apex, at, i, k})};
+  return {tet[i] << 32 | tet[k], id, kIsOdd[16 * at + 4 * i + k]};
 }
 
 }  // namespace
@@ -97,7 +106,10 @@ void MeshStars::collect_sides(std::uint32_t vertex, std::vector<FaceSide>& sides
     sides.push_back(side_of(tet, id, at, larger[0], larger[2]));
     sides.push_back(side_of(tet, id, at, larger[1], larger[2]));
   }
-  std::sort(sides.begin(), sides.end());
+  // A tet has a triangle once.
+  std::sort(sides.begin(), sides.end(), [](const FaceSide& a, const FaceSide& b) {
+    return a.others != b.others ? a.others < b.others : a.tet < b.tet;
+  });
 }
 
 }  // namespace mw::audit

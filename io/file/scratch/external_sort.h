@@ -52,8 +52,12 @@ class ExternalSort {
   const Record* next() {
     if (!is_sorted_) sort();
     if (!file_ && at_ < records_.size()) return &records_[at_++];
-    if (last_ != nullptr && (last_->at < last_->buffer.size() || refill(*last_)))
+    if (last_ != nullptr && (last_->at < last_->buffer.size() || refill(*last_))) {
+      // Records that follow one another are often of one run.
+      const bool is_next = queue_.empty() || !IsLater()(last_, queue_.top());
+      if (is_next) return &last_->buffer[last_->at++];
       queue_.push(last_);
+    }
     if (queue_.empty()) {
       end();
       return nullptr;

@@ -109,7 +109,8 @@ void CurvedMeter::add(std::uint64_t tet, const TenNodes& nodes) {
     least_ = share;
     worst_ = tet;
   }
-  corners_.add(tet, {nodes[0], nodes[1], nodes[2], nodes[3]});
+  const NumberedTet straight{tet, {nodes[0], nodes[1], nodes[2], nodes[3]}};
+  corners_.add({&straight, 1});
 }
 
 Check CurvedMeter::jacobians() const {

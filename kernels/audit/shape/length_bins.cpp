@@ -16,25 +16,31 @@ constexpr int kBeyond = 4000;
 }  // namespace
 
 LengthBins::Octave& LengthBins::octave_of(int power) {
-  if (last_ < octaves_.size() && octaves_[last_].power == power) return octaves_[last_];
+  Place& place = places_[static_cast<std::uint32_t>(power) % places_.size()];
+  if (place.power == power) return octaves_[place.octave];
   auto octave = std::lower_bound(octaves_.begin(), octaves_.end(), power,
                                  [](const Octave& o, int wanted) { return o.power < wanted; });
   if (octave == octaves_.end() || octave->power != power) {
     octave = octaves_.insert(octave, {.power = power});
+    places_ = {};
   }
-  last_ = static_cast<std::size_t>(octave - octaves_.begin());
+  place = {power, static_cast<std::uint32_t>(octave - octaves_.begin())};
   return *octave;
 }
 
 void LengthBins::add(double length) {
+  // The sign, the exponent and nine bits of the mantissa: the power of two and the bin.
+  const auto bits = std::bit_cast<std::uint64_t>(length) >> 43U;
+  constexpr std::uint64_t kLeastNormal = kBinsAnOctave, kInfinite = std::uint64_t{2047} << 9U;
+  if (bits - kLeastNormal >= kInfinite - kLeastNormal) return add_other(length);
+  ++octave_of(static_cast<int>(bits / kBinsAnOctave) - 1022).bins[bits % kBinsAnOctave];
+  ++count_;
+}
+
+void LengthBins::add_other(double length) {
   int power = length > 0 ? kBeyond : -kBeyond;
   std::size_t bin = 0;
-  if (std::isnormal(length)) {
-    // The exponent, and nine bits of the mantissa, of a double: the power of two and the bin.
-    const auto bits = std::bit_cast<std::uint64_t>(length) >> 43U;
-    power = static_cast<int>(bits / kBinsAnOctave) - 1022;
-    bin = bits % kBinsAnOctave;
-  } else if (length > 0 && std::isfinite(length)) {
+  if (length > 0 && std::isfinite(length)) {
     const double mantissa = std::frexp(length, &power);  // from 0.5 to below 1
     bin = static_cast<std::size_t>((2 * mantissa - 1) * kBinsAnOctave);
   }

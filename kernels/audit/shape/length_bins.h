@@ -5,6 +5,7 @@
 
 #include <array>
 #include <cstdint>
+#include <limits>
 #include <vector>
 
 namespace mw::audit {
@@ -28,10 +29,18 @@ class LengthBins {
     std::array<std::uint64_t, kBinsAnOctave> bins{};
   };
 
+  /// Where an octave is.
+  struct Place {
+    int power = std::numeric_limits<int>::max();
+    std::uint32_t octave = 0;
+  };
+
+  /// Adds a length that is no normal number.
+  void add_other(double length);
   [[nodiscard]] Octave& octave_of(int power);
 
-  std::vector<Octave> octaves_;  ///< those that have lengths, ascending
-  std::size_t last_ = 0;         ///< the octave that was asked for last: most lengths are alike
+  std::vector<Octave> octaves_;    ///< those that have lengths, ascending
+  std::array<Place, 8> places_{};  ///< by the low bits of the power: most lengths are alike
   std::uint64_t count_ = 0;
 };
 

@@ -5,6 +5,7 @@
 
 #include <array>
 #include <cstdint>
+#include <span>
 
 #include "kernels/audit/shape/length_bins.h"
 #include "kernels/audit/subject.h"
@@ -37,14 +38,20 @@ struct QualityReport {
 [[nodiscard]] double radius_ratio(const Position& a, const Position& b, const Position& c,
                                   const Position& d);
 
+/// A tet of a mesh: its number there, and its corners.
+struct NumberedTet {
+  std::uint64_t number = 0;
+  std::array<Position, 4> corners{};
+};
+
 /// Takes tets one after the other.  Sums are of whole numbers (radius ratios in units of 2^-40), so
 /// that parts of a mesh may be measured apart, in any order.
 class QualityMeter {
  public:
-  /// REQUIRES: finite coordinates.
+  /// Adds a tet under the number of those that came before.  REQUIRES: finite coordinates.
   void add(const Position& a, const Position& b, const Position& c, const Position& d);
-  /// Adds a tet under a given number; without one, tets are numbered as they come.
-  void add(std::uint64_t tet, const std::array<Position, 4>& corners);
+  /// Adds tets, which are measured four at a time.  REQUIRES: finite coordinates.
+  void add(std::span<const NumberedTet> tets);
   /// Adds what another one has taken.  The numbers of its tets count from `first` here.
   void add(const QualityMeter& other, std::uint64_t first = 0);
   /// Sums up all tets so far.
@@ -53,6 +60,8 @@ class QualityMeter {
  private:
   static constexpr double kUnits = 1099511627776.0;
 
+  void take_ratio(std::uint64_t tet, double ratio);
+  void take_cosines(const std::array<double, 6>& cosines);
   void take_worst(std::uint64_t tet, double ratio);
   void take_lengths(double shortest, double longest, double height);
 
