@@ -13,17 +13,15 @@ namespace mw::engine {
 namespace {
 
 void check_extent(const BlockTet& t, std::span<const BlockVertex> vertices) {
-  const auto spread = [&](auto coordinate) {
-    std::int64_t lo = coordinate(vertices[t.vertices[0]].position), hi = lo;
-    for (std::uint32_t v : t.vertices) {
-      lo = std::min<std::int64_t>(lo, coordinate(vertices[v].position));
-      hi = std::max<std::int64_t>(hi, coordinate(vertices[v].position));
-    }
-    return hi - lo;
-  };
-  if (spread([](Point p) { return p.x; }) > kMaxTetExtent ||
-      spread([](Point p) { return p.y; }) > kMaxTetExtent ||
-      spread([](Point p) { return p.z; }) > kMaxTetExtent) {
+  Point lo = vertices[t.vertices[0]].position, hi = lo;
+  for (const std::uint32_t v : t.vertices) {
+    const Point p = vertices[v].position;
+    lo = {std::min(lo.x, p.x), std::min(lo.y, p.y), std::min(lo.z, p.z)};
+    hi = {std::max(hi.x, p.x), std::max(hi.y, p.y), std::max(hi.z, p.z)};
+  }
+  const std::int64_t extent =
+      std::max({std::int64_t{hi.x} - lo.x, std::int64_t{hi.y} - lo.y, std::int64_t{hi.z} - lo.z});
+  if (extent > kMaxTetExtent) {
     throw Error(ErrorKind::kInternal, "a tetrahedron outgrew the range of exact arithmetic");
   }
 }
@@ -82,19 +80,33 @@ void take_samples(const WindowContent& content, const BlockTet& tet, Share& shar
   }
 }
 
-/// Returns the place in `blocks`, which are those of the window, of the one that owns a tet.
-std::uint8_t owner_index(const TetMesh& mesh, const BlockTet& tet, const WindowGrid& grid,
-                         Index3 window, const std::vector<Index3>& blocks) {
-  std::array<std::int64_t, 3> sum{};
-  for (LocalVertex v : tet.vertices) {
-    const Point p = mesh.position(v);
-    sum[0] += p.x;
-    sum[1] += p.y;
-    sum[2] += p.z;
+/// Finds the places, among the blocks of a window, of those that own tets.
+class Owners {
+ public:
+  Owners(const WindowGrid& grid, Index3 window) : above_(grid.least_sums_above(window)) {
+    const Index3 blocks = grid.blocks();
+    row_ = window.x + 1 < blocks.x ? 2 : 1;
+    layer_ = window.y + 1 < blocks.y ? 2 * row_ : row_;
   }
-  const Index3 owner = grid.owner(window, sum);
-  return static_cast<std::uint8_t>(std::find(blocks.begin(), blocks.end(), owner) - blocks.begin());
-}
+
+  [[nodiscard]] std::uint8_t of(const TetMesh& mesh, const BlockTet& tet) const {
+    std::array<std::int64_t, 3> sum{};
+    for (LocalVertex v : tet.vertices) {
+      const Point p = mesh.position(v);
+      sum[0] += p.x;
+      sum[1] += p.y;
+      sum[2] += p.z;
+    }
+    return static_cast<std::uint8_t>((sum[0] >= above_[0] ? 1U : 0U) +
+                                     (sum[1] >= above_[1] ? row_ : 0U) +
+                                     (sum[2] >= above_[2] ? layer_ : 0U));
+  }
+
+ private:
+  std::array<std::int64_t, 3> above_;
+  unsigned row_ = 1;    ///< blocks of the window in a row
+  unsigned layer_ = 1;  ///< and in a layer
+};
 
 }  // namespace
 
@@ -118,16 +130,17 @@ WindowContent gather(std::vector<BlockMesh> blocks, Index3 volume, PlaneRoles ro
 std::vector<BlockMesh> scatter(const WindowContent& content, const WindowGrid& grid,
                                Index3 window) {
   const TetMesh& mesh = content.mesh;
-  const std::vector<Index3> blocks = grid.blocks_of(window);
+  const std::size_t blocks = grid.blocks_of(window).size();
   std::vector<BlockTet> tets = mesh.sorted_tets();
   for (BlockTet& t : tets) t.label = without_side(t.label);
   std::vector<std::uint8_t> owners;
   owners.reserve(tets.size());
-  for (const BlockTet& t : tets) owners.push_back(owner_index(mesh, t, grid, window, blocks));
+  const Owners owners_of(grid, window);
+  for (const BlockTet& t : tets) owners.push_back(owners_of.of(mesh, t));
   std::vector<std::uint32_t> row(mesh.vertex_count());
   std::vector<BlockMesh> out;
   // Blocks are made one by one, so that only one list at a time has room that it does not need.
-  for (std::size_t block = 0; block < blocks.size(); ++block) {
+  for (std::size_t block = 0; block < blocks; ++block) {
     Share share;
     for (std::size_t i = 0; i < tets.size(); ++i) {
       if (owners[i] != block) continue;

@@ -4,6 +4,7 @@
 #include "engine/window/window_grid.h"
 
 #include <algorithm>
+#include <limits>
 
 namespace mw::engine {
 namespace {
@@ -75,18 +76,22 @@ std::vector<Index3> WindowGrid::blocks_of(Index3 window) const {
   return out;
 }
 
-Index3 WindowGrid::owner(Index3 window, const std::array<std::int64_t, 3>& sum) const {
+std::array<std::int64_t, 3> WindowGrid::least_sums_above(Index3 window) const {
   const std::int64_t voxel = 4 * kUnitsPerVoxel, unit = voxel * block_edge_;
-  const auto along = [&](std::int64_t s, std::int64_t w, std::int64_t first, std::int64_t blocks,
+  const auto along = [&](std::int64_t w, std::int64_t first, std::int64_t blocks,
                          std::int64_t volume) {
-    const std::int64_t end = voxel * volume;
-    const bool is_beyond = first > 0 && s >= end;
-    const std::int64_t block = is_beyond ? (s - end) / unit + blocks : s / unit;
-    return std::clamp(block - first, w, std::min(w + 1, blocks - 1));
+    if (w + 1 >= blocks) return std::numeric_limits<std::int64_t>::max();
+    const std::int64_t upper = w + 1 + first;
+    return upper < blocks ? upper * unit : voxel * volume + (upper - blocks) * unit;
   };
-  return {along(sum[0], window.x, first_.x, blocks_.x, volume_.x),
-          along(sum[1], window.y, first_.y, blocks_.y, volume_.y),
-          along(sum[2], window.z, first_.z, blocks_.z, volume_.z)};
+  return {along(window.x, first_.x, blocks_.x, volume_.x),
+          along(window.y, first_.y, blocks_.y, volume_.y),
+          along(window.z, first_.z, blocks_.z, volume_.z)};
+}
+
+Index3 WindowGrid::owner(Index3 window, const std::array<std::int64_t, 3>& sum) const {
+  const auto [x, y, z] = least_sums_above(window);
+  return window + Index3{sum[0] >= x ? 1 : 0, sum[1] >= y ? 1 : 0, sum[2] >= z ? 1 : 0};
 }
 
 std::vector<Index3> WindowGrid::predecessors(Index3 w) const {

@@ -49,6 +49,9 @@ class WindowGrid {
   /// nearest block of the window if that block lies outside it.
   /// `sum` is the exact sum of the positions of the tet's four vertices.
   [[nodiscard]] Index3 owner(Index3 window, const std::array<std::int64_t, 3>& sum) const;
+  /// Returns the sums from which on owner() is the window's upper block, by axis; along an axis of
+  /// one block, a number above all sums.
+  [[nodiscard]] std::array<std::int64_t, 3> least_sums_above(Index3 window) const;
 
   /// Returns the windows that must be finished before this one: the transitive reduction of its 13
   /// neighbours earlier in march order, which is (-1,0,0), (+1,-1,0), (+1,+1,-1), clamped where a

@@ -57,6 +57,26 @@ std::uint32_t first_vertex(const BlockSample& s) {
   return s.triangle[0];
 }
 
+/// Numbers that order like items of one first vertex, two of 32 bits in each.
+using Rest = std::array<std::uint64_t, 2>;
+
+std::uint64_t two(std::uint32_t high, std::uint32_t low) {
+  return std::uint64_t{high} << 32 | low;
+}
+
+bool is_before(const BlockTet& s, const BlockTet& t) {
+  const Rest a{two(s.vertices[1], s.vertices[2]), two(s.vertices[3], s.label)};
+  const Rest b{two(t.vertices[1], t.vertices[2]), two(t.vertices[3], t.label)};
+  return a[0] != b[0] ? a[0] < b[0] : a[1] < b[1];
+}
+
+bool is_before(const BlockSample& s, const BlockSample& t) {
+  const Rest a{two(s.triangle[1], s.triangle[2]), s.side};
+  const Rest b{two(t.triangle[1], t.triangle[2]), t.side};
+  if (a[0] != b[0]) return a[0] < b[0];
+  return a[1] != b[1] ? a[1] < b[1] : s.samples < t.samples;
+}
+
 /// Sorts by counting first vertices, then inside the small groups.
 template <typename Item>
 void sort_rows(std::vector<Item>& items, std::size_t vertices) {
@@ -68,7 +88,7 @@ void sort_rows(std::vector<Item>& items, std::size_t vertices) {
   auto group = sorted.begin();
   for (std::size_t v = 0; v < vertices; ++v) {
     const auto last = sorted.begin() + static_cast<std::ptrdiff_t>(end[v]);
-    std::sort(group, last);
+    std::sort(group, last, [](const Item& a, const Item& b) { return is_before(a, b); });
     group = last;
   }
   items = std::move(sorted);

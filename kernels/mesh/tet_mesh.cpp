@@ -4,7 +4,9 @@
 #include "kernels/mesh/tet_mesh.h"
 
 #include <algorithm>
+#include <cstring>
 
+#include "kernels/core/lanes.h"
 #include "kernels/core/sort_distinct.h"
 
 namespace mw {
@@ -28,6 +30,14 @@ LabelBits bits_of(std::span<const BlockTet> tets) {
   }
   sort_distinct(labels);
   return LabelBits(labels);
+}
+
+/// Returns bit 0, 1 or 2 where the vertex is a, b or c; 0 where it is none of them.
+unsigned corner_bit(const LinkTriangle& t, LocalVertex v) {
+  LaneInts rows;
+  static_assert(sizeof t == sizeof rows);
+  std::memcpy(&rows, &t, sizeof rows);
+  return lane_bits(rows == static_cast<std::int32_t>(v)) & 7U;
 }
 
 }  // namespace
@@ -60,13 +70,17 @@ TetMesh::TetMesh(std::span<const BlockVertex> vertices, std::span<const BlockTet
   const std::size_t real = loaded.size();
   for (std::size_t i = 0; i < real; ++i) {
     const auto v = loaded[i].vertices;
+    const unsigned outer = 63U & ~unsigned{roles_.inner};
+    const unsigned p0 = planes_[v[0]], p1 = planes_[v[1]], p2 = planes_[v[2]], p3 = planes_[v[3]];
+    // Any three corners have either the first two or the last two among them.
+    if ((((p0 & p1) | (p2 & p3)) & outer) == 0) continue;
     // The face opposite each corner, turned so that the virtual tet beyond it is positive.
     const std::array<LocalTet, 4> beyond{{{{infinity(), v[2], v[1], v[3]}, kExterior},
                                           {{v[0], infinity(), v[3], v[2]}, kExterior},
                                           {{v[1], v[0], infinity(), v[3]}, kExterior},
                                           {{v[0], v[2], v[1], infinity()}, kExterior}}};
     for (std::size_t corner = 0; corner < 4; ++corner) {
-      unsigned shared = 63U & ~unsigned{roles_.inner};
+      unsigned shared = outer;
       for (std::size_t j = 0; j < 4; ++j) {
         if (j != corner) shared &= planes_[v[j]];
       }
@@ -114,17 +128,29 @@ void TetMesh::count_stars(std::span<const LocalTet> tets) {
   pool_.resize(begin);
 }
 
+/// An edge is met at its smaller end, and counts at both.
+std::vector<std::uint32_t> TetMesh::count_link_vertices() {
+  std::vector<std::uint32_t> out(points_.size() + 1);
+  for (LocalVertex v = 0; v < vertex_count(); ++v) {
+    marks_.clear();
+    for (const LinkTriangle& t : star(v)) {
+      for (LocalVertex w : {t.a, t.b, t.c}) {
+        if (w < v || !marks_.insert(w)) continue;
+        ++out[v];
+        ++out[w];
+      }
+    }
+  }
+  return out;
+}
+
 void TetMesh::classify_vertices() {
   free_.assign(points_.size(), 0);
   orders_.assign(points_.size(), 0);
   signatures_.assign(points_.size(), 0);
+  const std::vector<std::uint32_t> link_vertices = count_link_vertices();
   for (LocalVertex v = 0; v < vertex_count(); ++v) {
-    marks_.clear();
-    std::size_t link_vertices = 0;
-    for (const LinkTriangle& t : star(v)) {
-      for (LocalVertex w : {t.a, t.b, t.c}) link_vertices += marks_.insert(w) ? 1U : 0U;
-    }
-    const bool is_complete = 2 * link_vertices == stars_[v].size + 4;
+    const bool is_complete = 2 * link_vertices[v] == stars_[v].size + 4;
     free_[v] = is_complete && (planes_[v] & roles_.kept) == 0 ? 1 : 0;
     classify_labels(v);
   }
@@ -135,7 +161,10 @@ void TetMesh::classify_labels(LocalVertex v) {
   std::size_t count = 0;
   std::uint64_t signature = 0;
   bool has_exterior = false;
+  const LinkTriangle* before = nullptr;
   for (const LinkTriangle& t : star(v)) {
+    if (before != nullptr && before->label == t.label) continue;
+    before = &t;
     signature |= label_bit(t.label);
     has_exterior |= t.label == kExterior;
     const Label label = without_side(t.label);
@@ -193,13 +222,12 @@ void TetMesh::replace_in_link(LocalVertex keep, LocalVertex drop) {
       if (!marks_.insert(w)) continue;
       for (std::uint32_t k = 0; k < stars_[w].size;) {
         LinkTriangle& u = pool_[stars_[w].begin + k];
-        if (u.has(drop)) {
-          if (u.has(keep)) {
-            erase(w, k);
-            continue;
-          }
-          (u.a == drop ? u.a : u.b == drop ? u.b : u.c) = keep;
+        const unsigned corner = corner_bit(u, drop);
+        if (corner != 0 && u.has(keep)) {
+          erase(w, k);
+          continue;
         }
+        if (corner != 0) ((corner & 1U) != 0 ? u.a : (corner & 2U) != 0 ? u.b : u.c) = keep;
         ++k;
       }
     }

@@ -210,6 +210,7 @@ class TetMesh {
 
   [[nodiscard]] Label side_of(const std::array<LocalVertex, 4>& tet, Point box) const;
   void count_stars(std::span<const LocalTet> tets);
+  [[nodiscard]] std::vector<std::uint32_t> count_link_vertices();
   void classify_vertices();
   void classify_labels(LocalVertex v);
   /// The row of a tet, which is there, among those of v's star.

@@ -130,8 +130,20 @@ class Decoder {
       BlockTet& t = mesh_.tets[i];
       rows(t.vertices, before);
       t.label = label();
-      if (i > 0 && !(mesh_.tets[i - 1] < t)) throw BadBytes{"its tets do not ascend"};
+      if (i > 0 && !is_before(mesh_.tets[i - 1], t)) throw BadBytes{"its tets do not ascend"};
     }
+  }
+
+  /// Replaces <, which compares number by number.
+  static bool is_before(const BlockTet& s, const BlockTet& t) {
+    const auto two = [](std::uint32_t high, std::uint32_t low) {
+      return std::uint64_t{high} << 32 | low;
+    };
+    const auto &u = s.vertices, &v = t.vertices;
+    const std::uint64_t first = two(u[0], u[1]), other = two(v[0], v[1]);
+    if (first != other) return first < other;
+    const std::uint64_t second = two(u[2], u[3]), last = two(v[2], v[3]);
+    return second != last ? second < last : s.label < t.label;
   }
 
   void samples() {
@@ -161,11 +173,11 @@ class Decoder {
   }
 
   void require_all_used() const {
-    std::vector<bool> used(mesh_.vertices.size(), false);
+    std::vector<char> used(mesh_.vertices.size(), 0);
     for (const BlockTet& t : mesh_.tets) {
-      for (std::uint32_t row : t.vertices) used[row] = true;
+      for (std::uint32_t row : t.vertices) used[row] = 1;
     }
-    if (std::find(used.begin(), used.end(), false) != used.end()) {
+    if (std::find(used.begin(), used.end(), 0) != used.end()) {
       throw BadBytes{"a vertex belongs to no tet"};
     }
   }

@@ -57,8 +57,11 @@ class Encoder {
 
  private:
   void labels() {
-    for (const BlockTet& t : mesh_.tets) labels_.push_back(t.label);
-    for (const BlockSample& s : mesh_.samples) labels_.push_back(s.side);
+    const auto note = [this](Label label) {
+      if (labels_.empty() || labels_.back() != label) labels_.push_back(label);
+    };
+    for (const BlockTet& t : mesh_.tets) note(t.label);
+    for (const BlockSample& s : mesh_.samples) note(s.side);
     sort_distinct(labels_);
     out_.varint(labels_.size());
     Label before = 0;
@@ -66,8 +69,11 @@ class Encoder {
   }
 
   void label(Label label) {
-    const auto index = std::lower_bound(labels_.begin(), labels_.end(), label);
-    out_.varint(static_cast<std::uint64_t>(index - labels_.begin()));
+    if (labels_[last_label_] != label) {
+      const auto index = std::lower_bound(labels_.begin(), labels_.end(), label);
+      last_label_ = static_cast<std::size_t>(index - labels_.begin());
+    }
+    out_.varint(last_label_);
   }
 
   void vertices() {
@@ -152,6 +158,7 @@ class Encoder {
 
   const BlockMesh& mesh_;
   std::vector<Label> labels_;
+  std::size_t last_label_ = 0;  ///< the place of the label that was written last
   ByteWriter out_;
 };
 

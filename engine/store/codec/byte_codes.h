@@ -32,6 +32,10 @@ class ByteWriter {
  public:
   void varint(std::uint64_t value) {
     room(kMaxVarintBytes);
+    if (value < 0x80) {
+      bytes_[size_++] = static_cast<std::byte>(value);
+      return;
+    }
     for (; value >= 0x80; value >>= 7) bytes_[size_++] = static_cast<std::byte>(value | 0x80);
     bytes_[size_++] = static_cast<std::byte>(value);
   }
@@ -64,14 +68,18 @@ struct BadBytes {
   const char* reason;
 };
 
-/// Reads what ByteWriter wrote.  ERRORS: BadBytes at the end and for a varint beyond 64 bits.
+/// Reads what ByteWriter wrote.  REQUIRES: the low_bytes() of a count are at most 8.  ERRORS:
+/// BadBytes at the end and for a varint beyond 64 bits.
 class ByteReader {
  public:
-  explicit ByteReader(std::span<const std::byte> bytes) : rest_(bytes) {}
+  explicit ByteReader(std::span<const std::byte> bytes)
+      : at_(bytes.data()), end_(bytes.data() + bytes.size()) {}
 
   [[nodiscard]] std::uint64_t varint() {
-    std::uint64_t value = 0;
-    for (unsigned shift = 0;; shift += 7) {
+    auto value = static_cast<std::uint64_t>(next());
+    if (value < 0x80) return value;
+    value &= 0x7f;
+    for (unsigned shift = 7;; shift += 7) {
       const auto byte = static_cast<std::uint64_t>(next());
       if (shift == 63 && byte > 1) throw BadBytes{"a number has more than 64 bits"};
       value |= (byte & 0x7f) << shift;
@@ -79,26 +87,31 @@ class ByteReader {
     }
   }
   [[nodiscard]] std::uint64_t low_bytes(std::size_t count) {
-    if (count > rest_.size()) throw BadBytes{"it ends too early"};
+    if (count > left()) throw BadBytes{"it ends too early"};
     std::uint64_t value = 0;
-    for (std::size_t i = 0; i < count; ++i) {
-      value |= static_cast<std::uint64_t>(rest_[i]) << 8 * i;
+    if (left() >= sizeof value) {
+      value = io::load<std::uint64_t>(at_, io::ByteOrder::kLittle);
+      if (count < sizeof value) value &= (std::uint64_t{1} << 8 * count) - 1;
+    } else {
+      for (std::size_t i = 0; i < count; ++i) {
+        value |= static_cast<std::uint64_t>(at_[i]) << 8 * i;
+      }
     }
-    rest_ = rest_.subspan(count);
+    at_ += count;
     return value;
   }
   /// Reads the next bytes as they are.
   [[nodiscard]] std::span<const std::byte> bytes(std::size_t count) {
-    if (count > rest_.size()) throw BadBytes{"it ends too early"};
-    const std::span<const std::byte> out = rest_.first(count);
-    rest_ = rest_.subspan(count);
+    if (count > left()) throw BadBytes{"it ends too early"};
+    const std::span<const std::byte> out(at_, count);
+    at_ += count;
     return out;
   }
   /// Reads a number of things that take at least one byte each; a number of more things than bytes
   /// are left is refused, so that nobody makes room for them.
   [[nodiscard]] std::size_t count() {
     const std::uint64_t value = varint();
-    if (value > rest_.size()) throw BadBytes{"it is too short for what it says it holds"};
+    if (value > left()) throw BadBytes{"it is too short for what it says it holds"};
     return static_cast<std::size_t>(value);
   }
   /// Reads a varint below limit.
@@ -113,19 +126,19 @@ class ByteReader {
       if (next() < std::byte{0x80}) --varints;
     }
   }
-  [[nodiscard]] bool at_end() const { return rest_.empty(); }
+  [[nodiscard]] bool at_end() const { return at_ == end_; }
   /// Returns what was not read yet.
-  [[nodiscard]] std::span<const std::byte> rest() const { return rest_; }
+  [[nodiscard]] std::span<const std::byte> rest() const { return {at_, end_}; }
 
  private:
   std::byte next() {
-    if (rest_.empty()) throw BadBytes{"it ends too early"};
-    const std::byte byte = rest_.front();
-    rest_ = rest_.subspan(1);
-    return byte;
+    if (at_ == end_) throw BadBytes{"it ends too early"};
+    return *at_++;
   }
+  [[nodiscard]] std::size_t left() const { return static_cast<std::size_t>(end_ - at_); }
 
-  std::span<const std::byte> rest_;
+  const std::byte* at_;
+  const std::byte* end_;
 };
 
 inline constexpr std::uint64_t kBlockMagic = 0x0242574DU;  ///< "MWB", version 2
