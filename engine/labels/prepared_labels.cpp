@@ -390,14 +390,39 @@ bool PreparedLabels::all_may_be_large(const Box3& cubes) const {
   return all;
 }
 
+/// Returns the cube of the cell that a cube around the cell repeats; the cube itself where it is in
+/// the cell, or where copies of the cell do not consist of whole cubes with the same limits.
+/// No cell of the start mesh depends on the cubes at the end of the margin, which differ from those
+/// that they repeat.
+Index3 PreparedLabels::first_like(Index3 cube) const {
+  Index3 out = cube;
+  const auto wrap = [](std::int64_t c, std::int64_t margin, std::int64_t cell) {
+    const std::int64_t first = margin / kBrick, cubes = cell / kBrick;
+    return first + ((c - first) % cubes + cubes) % cubes;
+  };
+  const Index3 size = cell();
+  for (unsigned axis = 0; axis < 3; ++axis) {
+    if (!repeats()[axis]) continue;
+    if (along(size, axis) % kBrick != 0 || sizes_.limits()) return cube;
+    std::int64_t& place = axis == 0 ? out.x : axis == 1 ? out.y : out.z;
+    place = wrap(along(cube, axis), along(margin_, axis), along(size, axis));
+  }
+  return out;
+}
+
 void PreparedLabels::find_levels(const Box3& cubes, int threads) {
   const Index3 volume = original_.shape();
   levels_ = LevelMap(volume, cubes);
   const auto is_whole = [&](Index3 cube) {
     return shapes().box_of(cube).voxels() == kBrick * kBrick * kBrick;
   };
+  const auto repeats_another = [&](Index3 cube) {
+    const Index3 first = first_like(cube);
+    return first != cube && cubes.contains(first);
+  };
   tbb_for_each_index(threads, cubes.shape(), [&](Index3 i) {
     const Index3 cube = cubes.lo + i;
+    if (repeats_another(cube)) return;
     const Box3 around = clipped(grown({cube, cube + Index3{1, 1, 1}}, 1), levels_.cubes());
     if (is_whole(around.lo) && is_whole(around.hi - Index3{1, 1, 1}) && all_may_be_large(around)) {
       levels_.set_eighths(cube, 0xff);
@@ -406,6 +431,10 @@ void PreparedLabels::find_levels(const Box3& cubes, int threads) {
     const Box3 box{scaled(cube, kBrick), scaled(cube + Index3{1, 1, 1}, kBrick)};
     const LabelBox labels = read_labels(shapes(), grown(box, LevelMap::kHalo));
     levels_.set_eighths(cube, LevelMap::allowed_eighths(labels, volume, cube, start_sizes()));
+  });
+  for_each_index(cubes, [&](Index3 cube) {
+    if (!repeats_another(cube)) return;
+    levels_.set_eighths(cube, static_cast<std::uint8_t>(levels_.bits_of(first_like(cube))));
   });
   levels_.find_cubes([&](Index3 cube) { return is_whole(cube) && may_be_large(cube); });
 }

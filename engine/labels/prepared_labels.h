@@ -126,6 +126,7 @@ class PreparedLabels {
   [[nodiscard]] Box3 bricks_of_cell() const {
     return bricks_over({margin_, original_.shape() - margin_});
   }
+  [[nodiscard]] Index3 first_like(Index3 cube) const;
   void find_levels(const Box3& cubes, int threads);
   /// True if the cube has one label and sizes allow the largest cell in it.
   [[nodiscard]] bool may_be_large(Index3 cube) const;
