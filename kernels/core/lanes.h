@@ -61,12 +61,30 @@ MW_LANES Lanes load(const StoredLanes& s) {
 [[gnu::always_inline]] inline void store(const Lanes& values, StoredLanes& out) {
   std::memcpy(out.data(), &values, sizeof values);
 }
+[[gnu::always_inline]] inline void store(const LaneInts& values, StoredInts& out) {
+  std::memcpy(out.data(), &values, sizeof values);
+}
 MW_LANES Lanes to_lanes(const StoredInts& s) {
   return __builtin_convertvector(load(s), Lanes);
 }
 /// Marks the lanes whose stored number differs from `value`.
 MW_LANES LaneMask differs(const StoredInts& s, std::int32_t value) {
   return __builtin_convertvector(load(s) != value, LaneMask);
+}
+struct LaneInts3 {
+  LaneInts x, y, z;
+};
+
+/// Takes the first three numbers of each, one from all four into a lane.
+MW_LANES LaneInts3 transposed(const LaneInts& a, const LaneInts& b, const LaneInts& c,
+                              const LaneInts& d) {
+  const LaneInts xy_ab = __builtin_shufflevector(a, b, 0, 4, 1, 5),
+                 xy_cd = __builtin_shufflevector(c, d, 0, 4, 1, 5),
+                 z_ab = __builtin_shufflevector(a, b, 2, 6, 3, 7),
+                 z_cd = __builtin_shufflevector(c, d, 2, 6, 3, 7);
+  return {__builtin_shufflevector(xy_ab, xy_cd, 0, 1, 4, 5),
+          __builtin_shufflevector(xy_ab, xy_cd, 2, 3, 6, 7),
+          __builtin_shufflevector(z_ab, z_cd, 0, 1, 4, 5)};
 }
 /// Picks x, y or z in each lane, by the number of the axis there.
 MW_LANES Lanes by_axis(const LaneInts& axes, const Lanes& x, const Lanes& y, const Lanes& z) {
@@ -97,7 +115,13 @@ MW_LANES Lanes root(const Lanes& v) {
   return Lanes{std::sqrt(v[0]), std::sqrt(v[1]), std::sqrt(v[2]), std::sqrt(v[3])};
 }
 MW_LANES bool any(const LaneMask& m) {
+#ifdef __SSE2__
+  using Doubles = double __attribute__((vector_size(2 * sizeof(double))));
+  const auto either = __builtin_shufflevector(m, m, 0, 1) | __builtin_shufflevector(m, m, 2, 3);
+  return __builtin_ia32_movmskpd(std::bit_cast<Doubles>(either)) != 0;
+#else
   return (m[0] | m[1] | m[2] | m[3]) != 0;
+#endif
 }
 /// One bit for each lane, set where the comparison holds.
 MW_LANES unsigned lane_bits(const LaneInts& m) {

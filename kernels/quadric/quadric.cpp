@@ -7,12 +7,6 @@
 
 namespace mw {
 
-Eigen::Matrix3d Quadric::matrix() const {
-  Eigen::Matrix3d m;
-  m << a[0], a[1], a[2], a[1], a[3], a[4], a[2], a[4], a[5];
-  return m;
-}
-
 void Quadric::add_axis_plane(int axis, double weight) {
   constexpr std::array<std::size_t, 3> kDiagonal{0, 3, 5};
   a[kDiagonal[static_cast<std::size_t>(axis)]] += weight;
@@ -34,10 +28,6 @@ void Quadric::add_point(double weight) {
   a[0] += weight;
   a[3] += weight;
   a[5] += weight;
-}
-
-double Quadric::value(const Vec3& x) const {
-  return x.dot(matrix() * x) + 2.0 * linear().dot(x) + c;
 }
 
 Quadric Quadric::shifted(const Vec3& offset) const {

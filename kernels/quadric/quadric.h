@@ -27,10 +27,17 @@ struct Quadric {
   /// Eq (2): squared distance to the owner's position.
   void add_point(double weight);
 
-  [[nodiscard]] Eigen::Matrix3d matrix() const;  ///< A
+  /// A
+  [[nodiscard]] Eigen::Matrix3d matrix() const {
+    Eigen::Matrix3d m;
+    m << a[0], a[1], a[2], a[1], a[3], a[4], a[2], a[4], a[5];
+    return m;
+  }
   [[nodiscard]] Vec3 linear() const { return {b[0], b[1], b[2]}; }
   [[nodiscard]] double trace() const { return a[0] + a[3] + a[5]; }
-  [[nodiscard]] double value(const Vec3& x) const;
+  [[nodiscard]] double value(const Vec3& x) const {
+    return x.dot(matrix() * x) + 2.0 * linear().dot(x) + c;
+  }
   /// This function, relative to a position at `offset` from the present one.
   [[nodiscard]] Quadric shifted(const Vec3& offset) const;
 };

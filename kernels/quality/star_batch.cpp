@@ -11,6 +11,20 @@ namespace {
 
 using Group = StarBatch::Group;
 
+LaneInts lanes_of(const Point& p) {
+  using Words = std::uint64_t __attribute__((vector_size(2 * sizeof(std::uint64_t))));
+  std::uint64_t first_two;
+  std::memcpy(&first_two, &p, sizeof first_two);
+  return std::bit_cast<LaneInts>(Words{first_two, static_cast<std::uint32_t>(p.z)});
+}
+
+LaneInts lanes_of(const LinkTriangle& t) {
+  LaneInts out;
+  static_assert(sizeof t == sizeof out);
+  std::memcpy(&out, &t, sizeof out);
+  return out;
+}
+
 struct Corners {
   Lanes3 a, b, c;
 };
@@ -125,6 +139,33 @@ MW_WIDE StarVerdict judge(const Group& g, const Vec3& unit, const Vec3& x, std::
   return low ? StarVerdict::kLowQuality : StarVerdict::kGood;
 }
 
+/// Whether the determinants of corners within so many units of a point fit into a double.
+constexpr std::int32_t kExactExtent = 1 << 16;
+
+MW_LANES LaneInts3 corner_units(const Group& g, std::size_t i, Point x) {
+  return {load(g.corners[3 * i]) - x.x, load(g.corners[3 * i + 1]) - x.y,
+          load(g.corners[3 * i + 2]) - x.z};
+}
+/// A number with bits above those of 2 * kExactExtent where one of three is not within it.
+MW_LANES LaneInts beyond_extent(const LaneInts3& v) {
+  return (v.x + kExactExtent) | (v.y + kExactExtent) | (v.z + kExactExtent);
+}
+MW_LANES Lanes3 as_doubles(const LaneInts3& v) {
+  return {__builtin_convertvector(v.x, Lanes), __builtin_convertvector(v.y, Lanes),
+          __builtin_convertvector(v.z, Lanes)};
+}
+
+/// Judges by determinants, which are exact for corners within kExactExtent.
+MW_WIDE ExactSigns find_signs(const Group& g, Point x, std::int32_t without) {
+  const LaneInts3 a = corner_units(g, 0, x), b = corner_units(g, 1, x), c = corner_units(g, 2, x);
+  const LaneInts beyond = beyond_extent(a) | beyond_extent(b) | beyond_extent(c);
+  if (lane_bits((beyond & -(2 * kExactExtent)) != 0) != 0) return ExactSigns::kUnknown;
+  const LaneMask counts =
+      differs(g.rows[0], without) & differs(g.rows[1], without) & differs(g.rows[2], without);
+  const Lanes v6 = dot(as_doubles(a), cross(as_doubles(b), as_doubles(c)));
+  return any(counts & (v6 <= 0.0)) ? ExactSigns::kNotPositive : ExactSigns::kPositive;
+}
+
 MW_LANES Lanes3 edge(const TetLanes& tets, std::size_t i, const Vec3& unit) {
   return {to_lanes(tets.edges[3 * i]) * unit[0], to_lanes(tets.edges[3 * i + 1]) * unit[1],
           to_lanes(tets.edges[3 * i + 2]) * unit[2]};
@@ -132,6 +173,28 @@ MW_LANES Lanes3 edge(const TetLanes& tets, std::size_t i, const Vec3& unit) {
 
 MW_LANES Lanes norm(const Lanes3& v) {
   return root(eigen_dot(v, v));
+}
+
+/// See reaches_ratio() (kernels/quality/quality.h), whose verdict this is to the last bit.
+MW_WIDE unsigned find_below(const TetLanes& tets, const Vec3& unit, double floor) {
+  constexpr double kRounding = 1e-12;
+  const Lanes3 a = edge(tets, 0, unit), b = edge(tets, 1, unit), c = edge(tets, 2, unit);
+  const Lanes3 n1 = cross(b, c), n2 = cross(c, a), n3 = cross(a, b), n4 = n1 + n2 + n3;
+  const Lanes v6 = eigen_dot(a, n1);
+  const Lanes q1 = eigen_dot(n1, n1), q2 = eigen_dot(n2, n2), q3 = eigen_dot(n3, n3),
+              q4 = eigen_dot(n4, n4);
+  const Lanes3 w = eigen_dot(a, a) * n1 + eigen_dot(b, b) * n2 + eigen_dot(c, c) * n3;
+  const Lanes reached = 36.0 * v6 * v6 * v6 * v6;
+  const Lanes wanted = floor * floor * eigen_dot(w, w) * (1.0 + kRounding);
+  const Lanes squares = q1 + q2 + q3 + q4;
+  const LaneMask is_positive = v6 > 0.0;
+  LaneMask reaches = is_positive & (reached >= wanted * 4.0 * squares);
+  const LaneMask is_open = is_positive & ~reaches & ~(reached < wanted * squares);
+  if (any(is_open)) {
+    const Lanes area = root(q1) + root(q2) + root(q3) + root(q4);
+    reaches |= is_open & (reached >= wanted * area * area);
+  }
+  return lane_bits(__builtin_convertvector(~reaches, LaneInts));
 }
 
 MW_WIDE void find_ratios(const TetLanes& tets, const Vec3& unit, StoredLanes& out) {
@@ -159,30 +222,34 @@ void StarBatch::collect(const TetMesh& mesh, const Metric& metric, LocalVertex v
 
 bool StarBatch::gather_group() {
   const auto star = mesh_->star(vertex_);
-  const Point origin = mesh_->position(vertex_);
-  std::size_t lane = 0;
-  for (; lane < kLanes && next_ < star.size(); ++next_) {
-    const LinkTriangle& t = star[next_];
-    if (t.label == kExterior) continue;
-    if (lane == 0) groups_.emplace_back();
-    Group& g = groups_.back();
-    std::size_t i = 0;
-    for (LocalVertex w : {t.a, t.b, t.c}) {
-      const Point p = mesh_->position(w);
-      g.corners[3 * i][lane] = p.x - origin.x;
-      g.corners[3 * i + 1][lane] = p.y - origin.y;
-      g.corners[3 * i + 2][lane] = p.z - origin.z;
-      g.rows[i++][lane] = static_cast<std::int32_t>(w);
-    }
-    ++lane;
+  std::array<const LinkTriangle*, kLanes> tets;
+  std::size_t found = 0;
+  for (; found < kLanes && next_ < star.size(); ++next_) {
+    if (star[next_].label != kExterior) tets[found++] = &star[next_];
   }
-  if (lane == 0) return false;
-  size_ += lane;
-  Group& g = groups_.back();
-  for (; lane < kLanes; ++lane) {
-    for (StoredInts& c : g.corners) c[lane] = c[lane - 1];
-    for (StoredInts& r : g.rows) r[lane] = r[lane - 1];
-  }
+  if (found == 0) return false;
+  size_ += found;
+  for (std::size_t lane = found; lane < kLanes; ++lane) tets[lane] = tets[found - 1];
+  Group& g = groups_.emplace_back();
+  const LaneInts origin = lanes_of(mesh_->position(vertex_));
+  const auto gather = [&](std::size_t corner, LocalVertex LinkTriangle::*row) {
+    const auto from_origin = [&](std::size_t lane) {
+      return lanes_of(mesh_->position(tets[lane]->*row)) - origin;
+    };
+    const auto [x, y, z] =
+        transposed(from_origin(0), from_origin(1), from_origin(2), from_origin(3));
+    store(x, g.corners[3 * corner]);
+    store(y, g.corners[3 * corner + 1]);
+    store(z, g.corners[3 * corner + 2]);
+  };
+  gather(0, &LinkTriangle::a);
+  gather(1, &LinkTriangle::b);
+  gather(2, &LinkTriangle::c);
+  const auto [a, b, c] =
+      transposed(lanes_of(*tets[0]), lanes_of(*tets[1]), lanes_of(*tets[2]), lanes_of(*tets[3]));
+  store(a, g.rows[0]);
+  store(b, g.rows[1]);
+  store(c, g.rows[2]);
   return true;
 }
 
@@ -269,6 +336,19 @@ StarVerdict StarBatch::judge_at(const Vec3& x, LocalVertex without, double floor
     if (verdict != StarVerdict::kGood) return verdict;
   }
   return StarVerdict::kGood;
+}
+
+ExactSigns StarBatch::signs_at(Point x, LocalVertex without) {
+  gather_all();
+  for (const Group& g : groups_) {
+    const ExactSigns signs = find_signs(g, x, static_cast<std::int32_t>(without));
+    if (signs != ExactSigns::kPositive) return signs;
+  }
+  return ExactSigns::kPositive;
+}
+
+unsigned below_ratio(const TetLanes& tets, const Metric& metric, double floor) {
+  return find_below(tets, metric.unit(), floor);
 }
 
 StoredLanes radius_ratios(const TetLanes& tets, const Metric& metric) {

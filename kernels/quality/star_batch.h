@@ -30,6 +30,9 @@ struct StarTerms {
 
 enum class StarVerdict { kGood, kInverted, kLowQuality, kTooLong };
 
+/// Whether tets are positive, in whole numbers; not known where they are large.
+enum class ExactSigns { kPositive, kNotPositive, kUnknown };
+
 /// The real tets at a vertex v as they were when it was collected.  Positions of v are offsets from
 /// where it was then, in metric units.
 /// The energy of a tet of radius ratio r is 1 / r, so that every tet counts, bad ones most; it is
@@ -61,6 +64,10 @@ class StarBatch {
   /// the last digits; inverted ones are found only up to rounding.  The tets that failed last are
   /// looked at first, because they are likely to fail again, and the first fault found is returned.
   [[nodiscard]] StarVerdict judge_at(const Vec3& x, LocalVertex without, double floor);
+
+  /// Whether all tets without the vertex `without` are exactly positive, with v at an offset in
+  /// lattice units from where it was.  Tets of less than 64 voxels are small enough for a verdict.
+  [[nodiscard]] ExactSigns signs_at(Point x, LocalVertex without);
 
   /// Four tets; what is beyond the last one repeats it.
   struct Group {
@@ -98,6 +105,10 @@ struct TetLanes {
     }
   }
 };
+
+/// Returns one bit for each tet that does not reach the radius ratio `floor`, by the verdict of
+/// reaches_ratio() (kernels/quality/quality.h), and any bit for lanes that were not set.
+[[nodiscard]] unsigned below_ratio(const TetLanes& tets, const Metric& metric, double floor);
 
 /// Returns radius_ratio() (kernels/quality/quality.h) of each tet, to the last bit, and any number
 /// for lanes that were not set.

@@ -17,7 +17,7 @@ bool within_extent(Point a, Point b) {
          std::abs(std::int64_t{a.z} - b.z) < kMaxTetExtent / 2;
 }
 
-/// Judges in whole numbers, which is the verdict that counts.
+/// Judges tets of any size in whole numbers.
 StarVerdict sign_at(const TetMesh& mesh, LocalVertex v, LocalVertex other, Point x) {
   for (const LinkTriangle& t : mesh.star(v)) {
     if (t.label == kExterior || t.has(other)) continue;
@@ -46,15 +46,26 @@ StarVerdict variance_at(const TetMesh& mesh, const Metric& metric, LocalVertex v
 
 ShapeFilter::ShapeFilter(const TetMesh& mesh, const Metric& metric, const SimplifyOptions& options)
     : mesh_(mesh), metric_(metric), options_(options), poor_(mesh.vertex_count(), 0) {
-  const double floor = options.quality_floor;
+  TetLanes group;
+  std::array<std::array<LocalVertex, 4>, kLanes> tets{};
+  std::size_t used = 0;
+  const auto mark_group = [&] {
+    const unsigned below = below_ratio(group, metric, options.quality_floor);
+    for (std::size_t k = 0; below != 0 && k < used; ++k) {
+      if ((below >> k & 1U) == 0) continue;
+      for (const LocalVertex v : tets[k]) poor_[v] = 1;
+    }
+    used = 0;
+  };
   for (LocalVertex v = 0; v < mesh.vertex_count(); ++v) {
     for (const LinkTriangle& t : mesh.star(v)) {
       if (t.label == kExterior || v > t.a || v > t.b || v > t.c) continue;
-      const TetEdges edges = tet_edges(metric, mesh.position(v), mesh.position(t.a),
-                                       mesh.position(t.b), mesh.position(t.c));
-      if (!reaches_ratio(edges, floor)) poor_[v] = poor_[t.a] = poor_[t.b] = poor_[t.c] = 1;
+      group.set(used, mesh.position(v), mesh.position(t.a), mesh.position(t.b), mesh.position(t.c));
+      tets[used++] = {v, t.a, t.b, t.c};
+      if (used == kLanes) mark_group();
     }
   }
+  mark_group();
 }
 
 double ShapeFilter::floor_for(const Contraction& c) const {
@@ -83,6 +94,15 @@ StarBatch& ShapeFilter::star_of(LocalVertex v, LocalVertex other) {
   return g.star;
 }
 
+/// Judges in whole numbers, which is the verdict that counts.
+StarVerdict ShapeFilter::judge_signs(LocalVertex v, LocalVertex other, Point x) {
+  const Point from = mesh_.position(v);
+  const Point offset{x.x - from.x, x.y - from.y, x.z - from.z};
+  const ExactSigns signs = star_of(v, other).signs_at(offset, other);
+  if (signs == ExactSigns::kUnknown) return sign_at(mesh_, v, other, x);
+  return signs == ExactSigns::kPositive ? StarVerdict::kGood : StarVerdict::kInverted;
+}
+
 /// Judges in floating point, which rejects most inverted tets and all that are badly shaped.
 StarVerdict ShapeFilter::judge_shape(LocalVertex v, LocalVertex other, Point x, double floor) {
   const Vec3 offset = metric_.vector(mesh_.position(v), x);
@@ -102,7 +122,7 @@ StarVerdict ShapeFilter::judge(const Contraction& c, double floor) {
   const StarVerdict shape =
       all([&](LocalVertex v, LocalVertex w) { return judge_shape(v, w, c.position, floor); });
   if (shape != StarVerdict::kGood) return shape;
-  return all([&](LocalVertex v, LocalVertex w) { return sign_at(mesh_, v, w, c.position); });
+  return all([&](LocalVertex v, LocalVertex w) { return judge_signs(v, w, c.position); });
 }
 
 StarVerdict ShapeFilter::judge(const Contraction& c) {

@@ -41,6 +41,7 @@ class ShapeFilter {
   [[nodiscard]] StarBatch& star_of(LocalVertex v, LocalVertex other);
   [[nodiscard]] double floor_for(const Contraction& c) const;
   [[nodiscard]] StarVerdict judge_shape(LocalVertex v, LocalVertex other, Point x, double floor);
+  [[nodiscard]] StarVerdict judge_signs(LocalVertex v, LocalVertex other, Point x);
   [[nodiscard]] StarVerdict judge(const Contraction& c, double floor);
   void mark_poor(const Contraction& c);
 

@@ -4,8 +4,12 @@
 #include "kernels/start/corner_quadric.h"
 
 #include <algorithm>
+#include <bit>
+#include <cstring>
+#include <span>
 
 #include "kernels/core/index.h"
+#include "kernels/core/lanes.h"
 #include "kernels/start/cells/cell.h"
 
 namespace mw {
@@ -39,35 +43,62 @@ struct PairFaces {
 class WideCube {
  public:
   WideCube(const StartLabels& labels, Index3 corner) {
-    const Octant around = voxels_around(labels.shape, corner);
-    std::size_t i = 0;
-    for_each_index(Box3{corner - Index3{kWide, kWide, kWide}, corner + Index3{kWide, kWide, kWide}},
-                   [&](Index3 v) {
-                     const Label l = labels.original.at(v);
-                     const bool meets = std::find(around.begin(), around.end(), l) != around.end();
-                     labels_[i++] = meets ? l : kExterior;
-                   });
+    Octant meeting = voxels_around(labels.shape, corner);
+    std::sort(meeting.begin(), meeting.end());
+    const auto end = std::unique(meeting.begin(), meeting.end());
+    const std::span<const Label> met(meeting.begin(), end);
+    const Index3 first = corner - Index3{kWide, kWide, kWide};
+    const Box3& box = labels.original.box;
+    for (std::size_t row = 0; row < rows_.size(); ++row) {
+      const auto y = static_cast<std::int64_t>(row % 4), z = static_cast<std::int64_t>(row / 4);
+      const auto at = static_cast<std::size_t>(box.offset(first + Index3{0, y, z}));
+      rows_[row] = only(met, labels.original.labels.data() + at);
+    }
   }
 
   /// Adds up the faces of each pair of labels.
   [[nodiscard]] std::vector<PairFaces> faces() const {
     std::vector<PairFaces> out;
     for (unsigned axis = 0; axis < 3; ++axis) {
-      const std::size_t step = std::size_t{1} << (2 * axis);
-      for (std::size_t i = 0; i < labels_.size(); ++i) {
-        const bool last = (i >> (2 * axis) & 3U) == 3;
-        if (last || labels_[i] == kExterior) continue;
-        const Label above = labels_[i + step];
-        if (above == labels_[i] || above == kExterior) continue;
-        add(i, axis, above, out);
+      for (std::size_t row = 0; row < rows_.size(); ++row) {
+        const bool is_last = axis > 0 && (row >> 2 * (axis - 1) & 3U) == 3;
+        if (is_last) continue;
+        unsigned faces = faces_above(row, axis);
+        for (; faces != 0; faces &= faces - 1) {
+          const auto x = static_cast<std::size_t>(std::countr_zero(faces));
+          add(4 * row + x, axis, out);
+        }
       }
     }
     return out;
   }
 
  private:
-  void add(std::size_t below, unsigned axis, Label above, std::vector<PairFaces>& out) const {
-    const LabelPair pair = label_pair(labels_[below], above);
+  /// Labels of four voxels; kExterior is the number with all bits.
+  static LaneInts only(std::span<const Label> met, const Label* row) {
+    LaneInts labels;
+    std::memcpy(&labels, row, sizeof labels);
+    LaneInts meets{};
+    for (const Label label : met) meets |= labels == static_cast<std::int32_t>(label);
+    return labels | ~meets;
+  }
+
+  /// Returns one bit for each voxel of the row whose label and that of the next voxel along the
+  /// axis meet the corner and are not one.
+  [[nodiscard]] unsigned faces_above(std::size_t row, unsigned axis) const {
+    const LaneInts here = rows_[row];
+    const LaneInts above = axis == 0 ? __builtin_shufflevector(here, here, 1, 2, 3, 3)
+                                     : rows_[row + (axis == 1 ? 1 : 4)];
+    return lane_bits((here != above) & (here != -1) & (above != -1));
+  }
+
+  [[nodiscard]] Label label(std::size_t voxel) const {
+    return static_cast<Label>(rows_[voxel / 4][voxel % 4]);
+  }
+
+  void add(std::size_t below, unsigned axis, std::vector<PairFaces>& out) const {
+    const Label under = label(below), above = label(below + (std::size_t{1} << 2 * axis));
+    const LabelPair pair = label_pair(under, above);
     auto at =
         std::find_if(out.begin(), out.end(), [&](const PairFaces& p) { return p.labels == pair; });
     if (at == out.end()) at = out.insert(at, {.labels = pair});
@@ -75,11 +106,11 @@ class WideCube {
       return 2 * (static_cast<std::int64_t>(below >> (2 * k) & 3U) - kWide) + 1;
     };
     ++at->count;
-    at->normal = at->normal + axis_vector(axis, labels_[below] == pair.low ? 1 : -1);
+    at->normal = at->normal + axis_vector(axis, under == pair.low ? 1 : -1);
     at->centre = at->centre + Index3{centre(0), centre(1), centre(2)} + axis_vector(axis);
   }
 
-  std::array<Label, 64> labels_;
+  std::array<LaneInts, 16> rows_;  ///< along x
 };
 
 /// Adds one plane, weighted by the length of the sum of the faces' normals; none where they cancel.
