@@ -126,30 +126,39 @@ class RangeLooker {
   }
 
   [[nodiscard]] StarCounts count(std::span<const Corner> star) {
-    StarCounts out{.tets = star.size(), .sets = star.size()};
+    StarCounts out{.tets = star.size()};
     const std::uint32_t vertex = mesh_.corners[star[0].tet][star[0].corner];
-    for (const Corner& at : star) sets_of_tets_[at.tet] = at.tet;
     const RawLabel label = range_.labels[star[0].tet];
+    std::size_t inner_faces = 0, others = 0, sets = star.size();
     for (const Corner& at : star) {
+      sets_of_tets_[at.tet] = at.tet;
       if (range_.labels[at.tet] != label) out.has_one_label = false;
-      for (std::uint32_t k = 1; k < 4; ++k) count_at(at.tet, (at.corner + k) % 4, vertex, out);
     }
+    for (const Corner& at : star) {
+      const auto& ends = mesh_.corners[at.tet];
+      const auto& earlier = earlier_[at.tet];
+      // The edge to a corner, and the face at the vertex without that corner.
+      for (std::size_t k = 0; k < ends.size(); ++k) {
+        if (k == at.corner) continue;
+        others += seen_[ends[k]] != vertex ? 1U : 0U;
+        seen_[ends[k]] = vertex;
+        if (earlier[k] == kNoTet) continue;
+        ++inner_faces;
+        if (may_cut_ && cuts(earlier[k], at.tet)) out.is_cut = true;
+        if (sets > 1 && unite(earlier[k], at.tet)) --sets;
+      }
+    }
+    out.inner_faces = inner_faces;
+    out.others = others;
+    out.sets = sets;
     return out;
   }
 
-  /// Counts the edge to a corner of a tet, and the tet's face at the vertex without that corner.
-  void count_at(std::uint32_t tet, std::size_t corner, std::uint32_t vertex, StarCounts& out) {
-    const std::uint32_t end = mesh_.corners[tet][corner];
-    out.others += seen_[end] != vertex ? 1U : 0U;
-    seen_[end] = vertex;
-    const std::uint32_t other = earlier_[tet][corner];
-    if (other == kNoTet) return;
-    ++out.inner_faces;
-    if (may_cut_ && cuts(other, tet)) out.is_cut = true;
-    if (out.sets == 1) return;
-    const auto [low, high] = std::minmax({set_of(other), set_of(tet)});
-    if (low != high) --out.sets;
-    sets_of_tets_[high] = low;
+  /// Returns whether the tets were in different sets.
+  bool unite(std::uint32_t one, std::uint32_t other) {
+    const std::uint32_t first = set_of(one), second = set_of(other);
+    sets_of_tets_[std::max(first, second)] = std::min(first, second);
+    return first != second;
   }
 
   [[nodiscard]] std::uint32_t set_of(std::uint32_t tet) {

@@ -34,9 +34,11 @@ class NumberTable {
 
 using Face = std::array<std::uint32_t, 3>;
 
+/// By corner: the others, ascending.
+constexpr std::array<std::array<std::uint8_t, 4>, 4> kOthers{
+    {{1, 2, 3}, {0, 2, 3}, {0, 1, 3}, {0, 1, 2}}};
+
 Face face_opposite(const std::array<std::uint32_t, 4>& corners, std::size_t corner) {
-  constexpr std::array<std::array<std::uint8_t, 3>, 4> kOthers{
-      {{1, 2, 3}, {0, 2, 3}, {0, 1, 3}, {0, 1, 2}}};
   const auto& others = kOthers[corner];
   return {corners[others[0]], corners[others[1]], corners[others[2]]};
 }

@@ -133,8 +133,9 @@ std::vector<BlockMesh> scatter(const WindowContent& content, const WindowGrid& g
   const std::size_t blocks = grid.blocks_of(window).size();
   std::vector<BlockTet> tets = mesh.sorted_tets();
   for (BlockTet& t : tets) t.label = without_side(t.label);
+  const std::size_t count = tets.size();
   std::vector<std::uint8_t> owners;
-  owners.reserve(tets.size());
+  owners.reserve(count);
   const Owners owners_of(grid, window);
   for (const BlockTet& t : tets) owners.push_back(owners_of.of(mesh, t));
   std::vector<std::uint32_t> row(mesh.vertex_count());
@@ -142,7 +143,7 @@ std::vector<BlockMesh> scatter(const WindowContent& content, const WindowGrid& g
   // Blocks are made one by one, so that only one list at a time has room that it does not need.
   for (std::size_t block = 0; block < blocks; ++block) {
     Share share;
-    for (std::size_t i = 0; i < tets.size(); ++i) {
+    for (std::size_t i = 0; i < count; ++i) {
       if (owners[i] != block) continue;
       share.tets.push_back(tets[i]);
       take_samples(content, tets[i], share);

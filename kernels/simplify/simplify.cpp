@@ -38,6 +38,7 @@ class CandidateFinder {
   const std::vector<Contraction>& collect(LocalVertex v) {
     collect_neighbours(v);
     candidates_.clear();
+    taken_ = 0;
     for (LocalVertex w : neighbours_) {
       const bool mine = w > v || mesh_.version(v) != 0 || finished_.has(w);
       if (!mine || !mesh_.is_free(w) || !labels_allow(v, w)) continue;
@@ -47,15 +48,13 @@ class CandidateFinder {
     return candidates_;
   }
 
-  /// Sorts what was collected last, cheapest first.
-  const std::vector<Contraction>& sort() {
-    std::sort(candidates_.begin(), candidates_.end(),
-              [](const Contraction& a, const Contraction& b) {
-                if (a.cost != b.cost) return a.cost < b.cost;
-                const auto ids = [](const Contraction& c) { return std::minmax(c.keep, c.drop); };
-                return ids(a) < ids(b);
-              });
-    return candidates_;
+  /// Returns the cheapest of what was collected last and not yet taken; null where all were taken.
+  /// (Most vertices try few of their candidates, so all of them are not sorted.)
+  const Contraction* take_cheapest() {
+    if (taken_ == candidates_.size()) return nullptr;
+    const auto next = candidates_.begin() + static_cast<std::ptrdiff_t>(taken_++);
+    std::iter_swap(next, std::min_element(next, candidates_.end(), is_cheaper));
+    return &*next;
   }
 
   /// Makes collect() leave out the edge until one of its ends changes.
@@ -67,6 +66,12 @@ class CandidateFinder {
     std::uint64_t labels = 0;
     std::uint32_t call = 0;
   };
+
+  static bool is_cheaper(const Contraction& a, const Contraction& b) {
+    if (a.cost != b.cost) return a.cost < b.cost;
+    const auto ids = [](const Contraction& c) { return std::minmax(c.keep, c.drop); };
+    return ids(a) < ids(b);
+  }
 
   void collect_neighbours(LocalVertex v) {
     neighbours_.clear();
@@ -108,6 +113,7 @@ class CandidateFinder {
   std::uint32_t call_ = 0;
   std::vector<LocalVertex> neighbours_;
   std::vector<Contraction> candidates_;
+  std::size_t taken_ = 0;  ///< how many of them were taken; these come first
 };
 
 /// REQUIRES: not empty.
@@ -207,16 +213,16 @@ class Simplifier {
       queue_.push(v, least);
       return;
     }
-    for (const Contraction& c : finder_.sort()) {
-      if (c.cost > bound) {
-        queue_.push(v, c.cost);
+    while (const Contraction* const c = finder_.take_cheapest()) {
+      if (c->cost > bound) {
+        queue_.push(v, c->cost);
         return;
       }
-      if (try_contraction(c)) {
-        queue_.push(c.keep, 0.0);
+      if (try_contraction(*c)) {
+        queue_.push(c->keep, 0.0);
         return;
       }
-      finder_.forget(c);
+      finder_.forget(*c);
     }
   }
 

@@ -1,13 +1,15 @@
 // SPDX-FileCopyrightText: The mwmesh authors
 // SPDX-License-Identifier: Apache-2.0
-// Tries all cubes, and counts voxels.
+// Tries all cubes, and counts voxels, by rows of bits.
 #include "kernels/surface/thin_label.h"
 
 #include <algorithm>
 #include <array>
 #include <bit>
+#include <cstring>
 
 #include "kernels/core/index.h"
+#include "kernels/core/lanes.h"
 
 namespace mw {
 namespace {
@@ -19,39 +21,64 @@ Index3 nearest_corner(Point place) {
   return {nearest(place.x), nearest(place.y), nearest(place.z)};
 }
 
-Box3 voxels_around(Index3 corner, std::int64_t reach) {
-  const Index3 around{reach, reach, reach};
-  return {corner - around, corner + around};
-}
-
-bool has_label(const LabelBox& labels, Index3 voxel, Label label) {
-  return labels.box.contains(voxel) && without_side(labels.at(voxel)) == label;
-}
-
-bool is_cube_of(const LabelBox& labels, Index3 lowest, Label label) {
-  for (std::int64_t corner = 7; corner >= 0; --corner) {
-    const Index3 step{corner & 1, corner >> 1 & 1, corner >> 2};
-    if (!has_label(labels, lowest + step, label)) return false;
+/// Which of at most 32 voxels of a row have the label, one bit for each.
+unsigned bits_of_row(const Label* row, unsigned count, Label label) {
+  unsigned out = 0, done = 0;
+  for (; done + kLanes <= count; done += kLanes) {
+    LaneInts four;
+    std::memcpy(&four, row + done, sizeof four);
+    four &= static_cast<std::int32_t>(without_side(kExterior));
+    out |= lane_bits(four == static_cast<std::int32_t>(label)) << done;
   }
-  return true;
+  for (; done < count; ++done) out |= (without_side(row[done]) == label ? 1U : 0U) << done;
+  return out;
 }
 
-/// True if no cube of 2^3 voxels that is within `reach` of the corner has that label alone.
-bool is_without_cubes(const LabelBox& labels, Index3 corner, std::int64_t reach, Label label) {
-  for (std::int64_t z = -reach; z < reach - 1; ++z) {
-    for (std::int64_t y = -reach; y < reach - 1; ++y) {
-      for (std::int64_t x = -reach; x < reach - 1; ++x) {
-        if (is_cube_of(labels, corner + Index3{x, y, z}, label)) return false;
+/// The voxels of a label in the cube that reaches kReach voxels away from a corner, row by row
+/// along x.
+template <std::int64_t kReach>
+class LabelRows {
+ public:
+  static constexpr std::size_t kSize = 2 * kReach;
+
+  LabelRows(const LabelBox& labels, Index3 corner, Label label) {
+    constexpr Index3 around{kReach, kReach, kReach};
+    const Box3 cube{corner - around, corner + around}, box = intersection(cube, labels.box);
+    if (box.lo.x >= box.hi.x) return;
+    const auto count = static_cast<unsigned>(box.hi.x - box.lo.x);
+    for (std::int64_t z = box.lo.z; z < box.hi.z; ++z) {
+      for (std::int64_t y = box.lo.y; y < box.hi.y; ++y) {
+        const auto at = static_cast<std::size_t>(labels.box.offset({box.lo.x, y, z}));
+        rows_[static_cast<std::size_t>(z - cube.lo.z)][static_cast<std::size_t>(y - cube.lo.y)] =
+            bits_of_row(labels.labels.data() + at, count, label) << (box.lo.x - cube.lo.x);
       }
     }
   }
-  return true;
-}
 
-/// How many voxels away from a corner the cube around it reaches.
+  /// Returns one bit for each voxel of a row.
+  [[nodiscard]] unsigned at(std::size_t z, std::size_t y) const { return rows_[z][y]; }
+
+  /// True if no cube of 2^3 voxels has the label alone.
+  [[nodiscard]] bool are_without_cubes() const {
+    for (std::size_t z = 0; z + 1 < kSize; ++z) {
+      unsigned pair = rows_[z][0] & rows_[z + 1][0];
+      for (std::size_t y = 1; y < kSize; ++y) {
+        const unsigned next = rows_[z][y] & rows_[z + 1][y], both = pair & next;
+        if ((both & both >> 1U) != 0) return false;
+        pair = next;
+      }
+    }
+    return true;
+  }
+
+ private:
+  std::array<std::array<unsigned, kSize>, kSize> rows_{};
+};
+
+/// How many voxels away from a corner its surroundings reach.
 constexpr std::int64_t kAround = 4;
 
-/// The voxels of a label in the cube around a corner.
+/// The voxels of a label around a corner.
 struct Surroundings {
   int voxels = 0;
   std::array<unsigned, 3> layers{};  ///< a bit for each layer across an axis that has some
@@ -74,25 +101,19 @@ struct Surroundings {
   }
 };
 
-/// Looks at rows of voxels, as this is done at every thin vertex.
-Surroundings look_around(const LabelBox& labels, Index3 corner, Label label) {
+Surroundings look_around(const LabelRows<kAround>& rows) {
+  constexpr std::size_t kSize = LabelRows<kAround>::kSize;
   Surroundings out;
-  const Box3 cube = voxels_around(corner, kAround), box = intersection(cube, labels.box);
-  if (box.lo.x >= box.hi.x) return out;
-  for (std::int64_t z = box.lo.z; z < box.hi.z; ++z) {
-    for (std::int64_t y = box.lo.y; y < box.hi.y; ++y) {
-      const Label* row =
-          &labels.labels[static_cast<std::size_t>(labels.box.offset({box.lo.x, y, z}))];
-      unsigned found = 0;
-      for (std::int64_t x = box.lo.x; x < box.hi.x; ++x) {
-        found |= (without_side(*row++) == label ? 1U : 0U) << (x - cube.lo.x);
-      }
-      if (found == 0) continue;
-      out.voxels += std::popcount(found);
+  for (std::size_t z = 0; z < kSize; ++z) {
+    std::uint64_t of_layer = 0;
+    for (std::size_t y = 0; y < kSize; ++y) {
+      const unsigned found = rows.at(z, y);
+      of_layer |= std::uint64_t{found} << (kSize * y);
       out.layers[0] |= found;
-      out.layers[1] |= 1U << (y - cube.lo.y);
-      out.layers[2] |= 1U << (z - cube.lo.z);
+      out.layers[1] |= (found != 0 ? 1U : 0U) << y;
     }
+    out.voxels += std::popcount(of_layer);
+    out.layers[2] |= (of_layer != 0 ? 1U : 0U) << z;
   }
   return out;
 }
@@ -103,11 +124,11 @@ std::optional<ThinLabel> thin_label_at(const LabelBox& labels, Point place, Labe
   constexpr std::int64_t kReachOfThin = 2, kReachOfSheet = 5;
   constexpr int kLeastOfSheet = 56, kMostOfThread = 20;
   const Index3 corner = nearest_corner(place);
-  if (!is_without_cubes(labels, corner, kReachOfThin, label)) return std::nullopt;
-  const Surroundings around = look_around(labels, corner, label);
+  if (!LabelRows<kReachOfThin>(labels, corner, label).are_without_cubes()) return std::nullopt;
+  const Surroundings around = look_around({labels, corner, label});
   return ThinLabel{
       .is_sheet = around.voxels >= kLeastOfSheet && !around.are_flat() &&
-                  is_without_cubes(labels, corner, kReachOfSheet, label),
+                  LabelRows<kReachOfSheet>(labels, corner, label).are_without_cubes(),
       .is_thread = around.voxels <= kMostOfThread && around.go_through(),
       .is_speck = around.are_inside(),
   };

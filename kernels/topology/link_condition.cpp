@@ -18,11 +18,15 @@ bool LinkCondition::look_from(const TetMesh& mesh, LocalVertex end, LocalVertex 
   const std::size_t n = ring_.size();
   side.labels = 0;
   std::fill_n(side.vertex_labels.begin(), n, Mask{0});
+  Label label = 0;
+  Mask bit = 0;
   for (const LinkTriangle& t : mesh.star(end)) {
-    const Label label = t.label & compared_;
-    const int index = label_index(label);
-    if (labels_.size() > kMaxLabels) return false;
-    const Mask bit = Mask{1} << index;
+    if (bit == 0 || (t.label & compared_) != label) {
+      label = t.label & compared_;
+      const int index = label_index(label);
+      if (labels_.size() > kMaxLabels) return false;
+      bit = Mask{1} << index;
+    }
     side.labels |= bit;
     const std::array<std::size_t, 3> slot{slots_[t.a], slots_[t.b], slots_[t.c]};
     for (std::size_t s : slot) {

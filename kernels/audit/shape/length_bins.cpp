@@ -15,16 +15,15 @@ constexpr int kBeyond = 4000;
 
 }  // namespace
 
-LengthBins::Octave& LengthBins::octave_of(int power) {
-  Place& place = places_[static_cast<std::uint32_t>(power) % places_.size()];
-  if (place.power == power) return octaves_[place.octave];
+LengthBins::Octave& LengthBins::find_octave(int power) {
   auto octave = std::lower_bound(octaves_.begin(), octaves_.end(), power,
                                  [](const Octave& o, int wanted) { return o.power < wanted; });
   if (octave == octaves_.end() || octave->power != power) {
     octave = octaves_.insert(octave, {.power = power});
     places_ = {};
   }
-  place = {power, static_cast<std::uint32_t>(octave - octaves_.begin())};
+  places_[static_cast<std::uint32_t>(power) % places_.size()] = {
+      power, static_cast<std::uint32_t>(octave - octaves_.begin())};
   return *octave;
 }
 

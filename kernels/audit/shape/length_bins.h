@@ -37,7 +37,11 @@ class LengthBins {
 
   /// Adds a length that is no normal number.
   void add_other(double length);
-  [[nodiscard]] Octave& octave_of(int power);
+  [[nodiscard]] Octave& octave_of(int power) {
+    const Place& place = places_[static_cast<std::uint32_t>(power) % places_.size()];
+    return place.power == power ? octaves_[place.octave] : find_octave(power);
+  }
+  [[nodiscard]] Octave& find_octave(int power);
 
   std::vector<Octave> octaves_;    ///< those that have lengths, ascending
   std::array<Place, 8> places_{};  ///< by the low bits of the power: most lengths are alike

@@ -272,7 +272,9 @@ class Coarsener {
     const Label* at = original_.labels.data() + original_.box.offset(lost.lower);
     for (const FaceStep& f : carried_by_[lost.axis]) {
       const Label lower = at[f.lower], upper = at[f.upper];
-      if (label_pair(lower, upper) != labels) continue;
+      const bool is_same =
+          lower == labels.low ? upper == labels.high : lower == labels.high && upper == labels.low;
+      if (!is_same) continue;
       const VoxelFace face{lost.lower + f.face.lower, f.face.axis};
       if (seen.is_new(face) && !has_carrier(face, lower, upper, cube)) return false;
     }

@@ -3,6 +3,8 @@
 // The labels that windows work from, against the same made directly from the whole volume.
 #include "engine/labels/prepared_labels.h"
 
+#include "engine/labels/periodic_labels.h"
+#include "io/labels/repeated_volume.h"
 #include "kernels/start/carrier_faces.h"
 #include "tests/engine/labels/counted_volume.h"
 #include "tests/engine/memory_run.h"
@@ -73,6 +75,38 @@ TEST(PreparedLabels, AreWhatTheWholeVolumeGivesDirectly) {
     expect_levels(labels.levels(), mw::test::level_map(shape), volume.shape);
   }
   EXPECT_GE(changed, 6);
+}
+
+/// Around a cell cells of the start mesh are those of the volume that is the cell and its copies.
+TEST(PreparedLabels, CellsAroundACellAreThoseOfItsCopies) {
+  std::mt19937 random(1072);
+  constexpr std::array<Index3, 4> kShapes{{{32, 16, 48}, {16, 16, 16}, {32, 24, 32}, {64, 32, 16}}};
+  int allowed = 0;
+  for (std::size_t i = 0; i < 16 && !HasFailure(); ++i) {
+    const SmallVolume cell = ranked(mw::test::random_volume_of(
+        random, mw::test::VolumeKind::kBlobs, kShapes[i % kShapes.size()], 1 + below(random, 3)));
+    const MeshSettings settings{.periodic = 1 + below(random, 7),
+                                .start = i % 2 == 0 ? StartMesh::kCoarse : StartMesh::kOctree};
+    const Index3 margin = periodic_margin(settings);
+    const test::MemoryVolume memory(cell, {});
+    const io::PeriodicVolume around(memory, margin);
+    const io::LabelTable table = io::collect_labels(around);
+    const PreparedLabels labels(io::DenseVolume(around, table), settings);
+    SmallVolume whole = cell;
+    whole.shape = cell.shape + margin + margin;
+    whole.labels = labels.shape({Index3{} - margin, cell.shape + margin}).labels;
+    const LevelMap expected = mw::test::level_map(whole);
+    const Box3 near = intersection(grown({margin, margin + cell.shape}, LevelMap::kCube),
+                                   {{0, 0, 0}, whole.shape});
+    for_each_index(near, [&](Index3 v) {
+      if (((v.x | v.y | v.z) & 7) != 0) return;
+      for (const int level : {3, 4}) {
+        ASSERT_EQ(labels.levels().is_allowed(v, level), expected.is_allowed(v, level));
+        allowed += expected.is_allowed(v, level) ? 1 : 0;
+      }
+    });
+  }
+  EXPECT_GT(allowed, 100);
 }
 
 std::int64_t edge_upto(std::mt19937& random, std::int64_t n) {

@@ -83,6 +83,37 @@ TEST(RadiusRatio, OfSeveralTetsIsThatOfEach) {
   EXPECT_GT(other, 1000);
 }
 
+TEST(RadiusRatio, TetsBelowAFloorAreThoseThatDoNotReachIt) {
+  std::mt19937 random(706);
+  const Metric metric({1.0, 1.3, 2.5});
+  int reached = 0, missed = 0;
+  for (int i = 0; i < 4000; ++i) {
+    TetLanes tets;
+    std::array<TetEdges, kLanes> edges_of;
+    for (std::size_t k = 0; k < kLanes; ++k) {
+      std::array<Point, 4> p;
+      for (Point& q : p) {
+        const auto place = [&] { return static_cast<std::int32_t>(random() % 9) * 511; };
+        const std::int32_t x = place(), y = place();
+        q = {x, y, place()};
+      }
+      tets.set(k, p[0], p[1], p[2], p[3]);
+      edges_of[k] = tet_edges(metric, p[0], p[1], p[2], p[3]);
+    }
+    for (const double floor :
+         {0.0, 0.05, 0.2, 0.5, radius_ratio(edges_of[static_cast<std::size_t>(i) % kLanes])}) {
+      const unsigned below = below_ratio(tets, metric, floor);
+      for (std::size_t k = 0; k < kLanes; ++k) {
+        const bool reaches = reaches_ratio(edges_of[k], floor);
+        ASSERT_EQ((below >> k & 1U) == 0, reaches) << floor;
+        (reaches ? reached : missed) += 1;
+      }
+    }
+  }
+  EXPECT_GT(reached, 5000);
+  EXPECT_GT(missed, 5000);
+}
+
 TEST(Sec54Quality, RegularTetIsBest) {
   Corners p{Vec3{0, 0, 0}, Vec3{1, 1, 0}, Vec3{1, 0, 1}, Vec3{0, 1, 1}};
   if (radius_ratio(edges(p)) < 0) std::swap(p[2], p[3]);
@@ -287,6 +318,43 @@ TEST(StarBatch, JudgesLikeEachTetByItself) {
   EXPECT_GT(seen[StarVerdict::kGood], 100);
   EXPECT_GT(seen[StarVerdict::kInverted], 50);
   EXPECT_GT(seen[StarVerdict::kLowQuality], 100);
+}
+
+TEST(StarBatch, SignsAreThoseOfWholeNumbers) {
+  std::map<ExactSigns, int> seen;
+  each_trial(613, [&](const Trial& trial, std::mt19937& random) {
+    const auto entries = trial.mesh.star(trial.vertex);
+    const auto any = [&]() -> const LinkTriangle& {
+      return entries[below(random, static_cast<std::uint32_t>(entries.size()))];
+    };
+    const LocalVertex without = any().b, other = any().a;
+    const Point at = trial.mesh.position(trial.vertex);
+    const auto step = [&] { return static_cast<std::int32_t>(below(random, 1201)) - 600; };
+    Point place{at.x + step(), at.y + step(), at.z + step()};
+    // At a neighbour, tets with it are flat.
+    if (below(random, 4) == 0 && other != trial.mesh.infinity()) {
+      place = trial.mesh.position(other);
+    }
+    const bool is_far = below(random, 8) == 0;
+    if (is_far) place.y += 1 << 17;
+    bool is_positive = true;
+    for (const LinkTriangle& t : entries) {
+      if (t.label == kExterior || t.has(without)) continue;
+      is_positive = is_positive && volume6(place, trial.mesh.position(t.a),
+                                           trial.mesh.position(t.b), trial.mesh.position(t.c)) > 0;
+    }
+    StarBatch star;
+    star.collect(trial.mesh, trial.metric, trial.vertex);
+    const ExactSigns signs =
+        star.signs_at({place.x - at.x, place.y - at.y, place.z - at.z}, without);
+    ++seen[signs];
+    EXPECT_EQ(signs == ExactSigns::kUnknown, is_far);
+    if (is_far) return;
+    EXPECT_EQ(signs == ExactSigns::kPositive, is_positive);
+  });
+  EXPECT_GT(seen[ExactSigns::kPositive], 200);
+  EXPECT_GT(seen[ExactSigns::kNotPositive], 200);
+  EXPECT_GT(seen[ExactSigns::kUnknown], 100);
 }
 
 /// The sum of s^3 / v^2, and none when a tet is nearly flat or inverted.

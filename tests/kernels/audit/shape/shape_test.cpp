@@ -209,6 +209,37 @@ TEST(Quality, LengthsAreThoseOfAllTets) {
   }
 }
 
+TEST(Quality, OfSeveralTetsAtOnceIsThatOfEach) {
+  std::mt19937 random(4);
+  std::uniform_real_distribution<double> number(-1, 1);
+  for (std::size_t count = 0; count < 40; ++count) {
+    std::vector<NumberedTet> tets(count);
+    QualityMeter singly, at_once;
+    for (NumberedTet& tet : tets) {
+      tet.number = random() % 100;
+      for (Position& corner : tet.corners) corner = {number(random), number(random), 0.0};
+      // Some tets are flat, and of some flat ones two corners are one.
+      if (random() % 4 != 0) tet.corners[3][2] = number(random);
+      if (random() % 8 == 0) tet.corners[1] = tet.corners[0];
+      singly.add({&tet, 1});
+    }
+    at_once.add(tets);
+    const QualityReport expected = singly.report(), report = at_once.report();
+    EXPECT_EQ(report.radius_ratio_min, expected.radius_ratio_min);
+    EXPECT_EQ(report.worst_tet, expected.worst_tet);
+    EXPECT_EQ(report.radius_ratio_mean, expected.radius_ratio_mean);
+    EXPECT_EQ(report.radius_ratio_histogram, expected.radius_ratio_histogram);
+    EXPECT_EQ(report.dihedral_histogram, expected.dihedral_histogram);
+    EXPECT_EQ(report.sliver_fraction, expected.sliver_fraction);
+    EXPECT_EQ(report.dihedral_min_deg, expected.dihedral_min_deg);
+    EXPECT_EQ(report.dihedral_max_deg, expected.dihedral_max_deg);
+    EXPECT_EQ(report.edge_min, expected.edge_min);
+    EXPECT_EQ(report.edge_max, expected.edge_max);
+    EXPECT_EQ(report.edge_median, expected.edge_median);
+    EXPECT_EQ(report.height_min, expected.height_min);
+  }
+}
+
 TEST(LengthBins, GiveTheMedianOfAllParts) {
   std::mt19937 random(3);
   std::uniform_real_distribution<double> power(-90, 90);
