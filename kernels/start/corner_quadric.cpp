@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <bit>
 #include <cstring>
+#include <optional>
 #include <span>
 
 #include "kernels/core/index.h"
@@ -38,6 +39,30 @@ struct PairFaces {
   Index3 centre;
 };
 
+/// Returns how far the centre of a voxel is from the corner along an axis, by its place in the 4^3
+/// voxels around.
+constexpr std::int64_t centre_of(std::size_t place) {
+  return 2 * (static_cast<std::int64_t>(place) - kWide) + 1;
+}
+
+/// How many bits are set, and the sum of centre_of() over their places.
+struct BitSums {
+  std::int64_t count = 0;
+  std::int64_t centre = 0;
+};
+
+constexpr std::array<BitSums, 16> kBitSums = [] {
+  std::array<BitSums, 16> out{};
+  for (unsigned bits = 0; bits < out.size(); ++bits) {
+    for (unsigned place = 0; place < 4; ++place) {
+      if ((bits >> place & 1U) == 0) continue;
+      ++out[bits].count;
+      out[bits].centre += centre_of(place);
+    }
+  }
+  return out;
+}();
+
 /// The labels of the 4^3 voxels around a corner, x fastest; kExterior where a label does not meet
 /// the corner.
 class WideCube {
@@ -47,6 +72,7 @@ class WideCube {
     std::sort(meeting.begin(), meeting.end());
     const auto end = std::unique(meeting.begin(), meeting.end());
     const std::span<const Label> met(meeting.begin(), end);
+    if (met.size() == 2) two_ = LabelPair{met[0], met[1]};
     const Index3 first = corner - Index3{kWide, kWide, kWide};
     const Box3& box = labels.original.box;
     for (std::size_t row = 0; row < rows_.size(); ++row) {
@@ -59,17 +85,17 @@ class WideCube {
   /// Adds up the faces of each pair of labels.
   [[nodiscard]] std::vector<PairFaces> faces() const {
     std::vector<PairFaces> out;
-    for (unsigned axis = 0; axis < 3; ++axis) {
-      for (std::size_t row = 0; row < rows_.size(); ++row) {
-        const bool is_last = axis > 0 && (row >> 2 * (axis - 1) & 3U) == 3;
-        if (is_last) continue;
-        unsigned faces = faces_above(row, axis);
-        for (; faces != 0; faces &= faces - 1) {
-          const auto x = static_cast<std::size_t>(std::countr_zero(faces));
-          add(4 * row + x, axis, out);
-        }
-      }
+    if (two_) {
+      const PairFaces faces = faces_of_two(*two_);
+      if (faces.count > 0) out.push_back(faces);
+      return out;
     }
+    each_row([&](std::size_t row, unsigned axis, unsigned faces) {
+      for (; faces != 0; faces &= faces - 1) {
+        const auto x = static_cast<std::size_t>(std::countr_zero(faces));
+        add(4 * row + x, axis, out);
+      }
+    });
     return out;
   }
 
@@ -81,6 +107,35 @@ class WideCube {
     LaneInts meets{};
     for (const Label label : met) meets |= labels == static_cast<std::int32_t>(label);
     return labels | ~meets;
+  }
+
+  /// Calls visit(row, axis, faces) with one bit for each face above a voxel of the row, if there
+  /// are some.
+  template <class Visit>
+  void each_row(Visit visit) const {
+    for (unsigned axis = 0; axis < 3; ++axis) {
+      for (std::size_t row = 0; row < rows_.size(); ++row) {
+        const bool is_last = axis > 0 && (row >> 2 * (axis - 1) & 3U) == 3;
+        if (is_last) continue;
+        const unsigned faces = faces_above(row, axis);
+        if (faces != 0) visit(row, axis, faces);
+      }
+    }
+  }
+
+  /// Adds up the faces of a row at once, where all are between the same labels.
+  [[nodiscard]] PairFaces faces_of_two(LabelPair labels) const {
+    PairFaces out{.labels = labels};
+    each_row([&](std::size_t row, unsigned axis, unsigned faces) {
+      const unsigned up = faces & lane_bits(rows_[row] == static_cast<std::int32_t>(labels.low));
+      const std::int64_t count = kBitSums[faces].count;
+      out.count += count;
+      out.normal = out.normal + axis_vector(axis, 2 * kBitSums[up].count - count);
+      out.centre =
+          out.centre + axis_vector(axis, count) +
+          Index3{kBitSums[faces].centre, count * centre_of(row % 4), count * centre_of(row / 4)};
+    });
+    return out;
   }
 
   /// Returns one bit for each voxel of the row whose label and that of the next voxel along the
@@ -102,15 +157,14 @@ class WideCube {
     auto at =
         std::find_if(out.begin(), out.end(), [&](const PairFaces& p) { return p.labels == pair; });
     if (at == out.end()) at = out.insert(at, {.labels = pair});
-    const auto centre = [below](unsigned k) {
-      return 2 * (static_cast<std::int64_t>(below >> (2 * k) & 3U) - kWide) + 1;
-    };
+    const auto centre = [below](unsigned k) { return centre_of(below >> (2 * k) & 3U); };
     ++at->count;
     at->normal = at->normal + axis_vector(axis, under == pair.low ? 1 : -1);
     at->centre = at->centre + Index3{centre(0), centre(1), centre(2)} + axis_vector(axis);
   }
 
   std::array<LaneInts, 16> rows_;  ///< along x
+  std::optional<LabelPair> two_;   ///< the labels that meet the corner, if they are two
 };
 
 /// Adds one plane, weighted by the length of the sum of the faces' normals; none where they cancel.

@@ -5,7 +5,6 @@
 #pragma once
 
 #include <algorithm>
-#include <bit>
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
@@ -125,7 +124,7 @@ class RecordPages {
   }
 
  private:
-  static constexpr std::size_t kPageRecords = std::bit_floor(4096 / sizeof(Record));
+  static constexpr std::size_t kPageRecords = 4096 / sizeof(Record);
   static constexpr std::uint64_t kNone = ~std::uint64_t{0};
 
   void load(ScratchFile& file, std::uint64_t page, std::size_t slot) {
