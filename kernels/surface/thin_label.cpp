@@ -21,16 +21,26 @@ Index3 nearest_corner(Point place) {
   return {nearest(place.x), nearest(place.y), nearest(place.z)};
 }
 
-/// Which of at most 32 voxels of a row have the label, one bit for each.
-unsigned bits_of_row(const Label* row, unsigned count, Label label) {
-  unsigned out = 0, done = 0;
-  for (; done + kLanes <= count; done += kLanes) {
+/// Which of kCount voxels of a row have the label, one bit for each.
+template <std::size_t kCount>
+unsigned bits_of_row(const Label* row, Label label) {
+  unsigned out = 0;
+  for (std::size_t i = 0; i < kCount; i += kLanes) {
+    const std::size_t first = std::min(i, kCount - kLanes);
     LaneInts four;
-    std::memcpy(&four, row + done, sizeof four);
+    std::memcpy(&four, row + first, sizeof four);
     four &= static_cast<std::int32_t>(without_side(kExterior));
-    out |= lane_bits(four == static_cast<std::int32_t>(label)) << done;
+    out |= lane_bits(four == static_cast<std::int32_t>(label)) << first;
   }
-  for (; done < count; ++done) out |= (without_side(row[done]) == label ? 1U : 0U) << done;
+  return out;
+}
+
+/// Likewise for any number of voxels.
+unsigned bits_of_row(const Label* row, std::int64_t count, Label label) {
+  unsigned out = 0;
+  for (std::int64_t i = 0; i < count; ++i) {
+    out |= (without_side(row[i]) == label ? 1U : 0U) << i;
+  }
   return out;
 }
 
@@ -45,12 +55,13 @@ class LabelRows {
     constexpr Index3 around{kReach, kReach, kReach};
     const Box3 cube{corner - around, corner + around}, box = intersection(cube, labels.box);
     if (box.lo.x >= box.hi.x) return;
-    const auto count = static_cast<unsigned>(box.hi.x - box.lo.x);
+    const bool is_whole = box == cube;
     for (std::int64_t z = box.lo.z; z < box.hi.z; ++z) {
       for (std::int64_t y = box.lo.y; y < box.hi.y; ++y) {
-        const auto at = static_cast<std::size_t>(labels.box.offset({box.lo.x, y, z}));
+        const Label* const row = labels.labels.data() + labels.box.offset({box.lo.x, y, z});
         rows_[static_cast<std::size_t>(z - cube.lo.z)][static_cast<std::size_t>(y - cube.lo.y)] =
-            bits_of_row(labels.labels.data() + at, count, label) << (box.lo.x - cube.lo.x);
+            is_whole ? bits_of_row<kSize>(row, label)
+                     : bits_of_row(row, box.hi.x - box.lo.x, label) << (box.lo.x - cube.lo.x);
       }
     }
   }
