@@ -32,9 +32,9 @@ constexpr double kMinInnerRatio = 0.1;
 /// The curvature of threads one voxel thick (bench/parameters.md, "Constants").
 constexpr double kMaxCurvatureOfSource = 4.0;
 
-/// Where edges have sizes, the weights of lines of three labels and of the fit beside those
-/// (bench/parameters.md, "Constants").  Longer edges would cut the corners of lines.
-constexpr double kLineOfSizes = 10.0, kJunctionFitOfSizes = 5.0;
+/// Where edges have sizes, the weights of lines of three labels, of planes and of the fit beside
+/// those (bench/parameters.md, "Constants").  Longer edges would cut the corners of lines.
+constexpr double kLineOfSizes = 10.0, kLinePlanesOfSizes = 10.0, kJunctionFitOfSizes = 5.0;
 
 /// The weight of the fit to crossings, whose places are known and not estimated, and those of area
 /// and bends beside it (bench/parameters.md, "Constants").
@@ -52,6 +52,7 @@ std::optional<SurfaceWeights> surface_weights(const MeshSettings& settings,
   if (settings.sizes.rules.any()) weights.line = kLineOfSizes;
   if (!labels.has_crossings()) {
     weights.junction_fit = kJunctionFitOfSizes;
+    if (settings.sizes.rules.any()) weights.line_planes = kLinePlanesOfSizes;
     return weights;
   }
   weights.fit = kFitOfCrossings;

@@ -271,7 +271,11 @@ void Smoother::collect_surface(LocalVertex v) {
   surface_energy_.collect(mesh_, metric_, surface_, *guard_,
                           weights.with_pressure ? &curvature_ : nullptr, debts_);
   if (!(weights.line > 0.0)) return;
-  if (const auto place = lines_.place(mesh_, metric_, v)) surface_energy_.add_line(*place);
+  const std::optional<LinePlace> place = lines_.place(mesh_, metric_, v);
+  if (!place) return;
+  surface_energy_.add_line(*place);
+  if (!(weights.line_planes > 0.0)) return;
+  surface_energy_.add_line_planes(metric_, mesh_.position(v), guard_->labels(), place->edge);
 }
 
 /// Returns the plane that v belongs to: it has the faces that v carries, and the vertices of the

@@ -9,6 +9,7 @@
 #include <span>
 
 #include "kernels/distance/point_triangle.h"
+#include "kernels/surface/faces_plane.h"
 #include "kernels/surface/surface_star.h"
 
 namespace mw {
@@ -259,6 +260,22 @@ void SurfaceEnergy::add_line(const LinePlace& place) {
       Eigen::Matrix3d::Identity() - place.direction * place.direction.transpose();
   line_square_ = weights_.line * place.share / (place.edge * place.edge) * across;
   line_linear_ = line_square_ * place.place;
+  present_ = raw_value_at(Vec3::Zero());
+}
+
+void SurfaceEnergy::add_line_planes(const Metric& metric, Point at, const LabelBox& labels,
+                                    double edge) {
+  const double weight = weights_.line_planes / (edge * edge);
+  for (const Balance& b : balances_) {
+    Vec3 towards_high = Vec3::Zero();
+    for (const SurfaceTriangle& t : star_->triangles()) {
+      if (t.is_between(b.low, b.high)) towards_high += t.normal(Vec3::Zero());
+    }
+    const auto plane = plane_of_faces(labels, metric, at, {b.low, b.high}, unit(towards_high));
+    if (!plane) continue;
+    line_square_ += weight * plane->normal * plane->normal.transpose();
+    line_linear_ += weight * plane->height * plane->normal;
+  }
   present_ = raw_value_at(Vec3::Zero());
 }
 

@@ -63,7 +63,8 @@ struct SurfaceWeights {
   double junction_area = 0.01;  ///< beside the fit where more labels meet
   double bend = 8.0;
   double needle = 6.0;
-  double line = 0.0;  ///< of the distance from a smooth line, in edges of the line
+  double line = 0.0;         ///< of the distance from a smooth line, in edges of the line
+  double line_planes = 0.0;  ///< of a line's distance from the planes of its faces, likewise
   /// The curvature of a vertex makes pressure up to this, 1 / voxel, and beyond it only where the
   /// whole ring bends as much in the same direction, as on a thread.  Where edges are several
   /// voxels long, what is sharper than a ball of a few voxels is otherwise a step and not a shape.
@@ -111,12 +112,14 @@ struct SurfaceWeights {
 /// Lines.  Where three labels meet, faces say little of the line's place, which is where three
 /// interfaces cut each other, and voxels make it a zigzag.  So a vertex on a line is drawn to where
 /// its neighbours on the line would have it (LineField), across the line: L is the squared distance
-/// in units of the squared mean edge of the line there.
+/// in units of the squared mean edge of the line there.  The line is also drawn to the plane of the
+/// faces of each two labels that meet there (plane_of_faces()): P is the sum of the squared
+/// distances from these planes, in the same units.
 ///
 /// The whole energy, with E the present shape energy of v's tets and M the sum of w f^2 (or, where
 /// few faces are carried, a sixth of the triangles' area), is
 ///   E (fit/M (Q + area (Area - P.x)) + bend/6 (sum of bend energies) + needle/6 (sum of those of
-///   needles) + line L), less its value at 0.
+///   needles) + line L + line_planes P), less its value at 0.
 class SurfaceEnergy {
  public:
   explicit SurfaceEnergy(const SurfaceWeights& weights) : weights_(weights) {}
@@ -130,6 +133,8 @@ class SurfaceEnergy {
 
   /// Adds the term of lines to what was collected.
   void add_line(const LinePlace& place);
+  /// Adds that of the planes of faces at a vertex on a line, with the line's mean edge there.
+  void add_line_planes(const Metric& metric, Point at, const LabelBox& labels, double edge);
 
   /// The energy without the factor E; 0 for x = 0.
   [[nodiscard]] double value_at(const Vec3& x) const { return raw_value_at(x) - present_; }

@@ -115,7 +115,7 @@ TEST(SurfaceEnergy, HasItsDerivatives) {
     curvature.measure(mesh, metric);
     const VolumeDebts debts = random_debts(mesh, random);
     const SurfaceWeights no_bends{.bend = 0.0};
-    const SurfaceWeights with_lines{.line = 3.0};
+    const SurfaceWeights with_lines{.line = 3.0, .line_planes = 2.0};
     for (const SurfaceWeights& weights :
          {no_bends, kFitAlone, kBendsAlone, kNeedlesAlone, with_lines}) {
       SurfaceEnergy energy(weights);
@@ -126,6 +126,7 @@ TEST(SurfaceEnergy, HasItsDerivatives) {
       EXPECT_EQ(energy.value_at(Vec3::Zero()), 0.0);
       expect_derivatives(energy, x);
       energy.add_line({random_offset(random), random_offset(random).normalized(), 0.7});
+      energy.add_line_planes(metric, mesh.position(star.vertex()), guard.labels(), 0.7);
       EXPECT_EQ(energy.value_at(Vec3::Zero()), 0.0);
       expect_derivatives(energy, x);
     }
