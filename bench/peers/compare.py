@@ -49,15 +49,16 @@ def of_size(scale):
 
 
 def alike(volume, wanted):
-    """Returns CGAL's options for a mesh of `wanted` vertices, to a twentieth where six tries find it."""
-    scale = 1.0
+    """Returns CGAL's options for a mesh of `wanted` vertices: the nearest of six tries, or the first that is a twentieth off."""
+    scale, found = 1.0, []
     for _ in range(6):
         if run(*PROGRAMS["CGAL"], volume, "-o", "mesh.mesh", "--report", "run.json", "--improve", "none", *of_size(scale)) != 0:
             sys.exit(f"CGAL has no mesh of {volume}")
-        if abs(vertices() / wanted - 1) < 0.05:
+        found.append((abs(vertices() / wanted - 1), scale))
+        if found[-1][0] < 0.05:
             break
         scale *= (vertices() / wanted) ** 0.4
-    return ("--improve", "full", *of_size(scale))
+    return ("--improve", "full", *of_size(min(found)[1]))
 
 
 def row(volume, name, command):

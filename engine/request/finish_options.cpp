@@ -37,7 +37,6 @@ void add_connect_options(OptionSet& options, engine::ConnectOptions& connect) {
                 {.name = "open-hinges",
                  .help = "doubles the vertices at which parts hang, so that they come apart",
                  .group = kOutputGroup,
-
                  .listed = Listed::kInHelpAll}));
 }
 

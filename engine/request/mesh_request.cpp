@@ -214,7 +214,6 @@ void add_output_options(OptionSet& options, MeshRequest& request) {
                         {.name = "force",
                          .help = "replaces files that are not of this program; meshes images",
                          .group = kOutputGroup,
-
                          .listed = Listed::kInHelpAll}));
 }
 

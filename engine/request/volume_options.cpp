@@ -21,7 +21,9 @@ namespace {
 
 std::array<double, 3> parse_spacing(const std::string& text) {
   const std::array<double, 3> spacing = parse_numbers(text);
-  io::check_place(spacing, {});
+  if (!std::ranges::all_of(spacing, [](double edge) { return edge > 0; })) {
+    io::fail_usage("expected positive numbers");
+  }
   return spacing;
 }
 
@@ -168,7 +170,6 @@ void add_step_options(OptionSet& options, VolumeRequest& request) {
                 {.name = "interpolate-slices",
                  .help = "labels between thick slices, for smooth surfaces instead of steps",
                  .group = kLabelGroup,
-
                  .calls = kMeshing | kVerifying,
                  .listed = Listed::kInHelpAll}));
   options.add({.name = "weld",
@@ -245,7 +246,6 @@ void add_volume_options(OptionSet& options, VolumeRequest& request) {
                         {.name = "trust-paths",
                          .help = "files that headers name may be outside of their folder",
                          .group = kInputGroup,
-
                          .calls = kOpening,
                          .listed = Listed::kInHelpAll}));
 }

@@ -227,7 +227,8 @@ void go(RunContext& run) {
   RunForecast forecast(counts.faces, run.layout, run.settings, run.hooks.threads);
   const std::uint64_t windows = march(run, *labels, forecast);
   end_stage(run, "march");
-  // What is kept for later runs refers to the labels; else their memory and disk serve what follows.
+  // What is kept for later runs refers to the labels; else their memory and disk serve what
+  // follows.
   if (run.keep == nullptr) labels.reset();
   write(run, counts, forecast);
   end_stage(run, "output");

@@ -31,8 +31,7 @@ constexpr std::array kRules{
          "--changed: says nothing where --object finds the box anew, leave it out"},
     Rule{&Asked::keep, kNeeds, &Asked::colour,
          "--keep: needs --order colour: in raster order an edit changes what all later windows "
-         "see, so "
-         "nothing could be used again"},
+         "see, so nothing could be used again"},
     Rule{&Asked::keep, kNotWith, &Asked::count,
          "--count: looks at the whole volume, so that an edit anywhere could change sizes "
          "everywhere; with --keep give --size instead"},

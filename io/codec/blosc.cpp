@@ -52,7 +52,8 @@ std::vector<std::byte> pack_rows(std::span<const std::byte> rows, std::size_t ro
   const int size =
       blosc_compress_ctx(kLevel, BLOSC_SHUFFLE, row_bytes, rows.size(), rows.data(), out.data(),
                          out.size(), BLOSC_LZ4_COMPNAME, /*blocksize=*/0, kOneThread);
-  // There is room for bytes that do not shrink, so only memory can be missing.
+  // There is room for bytes that do not shrink, and Debian's Blosc has LZ4, so only memory can be
+  // missing.
   if (size <= 0) throw std::bad_alloc();
   out.resize(static_cast<std::size_t>(size));
   return out;

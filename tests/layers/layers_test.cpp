@@ -70,7 +70,7 @@ TEST(Layers, NoFileIncludesWhatItMayNot) {
   }
 }
 
-/// std::filesystem's iterator ends the process where memory is out; names_in of io/file does not.
+/// std::filesystem's iterator ends the process where memory is out; entries_in of io/file does not.
 TEST(Layers, NoFileListsAFolderByAnIterator) {
   for (const auto& [file, includes] : read_tree()) {
     const std::string content = content_of(std::filesystem::path(MW_SOURCE_DIR) / file);

@@ -68,8 +68,8 @@ struct BadBytes {
   const char* reason;
 };
 
-/// Reads what ByteWriter wrote.  REQUIRES: the low_bytes() of a count are at most 8.  ERRORS:
-/// BadBytes at the end and for a varint beyond 64 bits.
+/// Reads what ByteWriter wrote.  REQUIRES: no number asked of low_bytes() has more than 8 bytes.
+/// ERRORS: BadBytes at the end and for a varint beyond 64 bits.
 class ByteReader {
  public:
   explicit ByteReader(std::span<const std::byte> bytes)

@@ -24,7 +24,8 @@ struct PackedChunk {
 };
 
 /// Lists of records of one type, which are read as they were appended.
-/// Thread safety: one thread appends, or several read and give up.  ERRORS: see ScratchFile.
+/// Thread safety: one thread appends, or several read and give up.  ERRORS: see ScratchFile;
+/// mw::Error(kInput) where the disk gives back other bytes than were written.
 template <typename Record>
 class PackedScratch {
   static_assert(std::is_trivially_copyable_v<Record> && sizeof(Record) <= 255);

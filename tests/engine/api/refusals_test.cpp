@@ -215,7 +215,7 @@ TEST(LibraryErrors, NameTheOption) {
   }
 }
 
-/// Nor one that is called as a word with which a message begins.
+/// A path that is called as an option is none, either.
 TEST(LibraryErrors, NameNoOptionThatAPathBeginsWith) {
   for (const char* path : {"labels/missing.npy", "crop", "object: a.npy", "sample of names.npy"}) {
     try {

@@ -110,7 +110,8 @@ TEST_F(UsageTest, RefusesBadValues) {
   expect_failure(2, "mesh v.npy -o v.vtu --spacing nan,1,1",
                  "--spacing nan,1,1: expected a finite");
   expect_failure(2, "mesh v.npy -o v.vtu --spacing 1,1", "three numbers");
-  expect_failure(2, "mesh v.npy -o v.vtu --spacing 1,-1,1", "positive");
+  expect_failure(2, "mesh v.npy -o v.vtu --spacing 1,-1,1",
+                 "error: --spacing 1,-1,1: expected positive numbers");
   expect_failure(2, "mesh v.npy -o v.vtu --origin inf,0,0", "finite");
   expect_failure(2, "mesh v.npy -o v.vtu --edge-variance 0", "--edge-variance 0");
   expect_failure(2, "mesh v.npy -o v.vtu --quality-floor 0.9", "quality-floor");

@@ -357,6 +357,52 @@ TEST(StarBatch, SignsAreThoseOfWholeNumbers) {
   EXPECT_GT(seen[ExactSigns::kUnknown], 100);
 }
 
+/// Places far away in the plane of a triangle, or a unit beside it: products have all their digits.
+TEST(StarBatch, SignsAreExactUpToTheLargestTets) {
+  std::map<ExactSigns, int> seen;
+  each_trial(614, [&](const Trial& trial, std::mt19937& random) {
+    const auto entries = trial.mesh.star(trial.vertex);
+    const auto within = [&](std::int32_t most) {
+      return static_cast<std::int32_t>(below(random, static_cast<std::uint32_t>(2 * most + 1))) -
+             most;
+    };
+    const LinkTriangle& t = entries[below(random, static_cast<std::uint32_t>(entries.size()))];
+    if (t.label == kExterior) return;
+    const Point a = trial.mesh.position(t.a), b = trial.mesh.position(t.b),
+                c = trial.mesh.position(t.c), at = trial.mesh.position(trial.vertex);
+    const std::int32_t most = 1 << below(random, 8), k = within(most), l = within(most);
+    const Point place{a.x + k * (b.x - a.x) + l * (c.x - a.x) + within(1),
+                      a.y + k * (b.y - a.y) + l * (c.y - a.y) + within(1),
+                      a.z + k * (b.z - a.z) + l * (c.z - a.z) + within(1)};
+    bool is_positive = true, is_small = true;
+    for (const LinkTriangle& e : entries) {
+      if (e.label == kExterior) continue;
+      for (const LocalVertex v : {e.a, e.b, e.c}) {
+        const Point p = trial.mesh.position(v);
+        for (const std::int64_t x : {p.x - place.x, p.y - place.y, p.z - place.z}) {
+          is_small = is_small && -(1 << 16) <= x && x < 1 << 16;
+        }
+      }
+      is_positive = is_positive && volume6(place, trial.mesh.position(e.a),
+                                           trial.mesh.position(e.b), trial.mesh.position(e.c)) > 0;
+    }
+    StarBatch star;
+    star.collect(trial.mesh, trial.metric, trial.vertex);
+    const ExactSigns signs =
+        star.signs_at({place.x - at.x, place.y - at.y, place.z - at.z}, trial.mesh.infinity());
+    ++seen[signs];
+    if (is_small) {
+      EXPECT_EQ(signs, is_positive ? ExactSigns::kPositive : ExactSigns::kNotPositive);
+    } else {
+      EXPECT_TRUE(signs == ExactSigns::kUnknown ||
+                  (signs == ExactSigns::kNotPositive && !is_positive));
+    }
+  });
+  EXPECT_GT(seen[ExactSigns::kPositive], 10);
+  EXPECT_GT(seen[ExactSigns::kNotPositive], 200);
+  EXPECT_GT(seen[ExactSigns::kUnknown], 100);
+}
+
 /// The sum of s^3 / v^2, and none when a tet is nearly flat or inverted.
 std::optional<double> term_sum(const Trial& trial, const Vec3& step) {
   Trial at = trial;
