@@ -17,7 +17,7 @@ struct FacesPlane {
 };
 
 /// Returns the plane that is nearest to the faces between two labels around a place, by least
-/// squares.  A face at distance d counts exp(-d^2 / 18) times its area along `towards_high`, d in
+/// squares.  A face at distance d counts nearly exp(-d^2 / 18) times its area along `towards_high`, d in
 /// smallest edges of a voxel and 6 at most.  Faces of which this area is less than a tenth do not
 /// count: so the other side of a thin sheet does not.
 ///

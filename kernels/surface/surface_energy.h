@@ -113,13 +113,13 @@ struct SurfaceWeights {
 /// interfaces cut each other, and voxels make it a zigzag.  So a vertex on a line is drawn to where
 /// its neighbours on the line would have it (LineField), across the line: L is the squared distance
 /// in units of the squared mean edge of the line there.  The line is also drawn to the plane of the
-/// faces of each two labels that meet there (plane_of_faces()): P is the sum of the squared
+/// faces of each two labels that meet there (plane_of_faces()): F is the sum of the squared
 /// distances from these planes, in the same units.
 ///
 /// The whole energy, with E the present shape energy of v's tets and M the sum of w f^2 (or, where
 /// few faces are carried, a sixth of the triangles' area), is
 ///   E (fit/M (Q + area (Area - P.x)) + bend/6 (sum of bend energies) + needle/6 (sum of those of
-///   needles) + line L + line_planes P), less its value at 0.
+///   needles) + line L + line_planes F), less its value at 0.
 class SurfaceEnergy {
  public:
   explicit SurfaceEnergy(const SurfaceWeights& weights) : weights_(weights) {}
