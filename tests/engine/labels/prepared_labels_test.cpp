@@ -85,8 +85,9 @@ TEST(PreparedLabels, CellsAroundACellAreThoseOfItsCopies) {
   for (std::size_t i = 0; i < 16 && !HasFailure(); ++i) {
     const SmallVolume cell = ranked(mw::test::random_volume_of(
         random, mw::test::VolumeKind::kBlobs, kShapes[i % kShapes.size()], 1 + below(random, 3)));
-    const MeshSettings settings{.start = i % 2 == 0 ? StartMesh::kCoarse : StartMesh::kOctree,
-                                .periodic = 1 + below(random, 7)};
+    MeshSettings settings;
+    settings.start = i % 2 == 0 ? StartMesh::kCoarse : StartMesh::kOctree;
+    settings.periodic = 1 + below(random, 7);
     const Index3 margin = periodic_margin(settings);
     const test::MemoryVolume memory(cell, {});
     const io::PeriodicVolume around(memory, margin);
