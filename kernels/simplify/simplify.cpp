@@ -144,7 +144,7 @@ class WaitingVertices {
   explicit WaitingVertices(std::size_t vertices) : waits_(vertices, 0) {}
 
   [[nodiscard]] bool has(LocalVertex v) const { return v < waits_.size() && waits_[v] != 0; }
-  /// REQUIRES: v is one of as many vertices as there were to be.
+  /// REQUIRES: v is less than the number of vertices.
   void add(LocalVertex v) {
     if (waits_[v] == 0) list_.push_back(v);
     waits_[v] = 1;
@@ -228,8 +228,9 @@ class Simplifier {
 
   /// Contracts all line edges (LineEdges) that are touches, or that are short, wherever that leaves
   /// good tets, at any cost.  Touches come before all else, because edges around them are short at
-  /// first, and limits would refuse longer ones later; those that fail wait until others have made
-  /// room.  Short edges come last, as they are what shapes have refused so far.
+  /// first, and limits would refuse longer ones later; those that fail are tried again at each
+  /// round, if one of their ends has changed.  Short edges come last, as they are what shapes have
+  /// refused so far.
   void contract_on_lines(Aim aim) {
     for (LocalVertex v = 0; v < mesh_.vertex_count(); ++v) contract_line_edges(v, aim);
   }

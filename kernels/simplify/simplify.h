@@ -61,8 +61,9 @@ struct SimplifyStats {
 /// inner vertices, down to quality_floor.  In both, lines of three labels come before costs, up to
 /// the limits that moves have: touches (kernels/surface/line_edges.h) are contracted first, also at
 /// positions_around(), so that lines do not fork, and edges of lines that are still short at the
-/// end.  guard keeps the distance bound; null means no bound.
-/// ENSURES: all tets strictly positive (exactly), options.topology kept, box kept, fixed vertices
+/// end; vertices that these contractions changed are not asked for cheaper edges once more.  guard
+/// keeps the distance bound; null means no bound. ENSURES: all tets strictly positive (exactly),
+/// options.topology kept, box kept, fixed vertices
 ///          untouched; the result depends on the mesh's content only.
 SimplifyStats simplify(TetMesh& mesh, const Metric& metric, const SimplifyOptions& options,
                        DistanceGuard* guard = nullptr);

@@ -17,9 +17,9 @@ struct FacesPlane {
 };
 
 /// Returns the plane that is nearest to the faces between two labels around a place, by least
-/// squares.  A face at distance d counts nearly exp(-d^2 / 18) times its area along `towards_high`, d in
-/// smallest edges of a voxel and 6 at most.  Faces of which this area is less than a tenth do not
-/// count: so the other side of a thin sheet does not.
+/// squares.  A face at distance d counts nearly exp(-d^2 / 18) times its area along `towards_high`,
+/// d in smallest edges of a voxel and 6 at most.  Faces of which this area is less than a tenth do
+/// not count: so the other side of a thin sheet does not.
 ///
 /// Beside a line of three labels all faces of a pair lie on one side, and the plane goes on beyond
 /// them, while a mean of their places would be drawn away from the line.
