@@ -139,7 +139,8 @@ MW_WIDE StarVerdict judge(const Group& g, const Vec3& unit, const Vec3& x, std::
   return low ? StarVerdict::kLowQuality : StarVerdict::kGood;
 }
 
-/// Whether the determinants of corners within so many units of a point fit into a double.
+/// Determinants of corners that are nearer than this to a point, in units along each axis, fit into
+/// a double.
 constexpr std::int32_t kExactExtent = 1 << 16;
 
 MW_LANES LaneInts3 corner_units(const Group& g, std::size_t i, Point x) {
