@@ -30,7 +30,8 @@ TEST_F(LibraryTest, MakesTheMeshOfTheProgram) {
   const Options options{{"max_distance", "1.2"}, {"threads", "2"}};
   const Mesh made = mesh(Volume::of(array), options);
   const json told = json::parse(read("r.json"));
-  EXPECT_EQ(made.digest(), told["digest"]);
+  const auto digest = told["digest"].get<std::string>();
+  EXPECT_EQ(made.digest(), digest);
   const json report = json::parse(made.report());
   for (const char* same : {"digest", "quality", "shape", "lattice", "topology", "distance"}) {
     EXPECT_EQ(report[same], told[same]) << same;
@@ -41,11 +42,11 @@ TEST_F(LibraryTest, MakesTheMeshOfTheProgram) {
   made.save(folder() / "w.mesh");
   made.save(folder() / "w.vtkhdf");
   expect_done("verify v.npy --spacing 1,2,1.5 --origin 5,6,7 w.vtkhdf");
-  EXPECT_EQ(read_mesh(folder() / "w.mesh").digest(), told["digest"]);
-  EXPECT_EQ(read_mesh(folder() / "v.vtu").digest(), told["digest"]);
+  EXPECT_EQ(read_mesh(folder() / "w.mesh").digest(), digest);
+  EXPECT_EQ(read_mesh(folder() / "v.vtu").digest(), digest);
   const std::string file_report = mesh_to_file(folder() / "f.msh", Volume::of(array), options);
   EXPECT_EQ(json::parse(file_report)["digest"], told["digest"]);
-  EXPECT_EQ(read_mesh(folder() / "f.msh").digest(), told["digest"]);
+  EXPECT_EQ(read_mesh(folder() / "f.msh").digest(), digest);
 }
 
 /// Labels in an array of another type, order of axes and direction, with gaps.
