@@ -44,7 +44,8 @@ class Heap {
   std::size_t drain() {
     std::size_t taken = 0;
     for (; !heap_.empty(); heap_.pop()) {
-      benchmark::DoNotOptimize(heap_.top().v);
+      LocalVertex v = heap_.top().v;
+      benchmark::DoNotOptimize(v);
       ++taken;
     }
     return taken;
@@ -76,7 +77,7 @@ class Buckets {
   std::size_t drain() {
     std::size_t taken = 0;
     for (std::vector<LocalVertex> round; queue_.take_round(round);) {
-      for (const LocalVertex& v : round) benchmark::DoNotOptimize(v);
+      for (LocalVertex& v : round) benchmark::DoNotOptimize(v);
       taken += round.size();
     }
     return taken;

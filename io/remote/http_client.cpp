@@ -49,9 +49,9 @@ constexpr long kNotFound = 404;
 constexpr long kRangeBeyondEnd = 416;
 /// The most bytes that are read of an error's body before the connection is closed.
 constexpr std::uint64_t kMaxErrorBody = 64U << 10U;
-/// The most bytes of an attempt's headers and trailers.  The library keeps them all, and has a
-/// bound of its own for headers alone.
-constexpr std::uint64_t kMaxHeaders = 256U << 10U;
+/// The most bytes and lines of an attempt's headers and trailers.  The library keeps them all, and
+/// has bounds of its own, which differ between versions; those of lines begin at 5,000.
+constexpr std::uint64_t kMaxHeaders = 256U << 10U, kMaxHeaderLines = 4000;
 /// The most bytes that are read up to the end of a part where the server sends whole files only.
 constexpr std::uint64_t kMaxUnasked = 64ULL << 20U;
 constexpr const char* kTryLater = "try again later; a run that was saved goes on with --resume";
@@ -210,8 +210,9 @@ struct HttpClient::Exchange {
 
   HttpHeaders headers{};
   std::uint64_t header_bytes = 0;  ///< trailers count, too
-  std::uint64_t received = 0;      ///< of the body
-  std::uint64_t taken = 0;         ///< of a part
+  std::uint64_t header_lines = 0;
+  std::uint64_t received = 0;  ///< of the body
+  std::uint64_t taken = 0;     ///< of a part
   bool is_too_large = false;
   bool is_enough = false;                     ///< the rest of the body is not wanted
   bool is_ended = false;                      ///< the body came to its end
@@ -251,7 +252,7 @@ struct HttpClient::Exchange {
 
 void HttpClient::Exchange::begin() {
   headers = {};
-  header_bytes = received = taken = 0;
+  header_bytes = header_lines = received = taken = 0;
   is_too_large = is_enough = is_ended = is_lie_of_all = false;
   lie = nullptr;
   words[0] = '\0';
@@ -432,8 +433,8 @@ std::size_t HttpClient::Exchange::on_header(char* bytes, std::size_t /*one*/, st
                                             void* target) noexcept {
   auto& exchange = *static_cast<Exchange*>(target);
   exchange.header_bytes += count;
-  if (exchange.header_bytes > kMaxHeaders) {
-    exchange.lie = "the answer has more than 256 KiB of headers and trailers";
+  if (exchange.header_bytes > kMaxHeaders || ++exchange.header_lines > kMaxHeaderLines) {
+    exchange.lie = "the answer has more than 256 KiB or 4,000 lines of headers and trailers";
     exchange.is_lie_of_all = true;
     return 0;
   }

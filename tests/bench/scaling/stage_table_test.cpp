@@ -27,11 +27,11 @@ TEST(StageTable, CoresShareWhatIsNotAlone) {
 }
 
 TEST(StageTable, RefusesWhatIsNotTheReportOfOneThread) {
-  EXPECT_THROW(read_stages("{", "r.json"), Error);
-  EXPECT_THROW(read_stages("{}", "r.json"), Error);
-  EXPECT_THROW(read_stages(R"({"performance": {"cpu_s": 1, "costs": [
+  EXPECT_THROW((void)read_stages("{", "r.json"), Error);
+  EXPECT_THROW((void)read_stages("{}", "r.json"), Error);
+  EXPECT_THROW((void)read_stages(R"({"performance": {"cpu_s": 1, "costs": [
       {"name": "file", "cpu_s": 3, "alone_s": null}]}})",
-                           "r.json"),
+                                 "r.json"),
                Error);
 }
 
