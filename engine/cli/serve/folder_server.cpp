@@ -3,6 +3,7 @@
 // Serves a folder on this machine; this alone knows the library that speaks HTTP.
 #include "engine/cli/serve/folder_server.h"
 
+#include <fcntl.h>
 #include <microhttpd.h>
 #include <netinet/in.h>
 #include <sys/socket.h>
@@ -16,6 +17,7 @@
 
 #include "engine/cli/serve/served_folder.h"
 #include "io/file/errors.h"
+#include "io/file/file_descriptor.h"
 #include "io/remote/address.h"
 
 namespace mw::cli {
@@ -169,22 +171,36 @@ std::size_t unescape(void* /*unused*/, MHD_Connection* /*unused*/, char* path) n
   io::fail_usage("--port: ", why, "; without --port it takes one that is free");
 }
 
+/// Returns a socket that listens on a port of the loopback; 0 takes one that is free.
+io::FileDescriptor listen_on(std::uint16_t port) {
+  sockaddr_in loopback{};
+  loopback.sin_family = AF_INET;
+  loopback.sin_port = htons(port);
+  loopback.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
+  io::FileDescriptor out(::socket(AF_INET, SOCK_STREAM | SOCK_CLOEXEC | SOCK_NONBLOCK, 0));
+  const int yes = 1;  // a port whose last connections have just ended is free
+  const auto* const address = reinterpret_cast<const sockaddr*>(&loopback);
+  if (!out.valid() || ::setsockopt(out.get(), SOL_SOCKET, SO_REUSEADDR, &yes, sizeof yes) != 0 ||
+      ::bind(out.get(), address, sizeof loopback) != 0 || ::listen(out.get(), SOMAXCONN) != 0) {
+    fail_to_listen(port, errno);
+  }
+  return out;
+}
+
 }  // namespace
 
 FolderServer::FolderServer(const std::filesystem::path& folder, std::uint16_t port,
                            std::string origin)
     : service_(new FolderService{ServedFolder(folder), std::move(origin)}),
       daemon_(nullptr, MHD_stop_daemon) {
-  sockaddr_in loopback{};
-  loopback.sin_family = AF_INET;
-  loopback.sin_port = htons(port);
-  loopback.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
-  errno = 0;
+  const io::FileDescriptor socket = listen_on(port);
+  const int own = ::fcntl(socket.get(), F_DUPFD_CLOEXEC, 0);  // the library closes its socket
+  if (own < 0) fail_to_listen(port, errno);
   // Without flags the library waits by select() in serve().  When it waits by epoll(), it may
   // overlook that a client has nothing more to send, and keep the connection until its patience
   // ends.
   daemon_.reset(MHD_start_daemon(
-      MHD_NO_FLAG, port, nullptr, nullptr, answer, service_.get(), MHD_OPTION_SOCK_ADDR, &loopback,
+      MHD_NO_FLAG, port, nullptr, nullptr, answer, service_.get(), MHD_OPTION_LISTEN_SOCKET, own,
       MHD_OPTION_CONNECTION_LIMIT, kMostConnections + kClosing, MHD_OPTION_CONNECTION_TIMEOUT,
       kPatience, MHD_OPTION_CONNECTION_MEMORY_LIMIT, kHeaderBytes, MHD_OPTION_UNESCAPE_CALLBACK,
       unescape, nullptr, MHD_OPTION_NOTIFY_CONNECTION, note, service_.get(), MHD_OPTION_END));
