@@ -263,12 +263,12 @@ class Serve(unittest.TestCase):
             for begin, piece in ((b"GET /1 HTTP/1.1\r\nRange: bytes=", b"9"), (b"GET /", b"a"),
                                  (b"GET /1 HTTP/1.1\r\n", b"a: b\r\n"), (b"", b"a")):
                 answer = b""
-                with socket.create_connection(("127.0.0.1", server.port), timeout=20) as connection:
+                with socket.create_connection(("127.0.0.1", server.port), timeout=5) as connection:
                     try:
                         connection.sendall(begin + (8 << 20) // len(piece) * piece)
                         answer = connection.recv(1 << 16)
-                    except ConnectionError:
-                        pass
+                    except (ConnectionError, TimeoutError):
+                        pass  # libmicrohttpd 1.0 reads no more until its patience ends
                 self.assertRegex(answer, rb"^(HTTP/1.1 4\d\d |$)")
             if RESIDENT_MEMORY_IS_OURS:
                 self.assertLess(server.fact("VmHWM") - before, 1 << 10)
