@@ -58,6 +58,17 @@ double variance_from_moments(const Corners& p) {
   return 6.0 * squares / (sum * sum) - 1.0;
 }
 
+/// Corners on a coarse lattice, so that many tets are flat or inverted.
+std::array<Point, 4> coarse_tet(std::mt19937& random) {
+  std::array<Point, 4> out;
+  for (Point& p : out) {
+    const auto place = [&] { return static_cast<std::int32_t>(random() % 9) * 511; };
+    const std::int32_t x = place(), y = place();
+    p = {x, y, place()};
+  }
+  return out;
+}
+
 /// Inverted and flat ones are among them.
 TEST(RadiusRatio, OfSeveralTetsIsThatOfEach) {
   std::mt19937 random(705);
@@ -67,12 +78,7 @@ TEST(RadiusRatio, OfSeveralTetsIsThatOfEach) {
     TetLanes tets;
     std::array<double, kLanes> expected;
     for (std::size_t k = 0; k < kLanes; ++k) {
-      std::array<Point, 4> p;
-      for (Point& q : p) {
-        const auto place = [&] { return static_cast<std::int32_t>(random() % 9) * 511; };
-        const std::int32_t x = place(), y = place();
-        q = {x, y, place()};
-      }
+      const std::array<Point, 4> p = coarse_tet(random);
       tets.set(k, p[0], p[1], p[2], p[3]);
       expected[k] = radius_ratio(tet_edges(metric, p[0], p[1], p[2], p[3]));
       (expected[k] > 0.0 ? positive : other) += 1;
@@ -91,12 +97,7 @@ TEST(RadiusRatio, TetsBelowAFloorAreThoseThatDoNotReachIt) {
     TetLanes tets;
     std::array<TetEdges, kLanes> edges_of;
     for (std::size_t k = 0; k < kLanes; ++k) {
-      std::array<Point, 4> p;
-      for (Point& q : p) {
-        const auto place = [&] { return static_cast<std::int32_t>(random() % 9) * 511; };
-        const std::int32_t x = place(), y = place();
-        q = {x, y, place()};
-      }
+      const std::array<Point, 4> p = coarse_tet(random);
       tets.set(k, p[0], p[1], p[2], p[3]);
       edges_of[k] = tet_edges(metric, p[0], p[1], p[2], p[3]);
     }
