@@ -20,6 +20,7 @@
 #include "engine/window/window_visitor.h"
 #include "io/mesh/mesh_sink.h"
 #include "io/volume/cropped_volume.h"
+#include "kernels/core/elementary.h"
 #include "kernels/core/index.h"
 #include "kernels/start/cells/cell.h"
 
@@ -82,8 +83,8 @@ std::array<double, 2> logarithms_of_scales(const io::DenseVolume& labels,
   const SizeRules rules = base_rules(settings.sizes.rules);
   const double least = std::isfinite(rules.least()) ? rules.least() : voxel;
   constexpr double kRoundedUp = 1.0 + 1e-9;
-  return {std::log(kRoundedUp * diagonal / SizeRules::kContracted / least),
-          std::log(kLargestSize * voxel / least)};
+  return {logarithm(kRoundedUp * diagonal / SizeRules::kContracted / least),
+          logarithm(kLargestSize * voxel / least)};
 }
 
 /// Passes on what is below, so that a view can own it.
@@ -147,7 +148,7 @@ class Pilot {
         static_cast<double>(lattice.info().shape.product()) * spacing[0] * spacing[1] * spacing[2];
     const double cubes = cubes_of_size(task, rules);
     // Where no label has a size the whole counts as if regular tets of the least size filled it.
-    look_at_labels(lattice, cubes > 0 ? cubes : volume / std::pow(least, 3),
+    look_at_labels(lattice, cubes > 0 ? cubes : volume / (least * least * least),
                    cubes > 0 ? SizeRules::kTetsACube : 1 / kTetVolume);
     all_have_sizes_ = have_all_sizes(task, rules);
   }
@@ -156,7 +157,7 @@ class Pilot {
     double at = std::clamp(first_, range_[0], range_[1]);
     bool is_told = false;  // by trials elsewhere
     for (int i = 0; i < kMaxTrials && !is_told; ++i) {
-      trials_.push_back({at, tets_at(std::exp(at))});
+      trials_.push_back({at, tets_at(exponential(at))});
       const double error = std::abs(error_of(trials_.back()));
       if (error <= kNearEnough || is_at_end(trials_.back())) break;
       at = std::clamp(next(), range_[0], range_[1]);
@@ -169,7 +170,7 @@ class Pilot {
                                       return std::abs(error_of(a)) < std::abs(error_of(b));
                                     });
     return {.asked = static_cast<std::uint64_t>(task_.job.settings.sizes.count),
-            .scale = std::exp(best.at),
+            .scale = exponential(best.at),
             .expected = static_cast<std::uint64_t>(best.tets + 0.5),
             .is_least = is_at_end(trials_.back()) && best.tets > asked(),
             .is_most = is_at_end(trials_.back()) && best.tets < asked(),
@@ -198,7 +199,7 @@ class Pilot {
   [[nodiscard]] double asked() const { return static_cast<double>(task_.job.settings.sizes.count); }
   /// Returns the error of the count, as a logarithm.
   [[nodiscard]] double error_of(const Trial& t) const {
-    return std::log(std::max(t.tets, 1.0) / asked());
+    return logarithm(std::max(t.tets, 1.0) / asked());
   }
   [[nodiscard]] bool is_at_end(const Trial& t) const {
     return (t.at == range_[0] && error_of(t) < 0) || (t.at == range_[1] && error_of(t) > 0);
@@ -249,19 +250,19 @@ class Pilot {
     const PilotSample sample(lattice, labels, kept, task_.max_one_part);
     const auto voxels = static_cast<double>(std::max<std::int64_t>(1, sample.content().voxels));
     const double a_voxel = tets * cubes / voxels;  // tets in one at a factor of 1
-    const double a_face = kTetsAFace * std::pow(cubes / voxels, 2.0 / 3);
+    const double a_face = kTetsAFace * power(cubes / voxels, 2.0 / 3);
     first_ = first_guess(a_voxel * voxels, a_face * static_cast<double>(sample.content().faces));
     // One part does not stand for a small volume whose sizes differ from place to place.
     const bool is_small = lattice.info().shape.product() <= task_.max_one_part;
     if (task_.image != nullptr && is_small) return;
-    parts_ = sample.parts(a_voxel / (a_face * std::exp(first_)));
+    parts_ = sample.parts(a_voxel / (a_face * exponential(first_)));
   }
 
   /// Returns where inner / x^3 + faces / x^2 are the tets that are asked for, x being the factor.
   [[nodiscard]] double first_guess(double inner, double faces) const {
     double low = range_[0], high = range_[1];
     for (int i = 0; i < 60; ++i) {
-      const double middle = (low + high) / 2, factor = std::exp(middle);
+      const double middle = (low + high) / 2, factor = exponential(middle);
       const double tets = (inner / factor + faces) / (factor * factor);
       (tets > asked() ? low : high) = middle;
     }
@@ -301,16 +302,16 @@ class Pilot {
 double next_scale(const report::CountFacts& count, std::uint64_t tets,
                   const io::DenseVolume& labels, const MeshSettings& settings) {
   const auto tets_here = static_cast<double>(std::max<std::uint64_t>(1, tets));
-  const double off = std::log(tets_here / static_cast<double>(count.asked));
+  const double off = logarithm(tets_here / static_cast<double>(count.asked));
   // The exponent of sizes in a count is -1.7 where bounds keep many tets, -2.7 where few.
   double slope = -2.1;
   if (count.earlier_tets > 0 && count.earlier_scale != count.scale) {
-    slope = std::log(tets_here / static_cast<double>(count.earlier_tets)) /
-            std::log(count.scale / count.earlier_scale);
+    slope = logarithm(tets_here / static_cast<double>(count.earlier_tets)) /
+            logarithm(count.scale / count.earlier_scale);
     slope = std::clamp(slope, kSteepestAtJump, kFlattestOfWhole);
   }
   const auto [least, most] = logarithms_of_scales(labels, settings);
-  return std::exp(std::clamp(std::log(count.scale) - off / slope, least, most));
+  return exponential(std::clamp(logarithm(count.scale) - off / slope, least, most));
 }
 
 }  // namespace

@@ -9,6 +9,7 @@
 
 #include "io/file/errors.h"
 #include "kernels/core/assert.h"
+#include "kernels/core/elementary.h"
 #include "kernels/core/face_sample.h"
 #include "kernels/core/lattice.h"
 #include "kernels/start/cells/cell_template.h"
@@ -119,11 +120,11 @@ double least_size(const io::VolumeInfo& volume) {
 
 double voxel_edge(const io::VolumeInfo& volume) {
   const auto [x, y, z] = layered_spacing(volume.space.spacing, layers_of(volume.space.spacing));
-  return std::cbrt(x * y * z);
+  return cube_root(x * y * z);
 }
 
 double told_size(double size) {
-  const double scale = std::pow(10.0, 2.0 - std::floor(std::log10(size)));
+  const double scale = 100 / power_of_ten_below(size);
   return std::ceil(scale * size) / scale;
 }
 

@@ -9,6 +9,7 @@
 #include "engine/picture/draw.h"
 #include "engine/report/figures.h"
 #include "io/labels/label_table.h"
+#include "kernels/core/elementary.h"
 
 namespace mw::picture {
 namespace {
@@ -33,7 +34,7 @@ double volume_of(io::GroupedMesh& mesh, const io::RowRange& tets) {
 
 /// Returns a length of 1, 2 or 5 times a power of ten, not above another one.
 double round_length(double most) {
-  double out = std::pow(10.0, std::floor(std::log10(most)));
+  double out = power_of_ten_below(most);
   for (const double step : {5.0, 2.0}) {
     if (step * out <= most) return step * out;
   }

@@ -15,6 +15,7 @@
 #include "io/file/errors.h"
 #include "io/labels/interpolated_volume.h"
 #include "kernels/audit/shape/volumes.h"
+#include "kernels/core/elementary.h"
 
 namespace mw::report {
 namespace {
@@ -109,10 +110,10 @@ constexpr std::array<Look, 8> kLooks{lone_label_text, background_text, spacing_t
 /// length.
 double round_length_below(double length) {
   constexpr std::array kSteps{1.0, 1.5, 2.0, 2.5, 3.0, 4.0, 5.0, 6.0, 8.0};
-  const double power = std::pow(10.0, std::floor(std::log10(length)));
-  double out = power;
+  const double unit = power_of_ten_below(length);
+  double out = unit;
   for (const double step : kSteps) {
-    if (step * power <= length) out = step * power;
+    if (step * unit <= length) out = step * unit;
   }
   return out;
 }
@@ -152,7 +153,7 @@ Json suggestion(const FinishedRun& run) {
   if (size < kLeastVoxels * engine::voxel_edge(run.volume)) return nullptr;
   const double tets = engine::SizeRules::kTetsACube * volume_of(run) / (size * size * size);
   if (tets < kMore * static_cast<double>(run.engine.tets) || tets > 1e8) return nullptr;
-  const double digit = std::pow(10.0, std::floor(std::log10(tets)));
+  const double digit = power_of_ten_below(tets);
   return {{"size", size}, {"tets", static_cast<std::uint64_t>(std::round(tets / digit) * digit)}};
 }
 

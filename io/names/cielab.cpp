@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Colours from CIELab to XYZ (CIE 15), and from there to sRGB (IEC 61966-2-1).
 #include "io/names/label_names.h"
+#include "kernels/core/elementary.h"
 
 #include <algorithm>
 #include <cmath>
@@ -24,8 +25,7 @@ double share_of_root(double root) {
 
 std::uint8_t byte_of_linear(double linear) {
   const double light = std::clamp(linear, 0.0, 1.0);
-  const double shown =
-      light <= 0.0031308 ? 12.92 * light : 1.055 * std::pow(light, 1 / 2.4) - 0.055;
+  const double shown = light <= 0.0031308 ? 12.92 * light : 1.055 * power(light, 1 / 2.4) - 0.055;
   return static_cast<std::uint8_t>(std::lround(255 * shown));
 }
 

@@ -8,6 +8,7 @@
 #include <limits>
 #include <set>
 
+#include "kernels/core/elementary.h"
 #include "kernels/core/vector3.h"
 
 namespace mw::io {
@@ -101,7 +102,7 @@ Position normal_sum(const Position& at, const Fan& fan) {
     const Position to_a = minus(a, at), to_b = minus(b, at);
     const Position normal = cross(to_a, to_b);
     const double sine = norm(normal);
-    if (sine > 0) sum = along(sum, normal, std::atan2(sine, dot(to_a, to_b)) / sine);
+    if (sine > 0) sum = along(sum, normal, angle_of(sine, dot(to_a, to_b)) / sine);
   }
   return sum;
 }

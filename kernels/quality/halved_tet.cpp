@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "kernels/core/elementary.h"
 #include "kernels/core/tet_nodes.h"
 #include "kernels/quality/quality.h"
 
@@ -59,7 +60,7 @@ double halved_floor(double floor) {
   const double kept = kShare * counted * counted;
   constexpr double kRounded = 1e-300;  // less has no three digits that could be kept
   if (kept < kRounded) return 0.0;
-  const double scale = std::pow(10.0, 2.0 - std::floor(std::log10(kept)));
+  const double scale = 100 / power_of_ten_below(kept);
   return std::floor(kept * scale) / scale;
 }
 

@@ -4,7 +4,6 @@
 #include "io/mesh/grouped/label_numbers.h"
 
 #include <algorithm>
-#include <cmath>
 #include <set>
 
 #include "io/file/errors.h"
@@ -13,6 +12,7 @@
 #include "io/mesh/grouped/grouped_mesh.h"
 #include "io/names/colour_table.h"
 #include "io/names/csv_names.h"
+#include "kernels/core/elementary.h"
 
 namespace mw::io {
 namespace {
@@ -96,7 +96,8 @@ void check_rounding(std::string_view file, const Rounding& rounding) {
 void check_digits(std::string_view file, const GroupedMesh& mesh, int digits) {
   const double largest = mesh.largest_coordinate();
   if (largest == 0) return;
-  const double last_digit = std::pow(10.0, std::floor(std::log10(largest)) - (digits - 1));
+  double last_digit = power_of_ten_below(largest);
+  for (int i = 1; i < digits; ++i) last_digit /= 10;
   check_rounding(file, {.largest = largest,
                         .shortest_edge = mesh.shortest_edge(),
                         .loss = 0.5 * last_digit,
