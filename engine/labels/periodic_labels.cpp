@@ -46,13 +46,12 @@ int periodic_level(Index3 shape, const MeshSettings& settings, int level) {
   return level;
 }
 
-PlaneRoles periodic_planes(const MeshSettings& settings, Index3 first_block) {
-  unsigned kept = 0, inner = 0;
+BoxPlanes inner_planes(const MeshSettings& settings) {
+  unsigned planes = 0;
   for (unsigned axis = 0; axis < 3; ++axis) {
-    if (!is_periodic(settings, axis)) continue;
-    (along(first_block, axis) > 0 ? inner : kept) |= 3U << 2 * axis;
+    if (is_periodic(settings, axis)) planes |= 3U << 2 * axis;
   }
-  return {.kept = static_cast<BoxPlanes>(kept), .inner = static_cast<BoxPlanes>(inner)};
+  return static_cast<BoxPlanes>(planes);
 }
 
 int largest_window(Index3 shape, const MeshSettings& settings) {

@@ -25,9 +25,8 @@ namespace mw::engine {
 /// with the volume: twice the cell's edge divides the volume's edge along each periodic axis.
 [[nodiscard]] int periodic_level(Index3 shape, const MeshSettings& settings, int level);
 
-/// Returns what planes of the volume are in a march whose grid begins with a block: vertices in
-/// planes where it begins and ends stay, and other planes of periodic axes lie within windows.
-[[nodiscard]] PlaneRoles periodic_planes(const MeshSettings& settings, Index3 first_block);
+/// Returns the planes where the volume ends and its copies begin, which lie within windows.
+[[nodiscard]] BoxPlanes inner_planes(const MeshSettings& settings);
 
 /// Returns the most that the edge of windows may be: along periodic axes there are three
 /// blocks.

@@ -114,7 +114,7 @@ Point lattice_corner(Index3 volume) {
   return {lattice(volume.x), lattice(volume.y), lattice(volume.z)};
 }
 
-WindowContent gather(std::vector<BlockMesh> blocks, Index3 volume, PlaneRoles roles) {
+WindowContent gather(std::vector<BlockMesh> blocks, Index3 volume, BoxPlanes inner) {
   BlockMesh merged = merge_blocks(std::move(blocks));
   for (const BlockTet& t : merged.tets) check_extent(t, merged.vertices);
   CarriedSamples samples;
@@ -123,7 +123,7 @@ WindowContent gather(std::vector<BlockMesh> blocks, Index3 volume, PlaneRoles ro
   const bool one_label =
       std::all_of(merged.tets.begin(), merged.tets.end(),
                   [&](const BlockTet& t) { return t.label == merged.tets[0].label; });
-  return {TetMesh(merged.vertices, merged.tets, lattice_corner(volume), roles), std::move(samples),
+  return {TetMesh(merged.vertices, merged.tets, lattice_corner(volume), inner), std::move(samples),
           one_label};
 }
 

@@ -21,9 +21,10 @@ struct WindowContent {
 /// The far corner of a volume, in lattice units.
 [[nodiscard]] Point lattice_corner(Index3 volume);
 
-/// Merges blocks into the content of a window, as merge_blocks() does.
+/// Merges blocks into the content of a window, as merge_blocks() does; `inner` are planes that its
+/// mesh goes through.
 [[nodiscard]] WindowContent gather(std::vector<BlockMesh> blocks, Index3 volume,
-                                   PlaneRoles roles = {});
+                                   BoxPlanes inner = 0);
 
 /// Deals the tets of a window to the owner blocks of their barycentres; samples go with the tet on
 /// the side of their triangle's smaller label.  Returns canonical blocks in the order of

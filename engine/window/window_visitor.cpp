@@ -91,7 +91,7 @@ WindowVisitor::WindowVisitor(const PreparedLabels& labels, const Metric& metric,
       grid_(grid),
       store_(store),
       metric_(metric),
-      roles_(periodic_planes(settings, grid.first())),
+      inner_(inner_planes(settings)),
       start_{.max_level = largest_level(grid, settings),
              .coarse = labels.is_coarse(),
              .with_samples = settings.max_distance.has_value(),
@@ -199,7 +199,7 @@ VisitStats WindowVisitor::visit(Index3 window) const {
     store_.commit(window, std::move(content));
     return stats;
   }
-  WindowContent window_content = gather(std::move(content), grid_.volume(), roles_);
+  WindowContent window_content = gather(std::move(content), grid_.volume(), inner_);
   watch.lap(stats.exchange_seconds);
   work_on(window, window_content, stats);
   watch.restart();
@@ -214,7 +214,7 @@ LabelBox WindowVisitor::labels_around(const TetMesh& mesh) const {
   const std::array<bool, 3> repeats{first.x > 0, first.y > 0, first.z > 0};
   LabelBox out = repeated_labels(around, grid_.volume(), repeats,
                                  [this](const Box3& box) { return labels_.original(box); });
-  if (roles_.inner != 0) give_sides(out, grid_.volume());
+  if (inner_ != 0) give_sides(out, grid_.volume());
   return out;
 }
 

@@ -117,7 +117,7 @@ class WindowVisitor {
   const WindowGrid& grid_;
   BlockStore& store_;
   Metric metric_;
-  PlaneRoles roles_;
+  BoxPlanes inner_;
   StartOptions start_;
   SimplifyOptions simplify_;
   OptimiseOptions optimise_;

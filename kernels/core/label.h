@@ -20,7 +20,7 @@ using Label = std::uint32_t;
 /// Everything outside the volume's box counts as one more label.
 inline constexpr Label kExterior = 0xffffffffU;
 
-/// Within a window, tets beyond a plane that its mesh goes through (PlaneRoles::inner) bear their
+/// Within a window, tets beyond a plane that its mesh goes through (TetMesh) bear their
 /// label and a bit for each such plane, so that whatever keeps two labels apart keeps the plane.
 /// Labels of volumes are below kFirstSide.
 inline constexpr Label kFirstSide = Label{1} << 29U;

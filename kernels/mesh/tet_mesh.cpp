@@ -43,8 +43,8 @@ unsigned corner_bit(const LinkTriangle& t, LocalVertex v) {
 }  // namespace
 
 TetMesh::TetMesh(std::span<const BlockVertex> vertices, std::span<const BlockTet> tets, Point box,
-                 PlaneRoles roles)
-    : roles_(roles), bits_(bits_of(tets)), marks_(vertices.size() + 1) {
+                 BoxPlanes inner)
+    : inner_(inner), bits_(bits_of(tets)), marks_(vertices.size() + 1) {
   points_.reserve(vertices.size());
   ids_.reserve(vertices.size());
   quadrics_.reserve(vertices.size());
@@ -70,7 +70,7 @@ TetMesh::TetMesh(std::span<const BlockVertex> vertices, std::span<const BlockTet
   const std::size_t real = loaded.size();
   for (std::size_t i = 0; i < real; ++i) {
     const auto v = loaded[i].vertices;
-    const unsigned outer = 63U & ~unsigned{roles_.inner};
+    const unsigned outer = 63U & ~unsigned{inner_};
     const unsigned p0 = planes_[v[0]], p1 = planes_[v[1]], p2 = planes_[v[2]], p3 = planes_[v[3]];
     // Any three corners have either the first two or the last two among them.
     if ((((p0 & p1) | (p2 & p3)) & outer) == 0) continue;
@@ -101,10 +101,10 @@ TetMesh::TetMesh(std::span<const BlockVertex> vertices, std::span<const BlockTet
 
 /// Returns the sides of a tet, which no inner plane crosses.
 Label TetMesh::side_of(const std::array<LocalVertex, 4>& tet, Point box) const {
-  if (roles_.inner == 0) return 0;
+  if (inner_ == 0) return 0;
   Label sides = 0;
   for (unsigned axis = 0; axis < 3; ++axis) {
-    if ((roles_.inner >> 2 * axis & 3U) == 0) continue;
+    if ((inner_ >> 2 * axis & 3U) == 0) continue;
     const bool is_beyond = std::any_of(tet.begin(), tet.end(), [&](LocalVertex v) {
       return along(points_[v], axis) > along(box, axis);
     });
@@ -150,8 +150,7 @@ void TetMesh::classify_vertices() {
   signatures_.assign(points_.size(), 0);
   const std::vector<std::uint32_t> link_vertices = count_link_vertices();
   for (LocalVertex v = 0; v < vertex_count(); ++v) {
-    const bool is_complete = 2 * link_vertices[v] == stars_[v].size + 4;
-    free_[v] = is_complete && (planes_[v] & roles_.kept) == 0 ? 1 : 0;
+    free_[v] = 2 * link_vertices[v] == stars_[v].size + 4 ? 1 : 0;
     classify_labels(v);
   }
 }
@@ -171,7 +170,7 @@ void TetMesh::classify_labels(LocalVertex v) {
     const auto end = seen.begin() + static_cast<std::ptrdiff_t>(count);
     if (count < seen.size() && std::find(seen.begin(), end, label) == end) seen[count++] = label;
   }
-  if ((planes_[v] & roles_.inner) != 0 && !has_exterior && count < seen.size()) ++count;
+  if ((planes_[v] & inner_) != 0 && !has_exterior && count < seen.size()) ++count;
   orders_[v] = static_cast<std::uint8_t>(count);
   signatures_[v] = is_free(v) ? signature : ~std::uint64_t{0};
 }

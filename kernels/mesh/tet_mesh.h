@@ -102,15 +102,6 @@ struct LocalTet {
 /// Bits of the box planes that a vertex lies on: 1, 2 for low and high x; 4, 8 for y; 16, 32 for z.
 using BoxPlanes = std::uint8_t;
 
-/// What planes of the box are to the mesh of a window, beside the ends of the volume.
-struct PlaneRoles {
-  /// Triangles on these stay as they are: no vertex on one of them is free.
-  BoxPlanes kept = 0;
-  /// The mesh goes on beyond these, because the volume repeats itself.  No tet crosses one.  Tets
-  /// beyond bear a side (side_beyond()).
-  BoxPlanes inner = 0;
-};
-
 /// Axes (bit 0 = x) along which a vertex on these planes cannot move.
 [[nodiscard]] constexpr unsigned fixed_axes(BoxPlanes planes) {
   return ((planes & 3U) != 0 ? 1U : 0U) | ((planes & 12U) != 0 ? 2U : 0U) |
@@ -126,15 +117,18 @@ struct PlaneRoles {
 ///
 /// A vertex is free when its star is complete, that is, when its loaded link is a sphere: with n
 /// link vertices and F link triangles, 2 n = F + 4 (Euler; no proper subset of a triangulated
-/// sphere satisfies it), and it is on no plane that is kept.  Only free vertices may move or vanish
-/// (Sec 4.1; kernels/README.md, "Free and fixed vertices").
+/// sphere satisfies it).  Only free vertices may move or vanish (Sec 4.1; kernels/README.md, "Free
+/// and fixed vertices").
+///
+/// Inner planes of the box are those that the mesh goes on beyond, because the volume repeats
+/// itself.  No tet crosses one.  Tets beyond bear a side (side_beyond()).
 class TetMesh {
  public:
   /// Local vertices are the rows of `vertices`.
   /// REQUIRES: vertices ascending by id; tets by rows, in a canonical order, all within
   /// kMaxTetExtent and not flat; box = far corner of the volume in lattice units.
   TetMesh(std::span<const BlockVertex> vertices, std::span<const BlockTet> tets, Point box,
-          PlaneRoles roles = {});
+          BoxPlanes inner = 0);
 
   [[nodiscard]] LocalVertex vertex_count() const {
     return static_cast<LocalVertex>(points_.size());
@@ -149,14 +143,10 @@ class TetMesh {
   [[nodiscard]] const Quadric& quadric(LocalVertex v) const { return quadrics_[v]; }
   [[nodiscard]] BoxPlanes planes(LocalVertex v) const { return planes_[v]; }
   [[nodiscard]] bool is_free(LocalVertex v) const { return free_[v] != 0; }
-  [[nodiscard]] PlaneRoles plane_roles() const { return roles_; }
-  /// Is the edge in a triangle of a plane that is kept?
-  [[nodiscard]] bool is_kept(LocalVertex v, LocalVertex w) const {
-    return (planes_[v] & planes_[w] & roles_.kept) != 0;
-  }
+  [[nodiscard]] BoxPlanes inner_planes() const { return inner_; }
   /// Is the edge in a plane that the mesh goes through?
   [[nodiscard]] bool is_in_inner_plane(LocalVertex v, LocalVertex w) const {
-    return (planes_[v] & planes_[w] & roles_.inner) != 0;
+    return (planes_[v] & planes_[w] & inner_) != 0;
   }
   [[nodiscard]] bool is_alive(LocalVertex v) const { return stars_[v].size != 0; }
   /// Grows with every change of the mesh.
@@ -228,7 +218,7 @@ class TetMesh {
   std::vector<VertexId> ids_;
   std::vector<Quadric> quadrics_;
   std::vector<BoxPlanes> planes_;
-  PlaneRoles roles_;
+  BoxPlanes inner_;
   std::vector<std::uint8_t> free_;
   std::vector<std::uint8_t> orders_;
   LabelBits bits_;  ///< bits of all labels, the exterior among them

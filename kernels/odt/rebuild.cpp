@@ -75,7 +75,7 @@ void rebuild(TetMesh& mesh, CarriedSamples& samples, std::span<const LocalTet> t
     sorted.push_back(tet);
   }
   std::sort(sorted.begin(), sorted.end());
-  mesh = TetMesh(rows.vertices, sorted, box, mesh.plane_roles());
+  mesh = TetMesh(rows.vertices, sorted, box, mesh.inner_planes());
 }
 
 }  // namespace mw

@@ -166,7 +166,6 @@ bool Flipper::is_between_labels() const {
 }
 
 bool Flipper::collect_polygons(LocalVertex p, LocalVertex q, std::size_t max_ring) {
-  if (mesh_.is_kept(p, q)) return false;
   if (!collect_ring(mesh_, p, q, ring_) || ring_.size() > max_ring) return false;
   if (!cut_into_polygons()) return false;
   old_tets_.clear();

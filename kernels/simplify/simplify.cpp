@@ -334,7 +334,7 @@ class Simplifier {
   /// through, both the labels and their parts on either side are kept.
   bool keeps_topology(const Contraction& c) {
     const unsigned planes = mesh_.planes(c.keep) | mesh_.planes(c.drop);
-    const unsigned inner = planes & mesh_.plane_roles().inner;
+    const unsigned inner = planes & mesh_.inner_planes();
     if (planes != inner && !topology_on_box_.keeps_topology(mesh_, c.keep, c.drop)) return false;
     if (inner != 0) {
       return topology_across_.keeps_topology(mesh_, c.keep, c.drop) &&

@@ -341,7 +341,7 @@ TEST(TetMesh, PlanesInsideHaveSides) {
     const BlockMesh block = dense_block(volume, {{0, 0, 0}, shape});
     Point box = far_corner(shape);
     box.x = 2 * kUnitsPerVoxel;
-    const TetMesh mesh(block.vertices, block.tets, box, {.inner = 2}),
+    const TetMesh mesh(block.vertices, block.tets, box, BoxPlanes{2}),
         plain(block.vertices, block.tets, far_corner(shape));
     for (LocalVertex v = 0; v < mesh.vertex_count(); ++v) {
       const bool in_plane = mesh.position(v).x == box.x;

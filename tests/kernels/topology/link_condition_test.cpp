@@ -298,7 +298,7 @@ TetMesh mesh_through(const SmallVolume& volume, std::int64_t voxels) {
   const BlockMesh block = dense_block(volume, {{0, 0, 0}, volume.shape});
   Point box = far_corner(volume.shape);
   box.x = static_cast<std::int32_t>(voxels * kUnitsPerVoxel);
-  return {block.vertices, block.tets, box, {.inner = 2}};
+  return {block.vertices, block.tets, box, BoxPlanes{2}};
 }
 
 /// Betti numbers of the parts of labels before and beyond the plane, and of labels as a whole.
