@@ -21,25 +21,22 @@ Index3 nearest_corner(Point place) {
   return {nearest(place.x), nearest(place.y), nearest(place.z)};
 }
 
-/// Which of kCount voxels of a row have the label, one bit for each.
-template <std::size_t kCount>
-unsigned bits_of_row(const Label* row, Label label) {
+/// Which of `count` voxels of a row have the label, one bit for each.
+[[gnu::always_inline]] inline unsigned bits_of_row(const Label* row, std::size_t count,
+                                                   Label label) {
   unsigned out = 0;
-  for (std::size_t i = 0; i < kCount; i += kLanes) {
-    const std::size_t first = std::min(i, kCount - kLanes);
+  if (count < kLanes) {
+    for (std::size_t i = 0; i < count; ++i) {
+      out |= (without_side(row[i]) == label ? 1U : 0U) << i;
+    }
+    return out;
+  }
+  for (std::size_t i = 0; i < count; i += kLanes) {
+    const std::size_t first = std::min(i, count - kLanes);
     LaneInts four;
     std::memcpy(&four, row + first, sizeof four);
     four &= static_cast<std::int32_t>(without_side(kExterior));
     out |= lane_bits(four == static_cast<std::int32_t>(label)) << first;
-  }
-  return out;
-}
-
-/// Likewise for any number of voxels.
-unsigned bits_of_row(const Label* row, std::int64_t count, Label label) {
-  unsigned out = 0;
-  for (std::int64_t i = 0; i < count; ++i) {
-    out |= (without_side(row[i]) == label ? 1U : 0U) << i;
   }
   return out;
 }
@@ -55,13 +52,15 @@ class LabelRows {
     constexpr Index3 around{kReach, kReach, kReach};
     const Box3 cube{corner - around, corner + around}, box = intersection(cube, labels.box);
     if (box.lo.x >= box.hi.x) return;
-    const bool is_whole = box == cube;
-    for (std::int64_t z = box.lo.z; z < box.hi.z; ++z) {
-      for (std::int64_t y = box.lo.y; y < box.hi.y; ++y) {
-        const Label* const row = labels.labels.data() + labels.box.offset({box.lo.x, y, z});
+    const auto count = static_cast<std::size_t>(box.hi.x - box.lo.x);
+    const Index3 n = labels.box.shape();
+    const Label* plane = labels.labels.data() + labels.box.offset(box.lo);
+    for (std::int64_t z = box.lo.z; z < box.hi.z; ++z, plane += n.y * n.x) {
+      const Label* row = plane;
+      for (std::int64_t y = box.lo.y; y < box.hi.y; ++y, row += n.x) {
         rows_[static_cast<std::size_t>(z - cube.lo.z)][static_cast<std::size_t>(y - cube.lo.y)] =
-            is_whole ? bits_of_row<kSize>(row, label)
-                     : bits_of_row(row, box.hi.x - box.lo.x, label) << (box.lo.x - cube.lo.x);
+            count == kSize ? bits_of_row(row, kSize, label)
+                           : bits_of_row(row, count, label) << (box.lo.x - cube.lo.x);
       }
     }
   }
@@ -136,9 +135,11 @@ std::optional<ThinLabel> thin_label_at(const LabelBox& labels, Point place, Labe
   constexpr int kLeastOfSheet = 56, kMostOfThread = 20;
   const Index3 corner = nearest_corner(place);
   if (!LabelRows<kReachOfThin>(labels, corner, label).are_without_cubes()) return std::nullopt;
-  const Surroundings around = look_around({labels, corner, label});
+  const LabelRows<kAround> near(labels, corner, label);
+  const Surroundings around = look_around(near);
   return ThinLabel{
       .is_sheet = around.voxels >= kLeastOfSheet && !around.are_flat() &&
+                  near.are_without_cubes() &&
                   LabelRows<kReachOfSheet>(labels, corner, label).are_without_cubes(),
       .is_thread = around.voxels <= kMostOfThread && around.go_through(),
       .is_speck = around.are_inside(),
