@@ -4,6 +4,7 @@
 #pragma once
 
 #include <array>
+#include <cstdint>
 
 #include "kernels/core/label.h"
 #include "kernels/start/cells/cell.h"
@@ -36,10 +37,10 @@ class SurfaceNodes {
   }
 
  private:
-  /// The voxels in and around a cube of 2 voxels, x fastest.
+  /// Sets of the 4^3 voxels in and around a cube of 2 voxels, x fastest.
   struct Around {
-    std::array<Label, 64> labels;
-    std::array<bool, 64> has_corners;  ///< all corners of the voxel are vertices
+    std::array<std::uint64_t, 3> steps{};  ///< the next voxel along the axis has another label
+    std::uint64_t with_corners = 0;        ///< all corners of the voxel are vertices
   };
 
   [[nodiscard]] CellNodes beside_smaller(const Cell& cell) const;
