@@ -64,12 +64,18 @@ MW_LANES Lanes load(const StoredLanes& s) {
 [[gnu::always_inline]] inline void store(const LaneInts& values, StoredInts& out) {
   std::memcpy(out.data(), &values, sizeof values);
 }
-MW_LANES Lanes to_lanes(const StoredInts& s) {
-  return __builtin_convertvector(load(s), Lanes);
+// Written lane by lane these are one instruction each; the compiler takes what
+// __builtin_convertvector() makes wider in halves.
+MW_LANES Lanes to_lanes(const LaneInts& v) {
+  return Lanes{static_cast<double>(v[0]), static_cast<double>(v[1]), static_cast<double>(v[2]),
+               static_cast<double>(v[3])};
 }
-/// Marks the lanes whose stored number differs from `value`.
-MW_LANES LaneMask differs(const StoredInts& s, std::int32_t value) {
-  return __builtin_convertvector(load(s) != value, LaneMask);
+MW_LANES Lanes to_lanes(const StoredInts& s) {
+  return Lanes{static_cast<double>(s[0]), static_cast<double>(s[1]), static_cast<double>(s[2]),
+               static_cast<double>(s[3])};
+}
+MW_LANES LaneMask to_mask(const LaneInts& v) {
+  return LaneMask{v[0], v[1], v[2], v[3]};
 }
 struct LaneInts3 {
   LaneInts x, y, z;
@@ -88,8 +94,7 @@ MW_LANES LaneInts3 transposed(const LaneInts& a, const LaneInts& b, const LaneIn
 }
 /// Picks x, y or z in each lane, by the number of the axis there.
 MW_LANES Lanes by_axis(const LaneInts& axes, const Lanes& x, const Lanes& y, const Lanes& z) {
-  const LaneMask is_x = __builtin_convertvector(axes == 0, LaneMask),
-                 is_y = __builtin_convertvector(axes == 1, LaneMask);
+  const LaneMask is_x = to_mask(axes == 0), is_y = to_mask(axes == 1);
   return is_x ? x : is_y ? y : z;
 }
 MW_LANES Lanes3 operator+(const Lanes3& a, const Lanes3& b) {

@@ -85,8 +85,7 @@ MW_WIDE void find_pieces(const FaceGroup& faces, const LabelBox& labels, Label l
   const Unpacked f = unpack(faces);
   const QuarterLanes sums = sums_of(faces);
   const Lanes one = lanes(1.0), &n = sums.count;
-  const Lanes x = __builtin_convertvector(f.x, Lanes), y = __builtin_convertvector(f.y, Lanes),
-              z = __builtin_convertvector(f.z, Lanes);
+  const Lanes x = to_lanes(f.x), y = to_lanes(f.y), z = to_lanes(f.z);
   store((n * x + by_axis(f.axis, n, sums.first, sums.first)) / n, out.middles[0]);
   store((n * y + by_axis(f.axis, sums.first, n, sums.second)) / n, out.middles[1]);
   store((n * z + by_axis(f.axis, sums.second, sums.second, n)) / n, out.middles[2]);
@@ -100,9 +99,9 @@ MW_WIDE unsigned find_centres(const FaceGroup& faces, const LabelBox& labels, La
                               const Vec3& normal, double min_cosine, PointLanes& points) {
   const Unpacked f = unpack(faces);
   const Lanes on = lanes(1.0), off = lanes(0.5);
-  store(__builtin_convertvector(f.x, Lanes) + by_axis(f.axis, on, off, off), points[0]);
-  store(__builtin_convertvector(f.y, Lanes) + by_axis(f.axis, off, on, off), points[1]);
-  store(__builtin_convertvector(f.z, Lanes) + by_axis(f.axis, off, off, on), points[2]);
+  store(to_lanes(f.x) + by_axis(f.axis, on, off, off), points[0]);
+  store(to_lanes(f.y) + by_axis(f.axis, off, on, off), points[1]);
+  store(to_lanes(f.z) + by_axis(f.axis, off, off, on), points[2]);
   const Lanes along = by_axis(f.axis, lanes(normal[0]), lanes(normal[1]), lanes(normal[2]));
   const Lanes cosine = is_label(f, labels, low) ? along : -along;
   return lane_bits(__builtin_convertvector(cosine >= min_cosine, LaneInts));

@@ -39,22 +39,25 @@ MW_LANES Corners corners_from(const Group& g, const Vec3& unit, const Lanes3& x)
   return {corner(g, 0, unit, x), corner(g, 1, unit, x), corner(g, 2, unit, x)};
 }
 
-/// What radius ratio and its bounds are made of; names as at radius_ratio().
+/// What radius ratio and its bounds are made of; names as at radius_ratio().  It is made in place,
+/// because the compiler takes copies of lanes through memory.
 struct Ratio {
+  [[gnu::always_inline]] explicit Ratio(const Corners& p)
+      : n1(cross(p.b, p.c)),
+        n2(cross(p.c, p.a)),
+        n3(cross(p.a, p.b)),
+        n4(n1 + n2 + n3),
+        v6(dot(p.a, n1)),
+        w(dot(p.a, p.a) * n1 + dot(p.b, p.b) * n2 + dot(p.c, p.c) * n3) {}
+
   Lanes3 n1, n2, n3, n4;
   Lanes v6;
   Lanes3 w;
 };
 
-MW_LANES Ratio ratio_terms(const Group& g, const Vec3& unit, const Lanes3& x) {
-  const auto [a, b, c] = corners_from(g, unit, x);
-  const Lanes3 n1 = cross(b, c), n2 = cross(c, a), n3 = cross(a, b);
-  return {n1, n2, n3, n1 + n2 + n3, dot(a, n1), dot(a, a) * n1 + dot(b, b) * n2 + dot(c, c) * n3};
-}
-
 /// 1 / radius ratio; infinite where the tet is not positive.
 MW_LANES Lanes energy(const Group& g, const Vec3& unit, const Lanes3& x) {
-  const Ratio r = ratio_terms(g, unit, x);
+  const Ratio r(corners_from(g, unit, x));
   const Lanes area =
       root(dot(r.n1, r.n1)) + root(dot(r.n2, r.n2)) + root(dot(r.n3, r.n3)) + root(dot(r.n4, r.n4));
   const Lanes e = area * root(dot(r.w, r.w)) / (6.0 * r.v6 * r.v6);
@@ -65,6 +68,12 @@ MW_WIDE void energies(const Group& g, const Vec3& unit, const Vec3& x,
                       std::array<double, kLanes>& out) {
   const Lanes e = energy(g, unit, lanes(x));
   std::memcpy(out.data(), &e, sizeof e);
+}
+
+/// Marks the tets without a vertex.
+MW_LANES LaneMask are_without(const Group& g, std::int32_t vertex) {
+  return to_mask((load(g.rows[0]) != vertex) & (load(g.rows[1]) != vertex) &
+                 (load(g.rows[2]) != vertex));
 }
 
 /// Sums of StarTerms, lane by lane.
@@ -123,9 +132,8 @@ MW_WIDE bool has_near(const Group& g, const Vec3& unit, double square) {
 MW_WIDE StarVerdict judge(const Group& g, const Vec3& unit, const Vec3& x, std::int32_t without,
                           double floor) {
   constexpr double kRounding = 1e-12;
-  const LaneMask counts =
-      differs(g.rows[0], without) & differs(g.rows[1], without) & differs(g.rows[2], without);
-  const Ratio r = ratio_terms(g, unit, lanes(x));
+  const LaneMask counts = are_without(g, without);
+  const Ratio r(corners_from(g, unit, lanes(x)));
   if (any(counts & (r.v6 <= 0.0))) return StarVerdict::kInverted;
   const Lanes q1 = dot(r.n1, r.n1), q2 = dot(r.n2, r.n2), q3 = dot(r.n3, r.n3),
               q4 = dot(r.n4, r.n4);
@@ -152,8 +160,7 @@ MW_LANES LaneInts beyond_extent(const LaneInts3& v) {
   return (v.x + kExactExtent) | (v.y + kExactExtent) | (v.z + kExactExtent);
 }
 MW_LANES Lanes3 as_doubles(const LaneInts3& v) {
-  return {__builtin_convertvector(v.x, Lanes), __builtin_convertvector(v.y, Lanes),
-          __builtin_convertvector(v.z, Lanes)};
+  return {to_lanes(v.x), to_lanes(v.y), to_lanes(v.z)};
 }
 
 /// Judges by determinants, which are exact for corners within kExactExtent.
@@ -161,8 +168,7 @@ MW_WIDE ExactSigns find_signs(const Group& g, Point x, std::int32_t without) {
   const LaneInts3 a = corner_units(g, 0, x), b = corner_units(g, 1, x), c = corner_units(g, 2, x);
   const LaneInts beyond = beyond_extent(a) | beyond_extent(b) | beyond_extent(c);
   if (lane_bits((beyond & -(2 * kExactExtent)) != 0) != 0) return ExactSigns::kUnknown;
-  const LaneMask counts =
-      differs(g.rows[0], without) & differs(g.rows[1], without) & differs(g.rows[2], without);
+  const LaneMask counts = are_without(g, without);
   const Lanes v6 = dot(as_doubles(a), cross(as_doubles(b), as_doubles(c)));
   return any(counts & (v6 <= 0.0)) ? ExactSigns::kNotPositive : ExactSigns::kPositive;
 }
