@@ -17,10 +17,6 @@ void Flipper::replace() {
   for (const LocalTet& t : new_tets_) mesh_.add_tet(t);
 }
 
-double Flipper::energy_of(const LocalTet& tet) const {
-  return tet.label == kExterior ? 0.0 : shape_energy(radius_ratio(mesh_, metric_, tet), min_);
-}
-
 /// Also sets the radius ratio that new tets must reach, by the worst old one and `decent`.
 double Flipper::energy_of_old_tets(double decent) {
   double worst = 1.0, sum = 0.0;
@@ -55,6 +51,26 @@ double Flipper::min_energy_worth_trying() const {
   return kForEachNewTet * static_cast<double>(tets);
 }
 
+/// Adds to each triangle that is tried the energies of its tets, four tets at a time.
+void Flipper::add_energies(LocalVertex p, LocalVertex q) {
+  constexpr std::size_t kTogether = kLanes / 2;
+  for (std::size_t first = 0; first < tried_.size(); first += kTogether) {
+    const auto some = std::span(tried_).subspan(first, std::min(kTogether, tried_.size() - first));
+    TetLanes tets;
+    for (std::size_t t = 0; t < some.size(); ++t) {
+      const auto at = [&](std::size_t i) { return mesh_.position(ring_vertex(i)); };
+      const Point a = at(some[t].i), b = at(some[t].j), c = at(some[t].k);
+      tets.set(2 * t, a, b, c, mesh_.position(q));
+      tets.set(2 * t + 1, a, c, b, mesh_.position(p));
+    }
+    const StoredLanes ratios = radius_ratios(tets, metric_);
+    for (std::size_t t = 0; t < some.size(); ++t) {
+      some[t].energy += shape_energy(ratios[2 * t], min_);
+      some[t].energy += shape_energy(ratios[2 * t + 1], min_);
+    }
+  }
+}
+
 double Flipper::best_triangulation(LocalVertex p, LocalVertex q, const Polygon& polygon,
                                    double limit) {
   constexpr double kMinOfTriangle = 2.0;  // two regular tets
@@ -62,21 +78,20 @@ double Flipper::best_triangulation(LocalVertex p, LocalVertex q, const Polygon& 
   for (std::size_t i = first; i < last; ++i) energy_[i][i + 1] = 0.0;
   for (std::size_t gap = 2; gap <= last - first; ++gap) {
     const double elsewhere = kMinOfTriangle * static_cast<double>(last - first - gap);
-    for (std::size_t i = first; i + gap <= last; ++i) {
-      const std::size_t k = i + gap;
-      double max = limit - (label == kExterior ? 0.0 : elsewhere);
+    const double max = limit - (label == kExterior ? 0.0 : elsewhere);
+    tried_.clear();
+    for (std::size_t i = first, k = i + gap; k <= last; ++i, ++k) {
       energy_[i][k] = std::numeric_limits<double>::infinity();
       for (std::size_t j = i + 1; j < k; ++j) {
-        double sum = energy_[i][j] + energy_[j][k];
-        if (sum >= max) continue;
-        const LocalVertex a = ring_vertex(i), b = ring_vertex(j), c = ring_vertex(k);
-        sum += energy_of({{a, b, c, q}, label});
-        if (sum < max) sum += energy_of({{a, c, b, p}, label});
-        if (sum < max) {
-          energy_[i][k] = max = sum;
-          apex_[i][k] = j;
-        }
+        const double energy = energy_[i][j] + energy_[j][k];
+        if (energy < max) tried_.push_back({i, j, k, energy});
       }
+    }
+    if (label != kExterior) add_energies(p, q);
+    for (const auto& [i, j, k, energy] : tried_) {
+      if (energy >= max || energy >= energy_[i][k]) continue;
+      energy_[i][k] = energy;
+      apex_[i][k] = j;
     }
   }
   return energy_[first][last];

@@ -94,6 +94,12 @@ class Flipper {
     [[nodiscard]] bool is_cap() const { return last - first == 1; }
   };
 
+  /// A triangle of ring vertices that may be part of the polygon's best triangulation.
+  struct Tried {
+    std::size_t i = 0, j = 0, k = 0;
+    double energy = 0.0;  ///< of its tets, and of the best triangulation beyond its shorter sides
+  };
+
   [[nodiscard]] bool collect_polygons(LocalVertex p, LocalVertex q, std::size_t max_ring);
   [[nodiscard]] bool cut_into_polygons();
   [[nodiscard]] bool has_cap() const;
@@ -108,7 +114,7 @@ class Flipper {
   /// Rings of less energy are not worth a search: of 5,900 that were replaced on EM 40^3, none had
   /// less than 1.32 for each new tet.
   [[nodiscard]] double min_energy_worth_trying() const;
-  [[nodiscard]] double energy_of(const LocalTet& tet) const;
+  void add_energies(LocalVertex p, LocalVertex q);
   /// Returns the least energy of new tets for the polygon; infinite unless below `limit`.
   [[nodiscard]] double best_triangulation(LocalVertex p, LocalVertex q, const Polygon& polygon,
                                           double limit);
@@ -130,6 +136,7 @@ class Flipper {
   std::vector<Polygon> polygons_;
   std::array<std::array<double, kMaxSurfaceRing + 1>, kMaxSurfaceRing + 1> energy_{};
   std::array<std::array<std::size_t, kMaxSurfaceRing + 1>, kMaxSurfaceRing + 1> apex_{};
+  std::vector<Tried> tried_;
   std::vector<LocalTet> old_tets_;
   std::vector<LocalTet> new_tets_;
   std::vector<LinkTriangle> dimple_;
