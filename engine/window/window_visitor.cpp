@@ -100,6 +100,7 @@ WindowVisitor::WindowVisitor(const PreparedLabels& labels, const Metric& metric,
              .metric = metric,
              .quality_floor = settings.quality_floor,
              .sizes = labels.start_sizes()},
+      templates_(metric, settings.quality_floor),
       simplify_(simplify_options(settings)),
       optimise_{.sweeps = settings.optimizer == Optimizer::kNone ? 0 : 1,
                 .quality_floor = settings.quality_floor,
@@ -320,15 +321,21 @@ Index3 WindowVisitor::start_volume() const {
   return grid_.volume() + labels_.margin() + labels_.margin();
 }
 
+StartOptions WindowVisitor::start_options() const {
+  StartOptions out = start_;
+  out.templates = &templates_.local();
+  return out;
+}
+
 StartSize WindowVisitor::start_size(Index3 block) const {
   return with_labels(block, [&](const StartLabels& labels, const Box3& box) {
-    return graded_start_size(labels, labels_.levels(), box, start_volume(), start_);
+    return graded_start_size(labels, labels_.levels(), box, start_volume(), start_options());
   });
 }
 
 BlockMesh WindowVisitor::start(Index3 block) const {
   BlockMesh mesh = with_labels(block, [&](const StartLabels& labels, const Box3& box) {
-    return graded_start(labels, labels_.levels(), box, start_volume(), start_);
+    return graded_start(labels, labels_.levels(), box, start_volume(), start_options());
   });
   mesh = without_margin(std::move(mesh), grid_.volume(), labels_.margin());
   mesh.vertices.shrink_to_fit();

@@ -3,6 +3,8 @@
 // A visit takes the blocks of a window, runs the kernels on them, and commits new blocks.
 #pragma once
 
+#include <tbb/enumerable_thread_specific.h>
+
 #include <optional>
 
 #include "engine/labels/label_counts.h"
@@ -15,6 +17,7 @@
 #include "kernels/odt/codt.h"
 #include "kernels/optimise/optimise.h"
 #include "kernels/simplify/simplify.h"
+#include "kernels/start/cells/cell_template.h"
 #include "kernels/start/graded_start.h"
 
 namespace mw::engine {
@@ -109,6 +112,8 @@ class WindowVisitor {
   void add_inner(Index3 window, WindowContent& content, VisitStats& stats) const;
   [[nodiscard]] SteinerIds ids_of(Index3 window) const;
   [[nodiscard]] Index3 start_volume() const;
+  /// Returns how blocks are made from voxels, with what the thread knows from others.
+  [[nodiscard]] StartOptions start_options() const;
   /// Returns use(labels around the block, box of the block), both placed in start_volume().
   template <typename Use>
   [[nodiscard]] auto with_labels(Index3 block, Use use) const;
@@ -119,6 +124,7 @@ class WindowVisitor {
   Metric metric_;
   BoxPlanes inner_;
   StartOptions start_;
+  mutable tbb::enumerable_thread_specific<CellTemplates> templates_;
   SimplifyOptions simplify_;
   OptimiseOptions optimise_;
   CodtOptions codt_;

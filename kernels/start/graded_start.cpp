@@ -75,9 +75,12 @@ class StartBuilder {
         levels_(labels.shape, volume, {block.lo - Index3{1, 1, 1}, block.hi + Index3{1, 1, 1}},
                 options.max_level, large, options.sizes),
         surface_(levels_, labels.shape, volume, options.sizes),
-        templates_(options.metric, options.quality_floor),
+        own_templates_(options.metric, options.quality_floor),
+        templates_(options.templates != nullptr ? *options.templates : own_templates_),
         used_(static_cast<std::size_t>(corners_.voxels()), 0),
-        known_(static_cast<std::size_t>(block.voxels()), nullptr) {}
+        known_(static_cast<std::size_t>(block.voxels()), nullptr) {
+    templates_.make_room();
+  }
 
   BlockMesh build() {
     add_cells();
@@ -319,7 +322,8 @@ class StartBuilder {
   CarrierFaces carriers_;
   CellLevels levels_;
   SurfaceNodes surface_;
-  CellTemplates templates_;
+  CellTemplates own_templates_;
+  CellTemplates& templates_;
   std::vector<std::uint8_t> used_;
   std::vector<const CellTemplate*> known_;  ///< by a cell's lowest voxel; null until asked for
   std::vector<CornerTriangle> triangles_;

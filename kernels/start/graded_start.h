@@ -11,6 +11,8 @@
 
 namespace mw {
 
+class CellTemplates;
+
 /// Weights of the quadrics of Sec 5.2; the paper's by default.
 struct QuadricWeights {
   double plane = 1.0;           ///< Eq (1), for each interface voxel face at the vertex
@@ -24,10 +26,12 @@ struct StartOptions {
   bool with_samples = false;  ///< samples for the distance bound
   double max_distance = 1.5;  ///< the distance bound of samples, in voxels
   QuadricWeights weights;
-  Metric metric;                     ///< for quadrics, and for shapes of cells
-  double quality_floor = 0.0;        ///< no tet below it, if the metric allows (min_start_ratio)
-  const SizeField* sizes = nullptr;  ///< edges keep to these limits, if they are at least the
-                                     ///< diagonal of a voxel; null for none
+  Metric metric;                       ///< for quadrics, and for shapes of cells
+  double quality_floor = 0.0;          ///< no tet below it, if the metric allows (min_start_ratio)
+  const SizeField* sizes = nullptr;    ///< edges keep to these limits, if they are at least the
+                                       ///< diagonal of a voxel; null for none
+  CellTemplates* templates = nullptr;  ///< lent for one block at a time, to spare work; may be
+                                       ///< null.  REQUIRES: of this metric and quality floor.
 };
 
 /// Voxels around a block whose labels its start mesh depends on.

@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <utility>
 
-#include "kernels/quality/quality.h"
+#include "kernels/quality/star_batch.h"
 
 namespace mw {
 namespace {
@@ -107,6 +107,19 @@ constexpr std::array<unsigned, 27> faces_by_node() {
 }
 constexpr std::array<unsigned, 27> kFacesAt = faces_by_node();
 
+/// Where nodes of a cell of two voxels lie.
+constexpr std::array<Point, 27> places_by_node() {
+  std::array<Point, 27> out{};
+  for (CellNode n = 0; n < out.size(); ++n) {
+    const auto along = [n](unsigned axis) {
+      return static_cast<std::int32_t>(node_along(n, axis)) * kUnitsPerVoxel;
+    };
+    out[n] = {along(0), along(1), along(2)};
+  }
+  return out;
+}
+constexpr std::array<Point, 27> kPlaces = places_by_node();
+
 /// Finds the tets between an apex and the triangles of the faces that it is not on.  Returns false
 /// when a triangle of its own faces does not have it as a corner.
 bool find_cone(CellNode apex, const std::vector<NodeTriangle>& surface,
@@ -167,19 +180,18 @@ std::vector<NodeTriangle> face_triangles(CellNodes nodes, bool odd, CellFace fac
 }
 
 double worst_ratio(std::span<const NodeTet> tets, const Metric& metric, double enough) {
-  const auto at = [](CellNode n) {
-    const auto along = [n](unsigned axis) {
-      return static_cast<std::int32_t>(node_along(n, axis)) * kUnitsPerVoxel;
-    };
-    return Point{along(0), along(1), along(2)};
-  };
   double worst = 1.0;
-  for (const NodeTet& t : tets) {
-    const Vec3 a = metric.vector(at(t[0]), at(t[1])), b = metric.vector(at(t[0]), at(t[2])),
-               c = metric.vector(at(t[0]), at(t[3]));
-    const bool positive = a.cross(b).dot(c) > 0.0;
-    worst = std::min(worst, positive ? radius_ratio({a, b, c}) : radius_ratio({b, a, c}));
-    if (worst < enough) break;
+  for (std::size_t first = 0; first < tets.size() && worst >= enough; first += kLanes) {
+    const auto group = tets.subspan(first, std::min(kLanes, tets.size() - first));
+    TetLanes lanes;
+    for (std::size_t i = 0; i < group.size(); ++i) {
+      const auto [p, a, b, c] = group[i];
+      const bool is_positive = volume6(kPlaces[p], kPlaces[a], kPlaces[b], kPlaces[c]) > 0;
+      lanes.set(i, kPlaces[p], kPlaces[is_positive ? a : b], kPlaces[is_positive ? b : a],
+                kPlaces[c]);
+    }
+    const StoredLanes ratios = radius_ratios(lanes, metric);
+    for (std::size_t i = 0; i < group.size(); ++i) worst = std::min(worst, ratios[i]);
   }
   return worst;
 }

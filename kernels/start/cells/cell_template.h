@@ -48,17 +48,24 @@ struct CellTemplate {
 [[nodiscard]] CellTemplate cut_cell(CellNodes nodes, bool odd, const Metric& metric,
                                     double quality_floor = 0.0);
 
-/// Returns the worst radius ratio of a cell's tets, or the first one below `enough`.
+/// Returns the worst radius ratio of a cell's tets, or that of some where one is below `enough`.
 [[nodiscard]] double worst_ratio(std::span<const NodeTet> tets, const Metric& metric,
                                  double enough = 0.0);
 
-/// Templates, each made once.
+/// Templates, each made once.  Memory: 2 KiB for each.  Thread safety: none.
 class CellTemplates {
  public:
+  static constexpr std::size_t kMost = 512;
+
   explicit CellTemplates(const Metric& metric, double quality_floor = 0.0)
       : metric_(metric), quality_floor_(quality_floor) {}
 
+  /// Returns a template, which is there until make_room().
   [[nodiscard]] const CellTemplate& of(CellNodes nodes, bool odd);
+  /// Forgets all templates where they are more than kMost.
+  void make_room() {
+    if (known_.size() > kMost) known_.clear();
+  }
 
  private:
   Metric metric_;

@@ -6,6 +6,7 @@
 #include "kernels/distance/point_triangle.h"
 #include "kernels/quality/quality.h"
 #include "kernels/start/carrier_faces.h"
+#include "kernels/start/cells/cell_template.h"
 #include "tests/kernels/start/cells/large_cells.h"
 #include "tests/kernels/start/coarsen/coarse_volume.h"
 
@@ -113,6 +114,7 @@ TEST(Promise1Topology, HoldsInGradedStartMeshes) {
 
 TEST(Sec51GradedStart, IsTheSameHoweverItIsCutIntoBlocks) {
   std::mt19937 random(514);
+  CellTemplates lent{Metric()};
   for (int i = 0; i < 30 && !HasFailure(); ++i) {
     const int level = 1 + i % 3;
     const SmallVolume volume = random_coarse(random, level == 3 ? 17 : 9);
@@ -130,7 +132,8 @@ TEST(Sec51GradedStart, IsTheSameHoweverItIsCutIntoBlocks) {
           const Box3 box{
               lo,
               {std::min(lo.x + edge, s.x), std::min(lo.y + edge, s.y), std::min(lo.z + edge, s.z)}};
-          const BlockMesh block = start_block(volume, levels, box, {.max_level = level});
+          const BlockMesh block =
+              start_block(volume, levels, box, {.max_level = level, .templates = &lent});
           add_global(found, block);
           for (const BlockVertex& v : block.vertices) EXPECT_EQ(vertices.at(v.id), v);
         }
