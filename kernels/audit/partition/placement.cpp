@@ -95,25 +95,34 @@ void PlaceSamples::put(const Box3& box, std::span<const Label> labels,
 }
 
 /// Turns samples so that their axis axes[k] lies along axis k, and counts those that are as wanted
-/// for each way to turn axes over: bit k of the place in what it returns is that of axis k.
+/// for each way to turn axes over: bit k of the place in what it returns is that of axis k.  Ways
+/// with fewer than `enough` have 0.
 std::array<std::uint64_t, 8> PlaceSamples::equal_to(const std::vector<Label>& turned,
-                                                    const Axes& axes) const {
+                                                    const Axes& axes, std::uint64_t enough) const {
   const Index3 n = counts();
   const std::array<std::int64_t, 3> strides{1, n.x, n.x * n.y};
   const auto step = static_cast<std::size_t>(strides[axes[0]]);
   std::array<std::uint64_t, 8> out{};
+  unsigned open = 0xff;  // ways that may have enough, as bits
   std::vector<Label> row(static_cast<std::size_t>(n.x)), back(row);
-  for (std::int64_t z = 0; z < n.z; ++z) {
+  for (std::int64_t z = 0; z < n.z && open != 0; ++z) {
     for (std::int64_t y = 0; y < n.y; ++y) {
       const auto first = static_cast<std::size_t>(y * strides[axes[1]] + z * strides[axes[2]]);
       for (std::size_t x = 0; x < row.size(); ++x) row[x] = turned[first + x * step];
       std::reverse_copy(row.begin(), row.end(), back.begin());
       for (unsigned flips = 0; flips < 8; ++flips) {
+        if ((open >> flips & 1U) == 0) continue;
         const std::int64_t y_to = (flips & 2U) != 0 ? n.y - 1 - y : y;
         const std::int64_t z_to = (flips & 4U) != 0 ? n.z - 1 - z : z;
         out[flips] +=
             count_equal((flips & 1U) != 0 ? back : row, wanted_.data() + (z_to * n.y + y_to) * n.x);
       }
+    }
+    const auto to_come = static_cast<std::uint64_t>((n.z - 1 - z) * n.y * n.x);
+    for (unsigned flips = 0; flips < 8; ++flips) {
+      if (out[flips] + to_come >= enough) continue;
+      out[flips] = 0;
+      open &= ~(1U << flips);
     }
   }
   return out;
@@ -128,17 +137,16 @@ bool PlaceSamples::Hits::is_turned() const {
 PlaceSamples::Hits PlaceSamples::count() const {
   const std::array<std::int64_t, 3> voxels{shape_.x, shape_.y, shape_.z};
   Axes axes{0, 1, 2};
-  Hits most;
+  Hits most{.as_it_lies = count_equal(wanted_, centres_.data())};
   do {
     const bool fits = voxels[axes[0]] == voxels[0] && voxels[axes[1]] == voxels[1] &&
                       voxels[axes[2]] == voxels[2];
     if (!fits) continue;
-    const auto hits = equal_to(centres_, axes);
+    const auto hits = equal_to(centres_, axes, most.as_it_lies);
     const bool is_first = std::is_sorted(axes.begin(), axes.end());
-    if (is_first) most.as_it_lies = hits[0];
     // What a symmetry changes matters only where the mesh would be better off.
     const bool is_better = *std::max_element(hits.begin(), hits.end()) > most.as_it_lies;
-    const auto same = is_better ? equal_to(wanted_, axes) : hits;
+    const auto same = is_better ? equal_to(wanted_, axes, 0) : hits;
     for (std::size_t flips = 0; flips < hits.size(); ++flips) {
       const Hits here{most.as_it_lies, hits[flips], wanted_.size() - same[flips]};
       if ((is_first && flips == 0) || here.is_turned() < most.is_turned()) continue;

@@ -68,7 +68,8 @@ class PlaceSamples {
     /// if a coin were thrown for each of them.
     [[nodiscard]] bool is_turned() const;
   };
-  /// Returns the hits of a symmetry that has most of them, of one that is_turned() if any is.
+  /// Returns the hits of a symmetry that has most of them, of one that is_turned() if any is.  A
+  /// symmetry with fewer hits than the mesh as it lies counts as one without any.
   [[nodiscard]] Hits count() const;
   [[nodiscard]] std::uint64_t size() const { return wanted_.size(); }
 
@@ -77,7 +78,7 @@ class PlaceSamples {
 
   [[nodiscard]] Index3 counts() const;
   [[nodiscard]] std::array<std::uint64_t, 8> equal_to(const std::vector<Label>& turned,
-                                                      const Axes& axes) const;
+                                                      const Axes& axes, std::uint64_t enough) const;
 
   Index3 shape_;
   std::array<std::vector<std::int64_t>, 3> at_;  ///< ascending, by axis

@@ -203,6 +203,15 @@ TEST(Placement, PassesWhatIsSymmetric) {
   }
 }
 
+/// Of what has no symmetry each one fits worse, and none is counted to the end.
+TEST(Placement, LeavesSymmetriesThatFitWorse) {
+  std::mt19937 random(62);
+  const SmallVolume v = random_volume_of(random, VolumeKind::kNoise, {9, 9, 9}, 3);
+  const auto hits = samples_of(v.shape, v.labels, v.labels, {0, 1, 2}).count();
+  EXPECT_EQ(hits.as_it_lies, v.labels.size());
+  EXPECT_EQ(hits.otherwise, 0U);
+}
+
 TEST(Placement, WantsHalfOfTheVoxels) {
   const SmallVolume v = volume_from({8, 6, 4}, 2, [](auto, auto, auto) { return 0; });
   std::vector<Label> centres = v.labels;
