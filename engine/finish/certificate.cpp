@@ -4,6 +4,7 @@
 
 #include <string>
 
+#include "engine/finish/tet_ranges.h"
 #include "engine/verify/mesh_tiles.h"
 #include "kernels/core/error.h"
 
@@ -19,12 +20,28 @@ std::string failures(const audit::AuditReport& report) {
   return out;
 }
 
+/// Gives a mesh to tiles, on all threads.
+void take_apart(io::ScratchMesh& mesh, MeshTiles& tiles, const TetWork& work) {
+  tiles.begin(mesh.header());
+  mesh.each_vertex_batch([&](std::span<const io::Position> batch) {
+    work.between();
+    tiles.write_vertices(batch);
+  });
+  each_tet_range<MeshTiles::TetShare>(
+      mesh, work,
+      [&](const TetRange& range, io::CornerReader&) {
+        return tiles.look_at(range.first, range.tets, range.labels);
+      },
+      [&](MeshTiles::TetShare&& found) { tiles.add(found); });
+  tiles.finish();
+}
+
 }  // namespace
 
 audit::AuditReport certify(io::ScratchMesh& mesh, const CertificateTask& task,
                            const std::function<void()>& between) {
   MeshTiles tiles(task.volume.info(), task.volume.table(), {mesh.folder(), task.tiles_bytes});
-  mesh.copy_to(tiles, between);
+  take_apart(mesh, tiles, {.how = {task.check.threads}, .between = between});
   audit::AuditReport report = verify_mesh(task.volume, tiles, task.check);
   if (report.passed()) return report;
   throw Error(ErrorKind::kCheckFailed,

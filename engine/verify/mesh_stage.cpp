@@ -22,12 +22,6 @@ struct SharedTet {
   std::uint32_t part = 0;
 };
 
-/// A run of centres, and a tile that it meets.
-struct CentreOfTile {
-  std::uint32_t tile = 0;
-  audit::CentreRun run;
-};
-
 /// What one tile tells.  Labels of pieces and triangles are those of the whole, others its own.
 struct TileFindings {
   TileLabels names{{}, 0};
@@ -41,9 +35,10 @@ struct TileFindings {
   audit::QualityMeter quality;
   audit::ShapeMeter shape;
   audit::VolumeTally volumes;
-  std::vector<CentreOfTile> centres;
+  TileShares<audit::CentreRun> centres;
   audit::FaceTally faces;
-  std::vector<audit::InterfaceTriangle> triangles;
+  TileShares<audit::InterfaceTriangle> triangles;
+  audit::PieceEstimates estimates{};  ///< of the triangles
   std::vector<audit::LineCrossing> crossings;
 };
 
@@ -81,7 +76,7 @@ class MeshStage {
   MeshFindings run() {
     each_in_order<TileFindings>(
         {task_.threads}, mesh_.grid().size(), [this](std::uint32_t tile) { return look_at(tile); },
-        [this](std::uint32_t tile, TileFindings&& found) { merge(tile, std::move(found)); });
+        [this](std::uint32_t, TileFindings&& found) { merge(std::move(found)); });
     found_.validity.unused.add(mesh_.unused());
     if (validity_.has_gaps) {
       judge_lines();
@@ -125,7 +120,7 @@ class MeshStage {
     take_centres(loaded, out);
     out.faces = audit::tally_faces(view, validity_.frame, validity_.shape, task_.options.periodic);
     task_.between();
-    if (pieces_ != nullptr) take_triangles(stars, out);
+    if (pieces_ != nullptr) take_triangles(tile, stars, out);
     task_.between();
     if (junctions_ != nullptr) {
       out.junctions = audit::mesh_junctions(stars, loaded.names.size());
@@ -139,10 +134,10 @@ class MeshStage {
          audit::centre_runs(loaded.view(), loaded.names.size(), validity_.frame, validity_.shape,
                             task_.options.layers)) {
       run.label = loaded.names.of_whole(run.label);
-      for_each_index(mesh_.grid().meeting(audit::voxels_of(run, validity_.shape)), [&](Index3 at) {
-        out.centres.push_back({mesh_.grid().number(at), run});
-      });
+      for_each_index(mesh_.grid().meeting(audit::voxels_of(run, validity_.shape)),
+                     [&](Index3 at) { out.centres.add(mesh_.grid().number(at), run); });
     }
+    out.centres.pack();
   }
 
   static void take_parts(const LoadedMesh& loaded, const audit::MeshStars& stars,
@@ -162,15 +157,17 @@ class MeshStage {
     out.crossings = audit::line_crossings(stars, validity_.frame, validity_.shape);
   }
 
-  void take_triangles(const audit::MeshStars& stars, TileFindings& out) const {
-    out.triangles = audit::interface_triangles(stars, out.names.size(), lattice_, lattice_shape_,
-                                               validity_.has_gaps);
-    for (audit::InterfaceTriangle& t : out.triangles) {
+  void take_triangles(std::uint32_t tile, const audit::MeshStars& stars, TileFindings& out) const {
+    for (audit::InterfaceTriangle& t : audit::interface_triangles(
+             stars, out.names.size(), lattice_, lattice_shape_, validity_.has_gaps)) {
       for (Label& label : t.labels) label = out.names.of_whole(label);
+      audit::add_estimates(t.corners, out.estimates);
+      out.triangles.add(tile, t);
     }
+    out.triangles.pack();
   }
 
-  void merge(std::uint32_t tile, TileFindings&& found) {
+  void merge(TileFindings&& found) {
     found_.validity.add(found.validity, found.names.whole());
     found_.turned.add(found.turned);
     for (Label own = 0; own < found.pinches.size(); ++own) {
@@ -179,12 +176,12 @@ class MeshStage {
     found_.quality.add(found.quality);
     found_.shape.add(found.shape);
     found_.volumes.add(found.volumes, found.names.whole());
-    for (const auto& [met, run] : found.centres) centres_.add(met, run);
+    centres_.add(found.centres);
     found_.faces.add(found.faces);
     const std::uint32_t first = parts_.add(std::move(found.parts));
     for (const SharedTet& tet : found.shared) links_.add(tet.id, 1, first + tet.part);
     regions_.add(found.regions);
-    for (const audit::InterfaceTriangle& t : found.triangles) pieces_->add(tile, t);
+    if (pieces_ != nullptr) pieces_->add(found.triangles, found.estimates);
     if (junctions_ != nullptr) junctions_->add(JunctionLedger::Side::kMesh, found.junctions);
     for (const audit::LineCrossing& c : found.crossings) {
       crossings_.add({c.column, ordered_bits(c.z), ordered_bits(c.enters)});

@@ -4,6 +4,7 @@
 #include "engine/verify/mesh_tiles.h"
 
 #include <algorithm>
+#include <atomic>
 #include <cmath>
 #include <limits>
 
@@ -102,51 +103,77 @@ void MeshTiles::write_vertices(std::span<const io::Position> positions) {
     if (!is_finite) endless_.add([&] { return std::to_string(vertex); });
     tile_of_vertex_.push_back(
         grid_.at(is_finite ? at.in_voxels(in_array(written)) : audit::Position{}));
-    is_used_.push_back(false);
   }
   positions_.append(std::as_bytes(positions));
 }
 
-bool MeshTiles::in_range(const io::TetRows& tet) {
-  for (const std::uint64_t v : tet) {
+void MeshTiles::write_tets(std::span<const io::TetRows> tets, std::span<const RawLabel> labels) {
+  for (std::size_t i = 0; curved_ && i < tets.size(); ++i) {
+    keep_nodes(tet_count_ + i, tets[i], labels[i]);
+  }
+  add(look_at(tet_count_, tets, labels));
+}
+
+MeshTiles::TetShare MeshTiles::look_at(std::uint64_t first, std::span<const io::TetRows> tets,
+                                       std::span<const RawLabel> labels) {
+  TetShare out{.tet_count = tets.size()};
+  RawLabel last = 0;
+  for (std::size_t i = 0; i < tets.size(); ++i) {
+    Tet tet{.id = first + i, .vertices = tets[i]};
+    if (!in_range(tet, out.range_error)) continue;
+    if (out.labels.empty() || labels[i] != last) {
+      last = labels[i];
+      out.labels.push_back(table_.find(last));
+    }
+    tet.label = out.labels.back() == kExterior ? audit::kUnknown : out.labels.back();
+    add_to_tiles(tet, out.tets);
+  }
+  out.tets.pack();
+  return out;
+}
+
+bool MeshTiles::in_range(const Tet& tet, std::string& error) const {
+  for (const std::uint64_t v : tet.vertices) {
     if (v < tile_of_vertex_.size()) continue;
-    if (range_error_.empty()) {
-      range_error_ = "audit: tet " + std::to_string(tet_count_) + " names vertex " +
-                     std::to_string(v) + " of " + std::to_string(tile_of_vertex_.size());
+    if (error.empty()) {
+      error = "audit: tet " + std::to_string(tet.id) + " names vertex " + std::to_string(v) +
+              " of " + std::to_string(tile_of_vertex_.size());
     }
     return false;
   }
   return true;
 }
 
-void MeshTiles::write_tets(std::span<const io::TetRows> tets, std::span<const RawLabel> labels) {
-  for (std::size_t i = 0; i < tets.size(); ++i) {
-    if (in_range(tets[i])) add(tets[i], labels[i]);
-    if (curved_) keep_nodes(tets[i], labels[i]);
-    ++tet_count_;
-  }
+/// Returns the tile of a vertex, and notes that a tet has it.
+std::uint32_t MeshTiles::use(std::uint64_t vertex) {
+  const std::atomic_ref<std::uint32_t> tile(tile_of_vertex_[vertex]);
+  const std::uint32_t found = tile.load(std::memory_order_relaxed);
+  if ((found & kUsed) == 0) tile.fetch_or(kUsed, std::memory_order_relaxed);
+  return found & ~kUsed;
 }
 
-void MeshTiles::add(const io::TetRows& tet, RawLabel label) {
+void MeshTiles::add_to_tiles(Tet tet, TileShares<Tet>& out) {
   std::array<std::uint32_t, 4> tiles{};
-  for (std::size_t i = 0; i < 4; ++i) {
-    tiles[i] = tile_of_vertex_[tet[i]];
-    is_used_[tet[i]] = true;
-  }
+  for (std::size_t i = 0; i < 4; ++i) tiles[i] = use(tet.vertices[i]);
   std::sort(tiles.begin(), tiles.end());
   const auto end = std::unique(tiles.begin(), tiles.end());
-  Tet record{.id = tet_count_, .vertices = tet};
-  if (is_mirrored_) std::swap(record.vertices[2], record.vertices[3]);
-  const Label dense = table_.find(label);
-  record.label = dense == kExterior ? audit::kUnknown : dense;
-  if (dense != kExterior) labels_[dense] = true;
-  record.is_shared = end - tiles.begin() > 1 ? 1 : 0;
-  for (auto tile = tiles.begin(); tile != end; ++tile) tets_.add(*tile, record);
+  if (is_mirrored_) std::swap(tet.vertices[2], tet.vertices[3]);
+  tet.is_shared = end - tiles.begin() > 1 ? 1 : 0;
+  for (auto tile = tiles.begin(); tile != end; ++tile) out.add(*tile, tet);
+}
+
+void MeshTiles::add(const TetShare& found) {
+  tet_count_ += found.tet_count;
+  tets_.add(found.tets);
+  for (const Label label : found.labels) {
+    if (label != kExterior) labels_[label] = true;
+  }
+  if (range_error_.empty()) range_error_ = found.range_error;
 }
 
 /// Collects the nodes of a curved tet.  A part at a corner has it and the middles of its edges.
-void MeshTiles::keep_nodes(const io::TetRows& part, RawLabel label) {
-  const std::size_t number = tet_count_ % kTetParts.size();
+void MeshTiles::keep_nodes(std::uint64_t tet, const io::TetRows& part, RawLabel label) {
+  const std::size_t number = tet % kTetParts.size();
   for (std::size_t i = 0; i < part.size(); ++i) next_.rows[kTetParts[number][i]] = part[i];
   next_.label = table_.find(label);
   if (number + 1 == kTetParts.size()) curved_tets_.append(std::as_bytes(std::span(&next_, 1)));
@@ -178,10 +205,10 @@ void MeshTiles::measure_curved() {
 
 void MeshTiles::finish() {
   if (curved_ && range_error_.empty() && endless_.count() == 0) measure_curved();
-  for (std::size_t v = 0; v < is_used_.size(); ++v) {
-    if (!is_used_[v]) unused_.add([v] { return std::to_string(v); });
+  for (std::size_t v = 0; v < tile_of_vertex_.size(); ++v) {
+    if ((tile_of_vertex_[v] & kUsed) == 0) unused_.add([v] { return std::to_string(v); });
+    tile_of_vertex_[v] &= ~kUsed;
   }
-  is_used_ = {};
 }
 
 audit::Check MeshTiles::input_check() const {

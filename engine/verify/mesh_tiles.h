@@ -38,9 +38,16 @@ struct LoadedMesh {
 /// Takes a mesh in and gives it back in tiles: each vertex is owned by the tile that it lies in,
 /// and a tile has every tet with a vertex that it owns.  A mesh whose rows or numbers make no sense
 /// is taken note of, not kept.  Memory: `memory_bytes` while it is taken in, and for each vertex 4
-/// bytes and a bit.  Disk: 24 bytes a vertex, some 20 a tet.  ERRORS: see io::ScratchFile;
+/// bytes.  Disk: 24 bytes a vertex, some 20 a tet.  ERRORS: see io::ScratchFile;
 /// kResource from 2^32 - 1 vertices on.
 class MeshTiles : public io::MeshSink {
+  struct Tet {
+    std::uint64_t id = 0;
+    audit::TetRow vertices{};
+    Label label = 0;
+    std::uint32_t is_shared = 0;
+  };
+
  public:
   struct Place {
     std::filesystem::path folder;  ///< of temporary files
@@ -55,6 +62,19 @@ class MeshTiles : public io::MeshSink {
   void begin(const io::MeshHeader& header) override;
   void write_vertices(std::span<const io::Position> positions) override;
   void write_tets(std::span<const io::TetRows> tets, std::span<const RawLabel> labels) override;
+  /// What a thread finds of tets that follow one another.
+  struct TetShare {
+    std::uint64_t tet_count = 0;
+    TileShares<Tet> tets{};
+    std::vector<Label> labels{};  ///< dense
+    std::string range_error{};    ///< names the first tet with a row without a vertex
+  };
+  /// Looks at tets from this one on.  REQUIRES: all vertices were written.  Thread-safe.  Memory:
+  /// 64 bytes a tet.
+  [[nodiscard]] TetShare look_at(std::uint64_t first, std::span<const io::TetRows> tets,
+                                 std::span<const RawLabel> labels);
+  /// Takes the tets that follow the last ones; as write_tets() does with what it looks at itself.
+  void add(const TetShare& found);
   void finish() override;
   [[nodiscard]] std::uint64_t buffer_bytes() const override { return memory_bytes_; }
 
@@ -84,17 +104,11 @@ class MeshTiles : public io::MeshSink {
   [[nodiscard]] LoadedMesh take_tile(std::uint32_t tile);
 
  private:
-  struct Tet {
-    std::uint64_t id = 0;
-    audit::TetRow vertices{};
-    Label label = 0;
-    std::uint32_t is_shared = 0;
-  };
-
   /// Returns whether all vertices of a tet have been written, and notes the first that is not.
-  [[nodiscard]] bool in_range(const io::TetRows& tet);
-  void add(const io::TetRows& tet, RawLabel label);
-  void keep_nodes(const io::TetRows& part, RawLabel label);
+  [[nodiscard]] bool in_range(const Tet& tet, std::string& error) const;
+  [[nodiscard]] std::uint32_t use(std::uint64_t vertex);
+  void add_to_tiles(Tet tet, TileShares<Tet>& out);
+  void keep_nodes(std::uint64_t tet, const io::TetRows& part, RawLabel label);
   void measure_curved();
   [[nodiscard]] audit::Position in_array(const io::Position& p) const;
   [[nodiscard]] LoadedMesh make(const std::vector<Tet>& tets) const;
@@ -110,8 +124,8 @@ class MeshTiles : public io::MeshSink {
   io::MeshHeader header_;
   mutable std::mutex mutex_;
   mutable io::ScratchFile positions_;
-  std::vector<std::uint32_t> tile_of_vertex_;
-  std::vector<bool> is_used_;
+  static constexpr std::uint32_t kUsed = std::uint32_t{1} << 31U;
+  std::vector<std::uint32_t> tile_of_vertex_;  ///< with kUsed until all tets are there
   audit::KeptLabels labels_;
   TileBuckets<Tet> tets_;
   std::uint64_t tet_count_ = 0;

@@ -54,7 +54,7 @@ void PieceBuckets::make_pieces(int threads) {
       {.threads = threads, .at_once = static_cast<std::size_t>(threads)}, grid_.size(),
       [this](std::uint32_t tile) { return pieces_of(tile); },
       [this](std::uint32_t, TilePieces&& found) {
-        for (const PieceOfTile& piece : found.pieces) pieces_.add(piece.tile, piece.piece);
+        pieces_.add(found.pieces);
         for (const audit::InterfaceTriangle& triangle : found.whole) {
           cut(triangle, [this](const PieceOfTile& piece) { pieces_.add(piece.tile, piece.piece); });
         }
@@ -80,13 +80,18 @@ PieceBuckets::TilePieces PieceBuckets::pieces_of(std::uint32_t tile) {
   std::vector<audit::InterfaceTriangle> triangles;
   triangles_.take(tile, triangles);
   TilePieces out;
+  std::size_t pieces = 0;
   for (const audit::InterfaceTriangle& t : triangles) {
-    if (out.pieces.size() >= kMostPieces || audit::radius(t.corners) > kMostRadii * radius_) {
+    if (pieces >= kMostPieces || audit::radius(t.corners) > kMostRadii * radius_) {
       out.whole.push_back(t);
     } else {
-      cut(t, [&](const PieceOfTile& piece) { out.pieces.push_back(piece); });
+      cut(t, [&](const PieceOfTile& piece) {
+        out.pieces.add(piece.tile, piece.piece);
+        ++pieces;
+      });
     }
   }
+  out.pieces.pack();
   return out;
 }
 

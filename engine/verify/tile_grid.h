@@ -1,7 +1,6 @@
 // SPDX-FileCopyrightText: The mwmesh authors
 // SPDX-License-Identifier: Apache-2.0
-// The tiles in which a mesh and a volume are looked at, and what belongs to each of them, in
-// temporary files.
+// The tiles in which a mesh and a volume are looked at, and pieces of interfaces in them.
 #pragma once
 
 #include <algorithm>
@@ -9,7 +8,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "io/file/scratch/packed_scratch.h"
+#include "engine/verify/tile_buckets.h"
 #include "kernels/audit/distance/mesh.h"
 #include "kernels/audit/partition/centres.h"
 #include "kernels/core/index.h"
@@ -43,62 +42,6 @@ class TileGrid {
   Index3 count_;
 };
 
-/// Holds a list of records for each tile, in the order in which they were added.
-/// Memory: `memory_bytes` or 32 records a tile, and 24 bytes each time that a tile's share fills
-/// up.  Disk: a third of what the records take in memory, or half.
-/// Thread safety: one thread adds, or several load and take.  ERRORS: see io::ScratchFile.
-template <typename Record>
-class TileBuckets {
- public:
-  TileBuckets(const std::filesystem::path& folder, std::uint32_t tiles, std::uint64_t memory_bytes)
-      : file_(folder),
-        tiles_(tiles),
-        max_(std::clamp<std::size_t>(memory_bytes / (sizeof(Record) * std::max(tiles, 1U)), kFewest,
-                                     kMax)) {}
-
-  void add(std::uint32_t tile, const Record& record) {
-    Tile& t = tiles_[tile];
-    t.waiting.push_back(record);
-    if (t.waiting.size() < max_) return;
-    t.chunks.push_back(file_.append(t.waiting));
-    t.waiting.clear();
-  }
-
-  [[nodiscard]] std::uint64_t count(std::uint32_t tile) const {
-    std::uint64_t sum = tiles_[tile].waiting.size();
-    for (const io::PackedChunk& chunk : tiles_[tile].chunks) sum += chunk.records;
-    return sum;
-  }
-
-  /// Adds the tile's records to a list.
-  void load(std::uint32_t tile, std::vector<Record>& out) const {
-    const Tile& t = tiles_[tile];
-    out.reserve(out.size() + count(tile));
-    for (const io::PackedChunk& chunk : t.chunks) file_.read(chunk, out);
-    out.insert(out.end(), t.waiting.begin(), t.waiting.end());
-  }
-
-  /// Adds the tile's records to a list and lets go of them, on disk, too.
-  void take(std::uint32_t tile, std::vector<Record>& out) {
-    load(tile, out);
-    for (const io::PackedChunk& chunk : tiles_[tile].chunks) file_.give_up(chunk);
-    tiles_[tile] = {};
-  }
-
- private:
-  static constexpr std::size_t kFewest = 32;
-  static constexpr std::size_t kMax = 4096;
-
-  struct Tile {
-    std::vector<Record> waiting;
-    std::vector<io::PackedChunk> chunks;
-  };
-
-  io::PackedScratch<Record> file_;
-  std::vector<Tile> tiles_;
-  std::size_t max_;
-};
-
 /// Triangles are added first, with dense labels of the whole volume, in voxels of the lattice; then
 /// pieces are made of all of them.
 class PieceBuckets {
@@ -110,9 +53,11 @@ class PieceBuckets {
         triangles_(folder, grid.size(), memory_bytes / 2),
         pieces_(folder, grid.size(), memory_bytes / 2) {}
 
-  void add(std::uint32_t tile, const audit::InterfaceTriangle& triangle) {
-    triangles_.add(tile, triangle);
-    audit::add_estimates(triangle.corners, estimates_);
+  /// Adds triangles, with the sum of their estimates.
+  void add(const TileShares<audit::InterfaceTriangle>& triangles,
+           const audit::PieceEstimates& estimates) {
+    triangles_.add(triangles);
+    for (std::size_t i = 0; i < estimates.size(); ++i) estimates_[i] += estimates[i];
   }
   /// REQUIRES: called once, after the last triangle, which lets go of them.  Memory: a tile's
   /// triangles twice, and 6 MiB, for each thread.
@@ -130,7 +75,7 @@ class PieceBuckets {
     audit::InterfaceTriangle piece;
   };
   struct TilePieces {
-    std::vector<PieceOfTile> pieces;
+    TileShares<audit::InterfaceTriangle> pieces;
     std::vector<audit::InterfaceTriangle> whole;  ///< triangles that are still to be cut
   };
 

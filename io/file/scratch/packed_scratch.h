@@ -23,9 +23,15 @@ struct PackedChunk {
   std::uint64_t records = 0;
 };
 
+/// Records that are packed, for PackedScratch::append().
+struct PackedBatch {
+  std::vector<std::byte> bytes;
+  std::uint64_t records = 0;
+};
+
 /// Lists of records of one type, which are read as they were appended.
-/// Thread safety: one thread appends, or several read and give up.  ERRORS: see ScratchFile;
-/// mw::Error(kInput) where the disk gives back other bytes than were written.
+/// Thread safety: one thread appends, or several read and give up; any packs.  ERRORS: see
+/// ScratchFile; mw::Error(kInput) where the disk gives back other bytes than were written.
 template <typename Record>
 class PackedScratch {
   static_assert(std::is_trivially_copyable_v<Record> && sizeof(Record) <= 255);
@@ -35,10 +41,14 @@ class PackedScratch {
   explicit PackedScratch(const std::filesystem::path& folder) : file_(folder) {}
 
   /// REQUIRES: some records, less than 2 GiB.
-  [[nodiscard]] PackedChunk append(std::span<const Record> records) {
-    const std::vector<std::byte> packed = pack_rows(std::as_bytes(records), sizeof(Record));
-    const PackedChunk chunk{file_.size(), packed.size(), records.size()};
-    file_.append(packed);
+  [[nodiscard]] static PackedBatch pack(std::span<const Record> records) {
+    PackedBatch out{pack_rows(std::as_bytes(records), sizeof(Record)), records.size()};
+    out.bytes.shrink_to_fit();
+    return out;
+  }
+  [[nodiscard]] PackedChunk append(const PackedBatch& batch) {
+    const PackedChunk chunk{file_.size(), batch.bytes.size(), batch.records};
+    file_.append(batch.bytes);
     return chunk;
   }
 
@@ -75,7 +85,7 @@ class PackedRecords {
   void append(const Record& record) {
     waiting_.push_back(record);
     if (waiting_.size() < kBatch) return;
-    chunks_.push_back(file_.append(waiting_));
+    chunks_.push_back(file_.append(file_.pack(waiting_)));
     waiting_.clear();
   }
 

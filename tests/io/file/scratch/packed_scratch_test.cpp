@@ -30,7 +30,7 @@ TEST(PackedScratch, GivesEachChunkBack) {
   std::vector<PackedChunk> chunks;
   for (int i = 0; i < 100; ++i) {
     expected.push_back(random_records(random, 1 + random() % 5000));
-    chunks.push_back(file.append(expected.back()));
+    chunks.push_back(file.append(PackedScratch<Record>::pack(expected.back())));
     EXPECT_EQ(chunks.back().records, expected.back().size());
   }
   std::vector<bool> is_there(chunks.size(), true);
