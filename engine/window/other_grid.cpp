@@ -8,16 +8,16 @@
 #include <vector>
 
 #include "kernels/core/face_sample.h"
+#include "kernels/odt/codt.h"
 
 namespace mw::engine {
 namespace {
 
 /// Ids of vertices that are made in a window have this bit (steiner_ids()).
-constexpr VertexId kMadeInWindow = VertexId{1} << 63U;
+constexpr VertexId kMadeInWindow = VertexId{1} << kSteinerBit;
 /// Above the number of a corner there are two bits for each axis: in the plane where the volume
 /// begins, and beyond the one where it ends.
-constexpr unsigned kCopyShift = 57;
-constexpr VertexId kCorner = (VertexId{1} << kCopyShift) - 1;
+constexpr VertexId kNumber = (VertexId{1} << kCopyBits) - 1;
 
 /// Gives vertices the ids that they have in a grid.
 class Ids {
@@ -31,8 +31,8 @@ class Ids {
   }
 
   [[nodiscard]] VertexId at(VertexId id, Point place) const {
-    if ((id & kMadeInWindow) != 0) return id;
-    const Index3 in_volume = index_at(id & kCorner, corners_);
+    const bool is_made = (id & kMadeInWindow) != 0;
+    const Index3 in_volume = index_at(is_made ? 0 : id & kNumber, corners_);
     std::array<std::int64_t, 3> corner{in_volume.x, in_volume.y, in_volume.z};
     VertexId copy = 0;
     for (unsigned axis = 0; axis < 3; ++axis) {
@@ -46,7 +46,8 @@ class Ids {
         copy |= VertexId{units == 0 ? 1U : 2U} << 2 * axis;
       }
     }
-    return copy << kCopyShift | raster({corner[0], corner[1], corner[2]}, corners_);
+    if (is_made) return copy << kCopyBits | (id & (kMadeInWindow | kNumber));
+    return copy << kCopyBits | raster({corner[0], corner[1], corner[2]}, corners_);
   }
 
  private:

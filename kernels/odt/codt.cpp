@@ -11,8 +11,6 @@
 namespace mw {
 namespace {
 
-constexpr int kSteinerBit = 63;
-
 /// Positions of Steiner points on the lattice; only the first `ids` points can have one.
 std::vector<std::optional<Point>> on_lattice(const PlcFrame& frame, const Triangulation& made,
                                              std::uint64_t ids) {
@@ -73,7 +71,7 @@ class Window {
 }  // namespace
 
 SteinerIds steiner_ids(std::uint64_t window, std::uint64_t windows) {
-  const int bits = kSteinerBit - static_cast<int>(std::bit_width(windows - 1));
+  const int bits = kCopyBits - static_cast<int>(std::bit_width(windows - 1));
   return {VertexId{1} << kSteinerBit | window << bits, std::uint64_t{1} << bits};
 }
 

@@ -11,14 +11,18 @@
 
 namespace mw {
 
-/// Ids that a window may give to Steiner points.  Voxel corners have smaller ids than any of these,
-/// and no two windows of a march share one.
+/// Ids with this bit are those of vertices that a window made; voxel corners have smaller ones.
+constexpr int kSteinerBit = 63;
+/// Ids have 0 from here to kSteinerBit, except in grids that tell copies of a vertex apart there.
+constexpr int kCopyBits = 57;
+
+/// Ids that a window may give to Steiner points.  No two windows of a march share one.
 struct SteinerIds {
   VertexId first = 0;
   std::uint64_t count = 0;
 };
 
-/// Range of ids of window number `window` among `windows`.  REQUIRES: window < windows <= 2^57.
+/// Range of ids of window number `window` among `windows`.  REQUIRES: window < windows <= 2^51.
 [[nodiscard]] SteinerIds steiner_ids(std::uint64_t window, std::uint64_t windows);
 
 struct CodtOptions {

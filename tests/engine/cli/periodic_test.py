@@ -137,6 +137,12 @@ class Periodic(unittest.TestCase):
             with self.subTest(axes):
                 self.mesh("grains.npy", axes, "m.vtu", "--inner-vertices")
                 self.check("m.vtu", axes)
+        for shape in ((4, 1, 1), (4, 4, 2)):  # a window sees both ends of such a cell
+            with self.subTest(shape):
+                np.save("thin.npy", np.random.default_rng(3).integers(0, 3, shape, np.uint8))
+                self.mesh("thin.npy", "xyz", "m.vtu", "--inner-vertices", "--quality-floor", "0.3")
+                run("verify", "thin.npy", "m.vtu")
+                self.check("m.vtu", "xyz")
 
     def test_again_after_an_edit(self):
         """What an edit at one face changes beyond the other one is meshed again, too."""

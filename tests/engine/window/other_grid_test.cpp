@@ -3,6 +3,7 @@
 // Blocks in grids that begin elsewhere: the way there and back, and which vertices become one.
 #include "engine/window/other_grid.h"
 
+#include "kernels/odt/codt.h"
 #include "tests/kernels/mesh/dense_mesh.h"
 
 namespace mw::engine {
@@ -79,6 +80,30 @@ TEST(OtherGrid, PlacesAndVerticesAreTheSame) {
     joined += ids != before ? 1 : 0;
   }
   EXPECT_GT(joined, 30);
+}
+
+/// A vertex that a window made is in two places, too, where a tet crosses the plane in which the
+/// grid begins: with two blocks along an axis one window sees both.
+TEST(OtherGrid, MadeVerticesAtBothEndsAreApart) {
+  constexpr std::int32_t kHalf = kUnitsPerVoxel / 2;
+  const SteinerIds ids = steiner_ids(7, 20);
+  const WindowGrid plain({4, 4, 4}, 4, {0, 0, 0}), grid({4, 4, 4}, 4, {0, 1, 0});
+  const BlockVertex low{ids.first, {kHalf, kHalf, kHalf}, {}},
+      shared{ids.first + 1, {kHalf, 5 * kHalf, kHalf}, {}};
+  const BlockMesh one{{low, shared}, {}, {}}, other{{shared}, {}, {}};
+  const Index3 first{0, 0, 0}, second{0, 1, 0};
+  const auto there = [&](const BlockMesh& content, Index3 block) {
+    return in_other_grid(content, {plain, block}, {grid, grid.in_grid(block)});
+  };
+  const auto back = [&](const BlockMesh& content, Index3 block) {
+    return in_other_grid(content, {grid, grid.in_grid(block)}, {plain, block});
+  };
+  const BlockMesh moved = there(one, first), stays = there(other, second);
+  EXPECT_EQ(stays.vertices.at(0).position.y, 5 * kHalf);
+  EXPECT_EQ(moved.vertices.at(1).position.y, 13 * kHalf);
+  EXPECT_NE(stays.vertices[0].id, moved.vertices[1].id);
+  EXPECT_TRUE(back(moved, first) == one);
+  EXPECT_TRUE(back(stays, second) == other);
 }
 
 /// Samples keep their place relative to their triangles.
