@@ -236,15 +236,20 @@ void require_room_for_wedges(const MeshRequest& request) {
 }
 
 void check_request_together(const MeshRequest& request) {
+  constexpr unsigned kAllAxes = 7;
   const engine::KeepOptions& keep = request.job.run.keep;
-  engine::check_together({.update = !request.from.empty(),
-                          .changed = !keep.changed.empty(),
-                          .delta = !request.delta.empty(),
-                          .periodic = request.job.settings.periodic != 0,
-                          .object = !request.volume.open.object.empty(),
-                          .curves = request.element == io::Element::kCurvedTet10,
-                          .doubles = request.job.connect.double_vertices(),
-                          .pairs = !request.extras.pairs.empty()});
+  const io::Deck deck = request.extras.deck;
+  engine::check_together(
+      {.update = !request.from.empty(),
+       .changed = !keep.changed.empty(),
+       .delta = !request.delta.empty(),
+       .periodic = request.job.settings.periodic != 0,
+       .whole_cell = request.job.settings.periodic == kAllAxes,
+       .object = !request.volume.open.object.empty(),
+       .curves = request.element == io::Element::kCurvedTet10,
+       .doubles = request.job.connect.double_vertices(),
+       .pairs = !request.extras.pairs.empty(),
+       .cell_job = deck == io::Deck::kPeriodic || deck == io::Deck::kConduction});
 }
 
 /// Settles what is done with the folder: --from updates what an earlier run left there, --resume

@@ -64,6 +64,12 @@ constexpr std::array kRules{
     Rule{&Asked::pairs, kNotWith, &Asked::doubles,
          "--pairs: are not known where vertices are doubled; leave out --split, --cohesive and "
          "--open-hinges"},
+    Rule{
+        &Asked::cell_job, kNeeds, &Asked::whole_cell,
+        "--deck periodic, conduction: is a job of a cell that repeats itself, give --periodic xyz"},
+    Rule{&Asked::cell_job, kNotWith, &Asked::doubles,
+         "--deck periodic, conduction: pairs of nodes are not known where vertices are doubled; "
+         "leave out --split, --cohesive and --open-hinges"},
 };
 
 }  // namespace

@@ -14,16 +14,18 @@ struct Asked {
   bool delta = false;       ///< what an edit did
   bool colour = false;      ///< the order in which windows are visited
   bool periodic = false;
-  bool count = false;   ///< a number of tets
-  bool many = false;    ///< several processes
-  bool object = false;  ///< a box that is found around an object
-  bool scores = false;  ///< labels that come from probabilities or distances
+  bool whole_cell = false;  ///< periodic along all axes
+  bool count = false;       ///< a number of tets
+  bool many = false;        ///< several processes
+  bool object = false;      ///< a box that is found around an object
+  bool scores = false;      ///< labels that come from probabilities or distances
   bool merge = false;
   bool interpolate = false;  ///< labels between thick slices
   bool weld = false;
-  bool curves = false;   ///< curved tets
-  bool doubles = false;  ///< doubled vertices
-  bool pairs = false;    ///< a file of the pairs of nodes
+  bool curves = false;    ///< curved tets
+  bool doubles = false;   ///< doubled vertices
+  bool pairs = false;     ///< a file of the pairs of nodes
+  bool cell_job = false;  ///< a job of a cell that repeats itself
 };
 
 /// ERRORS: mw::Error(kUsage) for the first row of the table that is broken.

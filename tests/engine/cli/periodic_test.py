@@ -2,6 +2,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """Cells that repeat themselves: the same triangles on opposite faces, and the pairs of their nodes."""
 import csv
+import os
 import re
 import shutil
 import subprocess
@@ -259,9 +260,14 @@ class Periodic(unittest.TestCase):
         for options, words in ((("grains.npy", "--pairs", "p.csv"), "give --periodic"),
                                (("grains.npy", "--periodic", "x", "--pairs", "p.csv", "--split", "*"),
                                 "vertices are doubled"),
-                               (("grains.npy", "--periodic", "x", "--pairs", "p.txt"), "written as .csv")):
+                               (("grains.npy", "--periodic", "x", "--pairs", "p.txt"), "written as .csv"),
+                               (("grains.npy", "--periodic", "xy", "--deck", "periodic"),
+                                "give --periodic xyz"),
+                               (("grains.npy", "--periodic", "xyz", "--deck", "conduction", "--open-hinges"),
+                                "vertices are doubled")):
             with self.subTest(options):
-                refused([words], "mesh", *options, "-o", "refused.vtu", code=2)
+                refused([words], "mesh", *options, "-o", "refused.inp", code=2)
+                self.assertFalse(os.path.exists("refused.inp.work"))
         run("mesh", "grains.npy", "-o", "plain.vtu", "--force")
         refused(["not made with --periodic"], "convert", "plain.vtu", "plain.inp", "--pairs", "p.csv",
                 code=2)

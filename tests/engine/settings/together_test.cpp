@@ -45,6 +45,9 @@ TEST(Together, IsRefusedWhereItContradictsItself) {
       {{.curves = true, .doubles = true}, "--element tet10-curved:"},
       {{.pairs = true}, "--pairs: only"},
       {{.periodic = true, .doubles = true, .pairs = true}, "--pairs: are"},
+      {{.periodic = true, .cell_job = true}, "--deck periodic, conduction: is a job"},
+      {{.whole_cell = true, .doubles = true, .cell_job = true},
+       "--deck periodic, conduction: pairs"},
   };
   for (const Row& row : rows) EXPECT_EQ(refusal(row.asked).rfind(row.begin, 0), 0U) << row.begin;
 }
@@ -66,6 +69,7 @@ TEST(Together, IsAllowedWhereNothingIsInTheWay) {
         .weld = true},
         Asked{.periodic = true, .many = true},
         Asked{.periodic = true, .count = true, .scores = true, .curves = true, .pairs = true},
+        Asked{.periodic = true, .whole_cell = true, .cell_job = true},
         Asked{.merge = true, .weld = true, .doubles = true}}) {
     EXPECT_EQ(refusal(asked), "");
   }
