@@ -59,17 +59,24 @@ Vector3 centre_of(const FileSpace& space, const Vector3& voxel) {
   return out;
 }
 
-/// Returns how far the two forms are apart at most, at a corner of the volume; 0 where a form makes
+/// Where two forms are farthest apart among the corners of the volume.
+struct Apart {
+  double way = 0;
+  Index3 voxel;
+  Vector3 one{}, other{};  ///< the voxel's centre by either form
+};
+
+/// Takes the first corner of those that differ by rounding alone.  The way is 0 where a form makes
 /// no sense.
-double way_between(const FileSpace& a, const FileSpace& b, Index3 shape) {
-  double most = 0;
+Apart farthest_apart(const FileSpace& a, const FileSpace& b, Index3 shape) {
+  Apart most;
   for_each_index({{0, 0, 0}, {2, 2, 2}}, [&](Index3 corner) {
-    const Vector3 voxel{static_cast<double>(corner.x * (shape.x - 1)),
-                        static_cast<double>(corner.y * (shape.y - 1)),
-                        static_cast<double>(corner.z * (shape.z - 1))};
+    const Index3 at{corner.x * (shape.x - 1), corner.y * (shape.y - 1), corner.z * (shape.z - 1)};
+    const Vector3 voxel{static_cast<double>(at.x), static_cast<double>(at.y),
+                        static_cast<double>(at.z)};
     const Vector3 one = centre_of(a, voxel), other = centre_of(b, voxel);
     const double way = std::hypot(one[0] - other[0], one[1] - other[1], one[2] - other[2]);
-    if (std::isfinite(way)) most = std::max(most, way);
+    if (std::isfinite(way) && way > most.way * (1 + 1e-6)) most = {way, at, one, other};
   });
   return most;
 }
@@ -80,12 +87,14 @@ std::string note_of_forms(const NiftiHeader& header, std::string_view file) {
   constexpr double kAgree = 0.1;
   double edge = std::numeric_limits<double>::infinity();
   for (const Vector3& step : header.space.steps) edge = std::min(edge, std::sqrt(dot(step, step)));
-  const double voxels = way_between(header.space, *header.qform, header.shape) / edge;
+  const Apart apart = farthest_apart(header.space, *header.qform, header.shape);
+  const double voxels = apart.way / edge;
   if (!(voxels > kAgree)) return {};
-  const Vector3 &sform = *header.space.first, &qform = *header.qform->first;
+  const auto& [way, voxel, sform, qform] = apart;
   return text(file, ": sform and qform differ by up to ", std::round(10 * voxels) / 10,
-              " voxels: the first voxel is at ", sform[0], ",", sform[1], ",", sform[2],
-              " by the sform, which is taken, and at ", qform[0], ",", qform[1], ",", qform[2],
+              " voxels: the centre of voxel ", voxel.x, ",", voxel.y, ",", voxel.z, " is at ",
+              sform[0], ",", sform[1], ",", sform[2], " by the sform, which is taken, and at ",
+              qform[0], ",", qform[1], ",", qform[2],
               " by the qform, which --use-form qform takes");
 }
 

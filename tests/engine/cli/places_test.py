@@ -146,11 +146,18 @@ class Places(unittest.TestCase):
             self.assertEqual(run("digest", f"{name}.mesh"), run("digest", "scanner.mesh"))
         told = start("mesh", "moved.nii", "-o", "sform.mesh")
         self.assertEqual(told.returncode, 0)
-        self.assertIn("sform and qform differ by up to 12 voxels", told.stderr)
+        self.assertIn("sform and qform differ by up to 12 voxels: the centre of voxel 0,0,0 is at", told.stderr)
         self.assertNotEqual(run("digest", "sform.mesh"), run("digest", "scanner.mesh"))
         told = start("mesh", "sheared.nii", "-o", "a.mesh")
         self.assertEqual(told.returncode, 3)
         self.assertIn("--use-form qform", told.stderr)
+        # The voxel that is named is one whose places differ.
+        image.header.set_sform(numpy.diag([-1.0, 1, 1, 1]), 4)
+        image.header.set_qform(numpy.eye(4), 1)
+        nibabel.save(nibabel.Nifti1Image(self.labels, None, image.header), "flipped.nii")
+        last = self.labels.shape[0] - 1
+        self.assertIn(f"voxel {last},0,0 is at -{last},0,0 by the sform, which is taken, and at {last},0,0",
+                      start("info", "flipped.nii").stderr)
         # An image beside the labels lies by the same form.
         run("mesh", "sheared.nii", "-o", "s.vtu", "--use-form", "qform", "--sample",
             "own=sheared.nii:mode")
