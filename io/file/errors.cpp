@@ -35,6 +35,9 @@ void fail_output(std::string_view path, std::string_view action, int error_numbe
     case ELOOP:
     case EINVAL:
       fail_usage(start + "; give a path in an existing, writable folder");
+    case EMFILE:
+    case ENFILE:
+      throw Error(ErrorKind::kResource, start + "; raise ulimit -n");
     default:
       throw Error(ErrorKind::kResource, start + "; check the disk and its limits");
   }

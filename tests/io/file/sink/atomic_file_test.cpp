@@ -119,7 +119,7 @@ TEST(FileSource, ShortReadNamesFileOffsetAndLength) {
                [&] { source.read_at(2, bytes); });
 }
 
-TEST(FileSource, TooManyOpenFilesAreNoBadInput) {
+TEST(TooManyOpenFiles, AreNoBadInput) {
   const TempDir dir;
   const auto path = dir.file("a.bin", "12345");
   rlimit usual{};
@@ -127,6 +127,8 @@ TEST(FileSource, TooManyOpenFilesAreNoBadInput) {
   const rlimit none{.rlim_cur = 0, .rlim_max = usual.rlim_max};
   ASSERT_EQ(::setrlimit(RLIMIT_NOFILE, &none), 0);
   expect_error(ErrorKind::kResource, {"a.bin", "ulimit -n"}, [&] { FileSource source(path); });
+  expect_error(ErrorKind::kResource, {"b.bin", "ulimit -n"},
+               [&] { AtomicFile file(dir.path() / "b.bin"); });
   ASSERT_EQ(::setrlimit(RLIMIT_NOFILE, &usual), 0);
   EXPECT_EQ(FileSource(path).size(), 5U);
 }
