@@ -87,8 +87,11 @@ def _pairs(of, value: "_Pairs", name):
     return ",".join("|".join(_label(of, one, name) for one in pair) for pair in value)
 
 
-def _sizes(of, value, _name):
+def _sizes(of, value, name):
     """Sizes as the command line has them, with labels by name or by number."""
+    if np.ndim(value) != 0:
+        raise unexpected(name, "a number, {label: size} or '@' and the path of a table or an image",
+                         value)
     if not isinstance(value, dict):
         return _plain(value)
     return ",".join(f"{_size_place(of, key)}={_plain(size)}" for key, size in value.items())

@@ -201,7 +201,7 @@ class Session:
             return np.broadcast_to(labels, part.shape)
         except ValueError:
             raise unexpected("values", f"a label, or an array of shape {part.shape}",
-                             f"one of shape {labels.shape}") from None
+                             labels) from None
 
     def _is_exact(self, labels):
         """Whether the array holds these labels to the last digit.  Floats do not hold all of them,

@@ -24,7 +24,8 @@ def about(name, error):
 
 def unexpected(name, expected, value):
     """Returns the error for a value that is not what was expected."""
-    return about(name, UsageError(f"{name}: expected {expected}, got {value!r}"))
+    got = f"an array of shape {value.shape}" if isinstance(value, np.ndarray) else repr(value)
+    return about(name, UsageError(f"{name}: expected {expected}, got {got}"))
 
 
 def check_names(arguments, known, others=()):

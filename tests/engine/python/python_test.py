@@ -1231,6 +1231,8 @@ class Errors(InFolder):
             for value in bad:
                 with self.subTest(name=name, value=value):
                     self.check(ValueError, name, labels, **{name: value})
+        self.check(ValueError, "got an array of shape", labels,
+                   size=np.ones(labels.shape))
         self.check(ValueError, "path with ';' in it", labels, sample={"hu": self.path("a;b.npy")})
         self.check(ValueError, "did you mean spacing", labels, call=mwmesh.as_volume, spacings=1)
         self.check(ValueError, "max_distance", labels, call=mwmesh.mesh(labels).verify, max_distance=1)
