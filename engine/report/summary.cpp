@@ -35,7 +35,8 @@ std::string volumes_text(const Json& report) {
   const double error = worst["volume_error"].number();
   return "volumes     off by " + std::string(error > 0 ? "+" : "") + format_percent(error, 1) +
          " at most, in label " + text_of_row(worst) +
-         told(" ({labels_measured} of 1,000 voxels and more)\n", report["shape"]);
+         told(" ({labels_measured} of 1,000 voxels and more", report["shape"]) +
+         without_parts(report) + ")\n";
 }
 
 std::string labels_text(const Json& report) {
@@ -177,6 +178,12 @@ std::string space_text(const Json& input) {
 }
 
 }  // namespace
+
+std::string without_parts(const Json& report) {
+  const Json& parts = report["parts"];
+  if (parts.is_null() || parts["found"].integer() == parts["written"].integer()) return "";
+  return "; without the parts that are left out";
+}
 
 std::string summary_text(const Json& report) {
   std::string out =

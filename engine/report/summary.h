@@ -13,6 +13,9 @@ namespace mw::report {
 /// time and file.  REQUIRES: the keys of run_report(); lines about what is null are left out.
 [[nodiscard]] std::string summary_text(const io::Json& report);
 
+/// Returns what figures of volumes need where parts of labels were left out; else "".
+[[nodiscard]] std::string without_parts(const io::Json& report);
+
 /// Returns a line for each thing to look at, and last the suggestion, if there is one.
 [[nodiscard]] std::string attention_text(const io::Json& report);
 

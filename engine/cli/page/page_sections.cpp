@@ -9,6 +9,7 @@
 
 #include "engine/cli/page/html_text.h"
 #include "engine/cli/requests.h"
+#include "engine/report/summary.h"
 #include "io/mesh/open_mesh.h"
 
 namespace mw::cli {
@@ -92,10 +93,11 @@ Json check_of(const Json& report, const std::string& name) {
 Verdict volume_verdict(const Json& report) {
   constexpr double kSmooth = 0.05;  // the default of verify
   constexpr const char* kPromise = "Labels of 1,000 voxels and more keep their volumes.";
-  const std::string evidence =
+  std::string evidence =
       told("off by {volume_error_max_abs:2%} at most (label {volume_error_worst_label})",
            report["shape"]);
   if (evidence.empty()) return unchecked("P8", kPromise, "no label is that large");
+  evidence += report::without_parts(report);
   const Json& why_not = report["certificate"]["volumes_not_promised"];
   if (!why_not.is_null()) {
     return unchecked("P8", kPromise, evidence + "; not promised with " + why_not.text());

@@ -64,6 +64,18 @@ class Parts(unittest.TestCase):
     def test_one_part_is_not_told(self):
         self.assertNotIn(" hang", run("mesh", "v.npy", "-o", "all.vtu", "--surface", "voxel"))
 
+    def test_volumes_say_that_parts_are_left_out(self):
+        v = np.zeros((24, 14, 14), np.uint8)
+        v[2:12, 2:12, 2:12] = v[14:22, 2:10, 2:10] = 1
+        np.save("two.npy", v)
+        for rule, is_told in (("all", False), ("largest", True)):
+            said = run("mesh", "two.npy", "-o", "two.vtu", "--force", "--background", 0, "--parts", rule,
+                       "--html", "two.html")
+            line = next(x for x in said.splitlines() if x.startswith("volumes "))
+            self.assertEqual("without the parts that are left out" in line, is_told, line)
+            page = pathlib.Path("two.html").read_text(encoding="utf-8")
+            self.assertEqual("without the parts that are left out" in page, is_told)
+
     def test_those_that_are_asked_for_are_kept(self):
         for rule, parts, labels in (("largest", 1, {1, 2}), (1, 5, {1, 2, 3, 4})):
             for name in ("p.vtu", "p.vtkhdf", "p.mesh"):
