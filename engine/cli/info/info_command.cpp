@@ -168,7 +168,9 @@ int run_info(InfoJob& job, const OptionSet& options) {
     tell_of_mesh(job);
     return kExitDone;
   }
-  if (has_volume) io::fail_usage("--volume: FILE must be a mesh then");
+  if (has_volume) {
+    io::fail_usage(job.file.string() + ": is no mesh, as FILE must be where VOLUME is given");
+  }
   if (job.betti || job.contacts || job.csv) {
     io::fail_usage("--betti, --contacts and --csv: FILE must be a mesh then");
   }
