@@ -200,6 +200,7 @@ std::uint64_t fit_interfaces(TetMesh& mesh, const Metric& metric, const Optimise
                                .area = 0.3,
                                .junction_area = 0.03,
                                .bend = 0.0,
+                               .speck = 0.0,
                                .with_pressure = false};
   // One step a visit is enough, because vertices that contraction leaves are visited again.
   Smoother smoother(mesh, metric,

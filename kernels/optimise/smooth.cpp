@@ -30,6 +30,8 @@ constexpr double kNoLimit = std::numeric_limits<double>::infinity();
 /// Steps of the searches around a fold and around a foot in a plane, as shares of the mean edge.
 constexpr std::array<double, 4> kSearchSteps{0.4, 0.2, 0.1, 0.05};
 constexpr int kHalvings = 2;
+/// The bound on distance often refuses as large a step as the volume of a speck asks for.
+constexpr int kHalvingsOfSpecks = 5;
 /// How often the way to a plane is halved before it is given up.
 constexpr int kHalvingsToPlane = 4;
 
@@ -311,8 +313,11 @@ bool Smoother::smooth(LocalVertex v) {
   const bool folded =
       fitted && options_.surface->bend > 0.0 && surface_energy_.min_cosine() < kSharpCosine;
   if (folded) search_around(mover, surface_, best);
-  const bool moved = take(mover, start, best, enough, folded || limits_.any() ? kHalvings : 0,
-                          [&](Point x) { return move_to(v, x); });
+  const int halvings = fitted && surface_energy_.has_specks() ? kHalvingsOfSpecks
+                       : folded || limits_.any()              ? kHalvings
+                                                              : 0;
+  const bool moved =
+      take(mover, start, best, enough, halvings, [&](Point x) { return move_to(v, x); });
   if (fitted && debts_ != nullptr) {
     debts_->set(v, surface_energy_.debts_at(metric_.vector(start, mesh_.position(v))));
   }

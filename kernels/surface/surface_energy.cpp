@@ -224,8 +224,8 @@ void SurfaceEnergy::collect(const TetMesh& mesh, const Metric& metric, const Sur
   square_.setZero();
   linear_.setZero();
   pressure_.setZero();
-  line_square_.setZero();
-  line_linear_.setZero();
+  own_square_.setZero();
+  own_linear_.setZero();
   mass_ = 0.0;
   unit_normals_.clear();
   balances_.clear();
@@ -244,22 +244,34 @@ void SurfaceEnergy::collect(const TetMesh& mesh, const Metric& metric, const Sur
   area_weight_ = on_box ? 0.0 : two_labels ? weights_.area : weights_.junction_area;
   bend_weight_ = weights_.bend / kUsualSpokes;
   needle_weight_ = weights_.needle / kUsualSpokes;
-  const bool is_kept = yield_to_thin(mesh.position(v), guard, two_labels);
+  const bool is_kept = yield_to_thin(find_thin(mesh, metric, guard.labels()), two_labels);
   if (curvature != nullptr && area_weight_ > 0.0) find_pressure(*curvature);
   if (debts != nullptr && mass_ > 0.0) {
     take_debts(*debts);
     if (is_kept) remember(*debts);
     if (!is_kept && two_labels) yield_to(*debts);
   }
+  add_specks();
   gather_corners();
   present_ = raw_value_at(Vec3::Zero());
+}
+
+void SurfaceEnergy::add_specks() {
+  // One that has nearly vanished must not outweigh all else.
+  constexpr double kLeastShare = 0.1;
+  for (const SpeckVolume& speck : specks_) {
+    const double weight = weights_.speck / std::clamp(speck.share, kLeastShare, 1.0);
+    own_square_ += weight * speck.slope * speck.slope.transpose();
+    own_linear_ += weight * (1.0 - speck.share) * speck.slope;
+  }
 }
 
 void SurfaceEnergy::add_line(const LinePlace& place) {
   const Eigen::Matrix3d across =
       Eigen::Matrix3d::Identity() - place.direction * place.direction.transpose();
-  line_square_ = weights_.line * place.share / (place.edge * place.edge) * across;
-  line_linear_ = line_square_ * place.place;
+  const Eigen::Matrix3d square = weights_.line * place.share / (place.edge * place.edge) * across;
+  own_square_ += square;
+  own_linear_ += square * place.place;
   present_ = raw_value_at(Vec3::Zero());
 }
 
@@ -273,8 +285,8 @@ void SurfaceEnergy::add_line_planes(const Metric& metric, Point at, const LabelB
     }
     const auto plane = plane_of_faces(labels, metric, at, {b.low, b.high}, unit(towards_high));
     if (!plane) continue;
-    line_square_ += weight * plane->normal * plane->normal.transpose();
-    line_linear_ += weight * plane->height * plane->normal;
+    own_square_ += weight * plane->normal * plane->normal.transpose();
+    own_linear_ += weight * plane->height * plane->normal;
   }
   present_ = raw_value_at(Vec3::Zero());
 }
@@ -427,8 +439,7 @@ void SurfaceEnergy::yield_to(const VolumeDebts& debts) {
 }
 
 /// Changes the weights of what would pull a thin label to nothing.  Returns whether debts add up.
-bool SurfaceEnergy::yield_to_thin(Point place, const DistanceGuard& guard, bool two_labels) {
-  const std::optional<ThinLabel> thin = find_thin(guard.labels(), place);
+bool SurfaceEnergy::yield_to_thin(const std::optional<ThinLabel>& thin, bool two_labels) {
   if (!thin) return false;
   if (two_labels) {
     const ThinShares& shares = thin->is_speck && area_weight_ > 0.0 ? kAtSpeck
@@ -443,19 +454,27 @@ bool SurfaceEnergy::yield_to_thin(Point place, const DistanceGuard& guard, bool 
   return thin->is_sheet || thin->is_thread || weights_.keep_thin;
 }
 
-/// Returns what is true of any of v's labels that are thin there, and nothing if none is.
-std::optional<ThinLabel> SurfaceEnergy::find_thin(const LabelBox& labels, Point place) const {
+/// Returns what is true of any of v's labels that are thin there, and nothing if none is.  Measures
+/// specks, where their volumes count.
+std::optional<ThinLabel> SurfaceEnergy::find_thin(const TetMesh& mesh, const Metric& metric,
+                                                  const LabelBox& labels) {
+  specks_.clear();
   std::optional<ThinLabel> out;
+  const LocalVertex v = star_->vertex();
   for (auto b = balances_.begin(); b != balances_.end(); ++b) {
     for (const Label label : {b->low, b->high}) {
       const bool is_known = std::any_of(balances_.begin(), b, [label](const Balance& other) {
         return other.low == label || other.high == label;
       });
       if (is_known) continue;
-      if (const auto thin = thin_label_at(labels, place, label)) {
-        if (!out) out.emplace();
-        *out |= *thin;
+      const std::optional<ThinLabel> thin = thin_label_at(labels, mesh.position(v), label);
+      if (!thin) continue;
+      if (weights_.speck > 0.0 && (thin->is_speck || thin->is_small)) {
+        const auto found = speck_measure_.at(mesh, metric, v, label, labels);
+        specks_.insert(specks_.end(), found.begin(), found.end());
       }
+      if (!out) out.emplace();
+      *out |= *thin;
     }
   }
   return out;
@@ -478,7 +497,7 @@ double SurfaceEnergy::min_cosine() const {
 }
 
 double SurfaceEnergy::raw_value_at(const Vec3& x) const {
-  double value = x.dot(line_square_ * x) - 2.0 * line_linear_.dot(x);
+  double value = x.dot(own_square_ * x) - 2.0 * own_linear_.dot(x);
   const bool has_area = mass_ > 0.0 && area_weight_ > 0.0, has_bends = weights_.bend > 0.0;
   const bool has_needles = needle_weight_ > 0.0;
   if (has_area || has_bends || has_needles) {
@@ -519,8 +538,8 @@ void SurfaceEnergy::add_derivatives(const Vec3& x, double scale, StarTerms& term
     terms.hessian += factor * 2.0 * square_;
     if (area_weight_ > 0.0) add_area(x, factor * area_weight_, terms);
   }
-  terms.gradient += scale * 2.0 * (line_square_ * x - line_linear_);
-  terms.hessian += scale * 2.0 * line_square_;
+  terms.gradient += scale * 2.0 * (own_square_ * x - own_linear_);
+  terms.hessian += scale * 2.0 * own_square_;
   if (weights_.bend > 0.0) add_bends(x, scale * bend_weight_, terms);
   if (needle_weight_ > 0.0) add_needles(x, scale * needle_weight_, terms);
 }

@@ -15,6 +15,7 @@
 #include "kernels/mesh/tet_mesh.h"
 #include "kernels/quality/star_batch.h"
 #include "kernels/surface/line_field.h"
+#include "kernels/surface/speck.h"
 #include "kernels/surface/surface_star.h"
 #include "kernels/surface/thin_label.h"
 
@@ -63,6 +64,7 @@ struct SurfaceWeights {
   double junction_area = 0.01;  ///< beside the fit where more labels meet
   double bend = 8.0;
   double needle = 6.0;
+  double speck = 5.0;        ///< of the volume of a part of one to three voxels
   double line = 0.0;         ///< of the distance from a smooth line, in edges of the line
   double line_planes = 0.0;  ///< of a line's distance from the planes of its faces, likewise
   /// The curvature of a vertex makes pressure up to this, 1 / voxel, and beyond it only where the
@@ -102,6 +104,8 @@ struct SurfaceWeights {
 ///
 /// Specks.  Area, bends and needles of a part of one to three voxels say nothing, and would pull it
 /// to nothing.  They are left out where a vertex is between two labels, one of which is a speck.
+/// Its voxels tell its volume (SpeckMeasure), which costs S = ((volume - voxels) / voxels)^2 at
+/// each of its vertices, and more by as much as it is too small.
 ///
 /// Bends.  The sum of the bend energies (surface_star.h) of spokes and rims.
 ///
@@ -119,7 +123,7 @@ struct SurfaceWeights {
 /// The whole energy, with E the present shape energy of v's tets and M the sum of w f^2 (or, where
 /// few faces are carried, a sixth of the triangles' area), is
 ///   E (fit/M (Q + area (Area - P.x)) + bend/6 (sum of bend energies) + needle/6 (sum of those of
-///   needles) + line L + line_planes F), less its value at 0.
+///   needles) + speck S + line L + line_planes F), less its value at 0.
 class SurfaceEnergy {
  public:
   explicit SurfaceEnergy(const SurfaceWeights& weights) : weights_(weights) {}
@@ -145,6 +149,8 @@ class SurfaceEnergy {
   /// The span is valid until the next call.
   [[nodiscard]] std::span<const VolumeDebt> debts_at(const Vec3& x);
 
+  /// True if a part of few voxels is at v.
+  [[nodiscard]] bool has_specks() const { return !specks_.empty(); }
   /// The least cosine of a spoke or rim at present; 1 when there is none.
   [[nodiscard]] double min_cosine() const;
 
@@ -179,9 +185,11 @@ class SurfaceEnergy {
   void find_pressure(const CurvatureField& curvature);
   void take_debts(const VolumeDebts& debts);
   void yield_to(const VolumeDebts& debts);
-  bool yield_to_thin(Point place, const DistanceGuard& guard, bool two_labels);
+  bool yield_to_thin(const std::optional<ThinLabel>& thin, bool two_labels);
   void remember(const VolumeDebts& debts);
-  [[nodiscard]] std::optional<ThinLabel> find_thin(const LabelBox& labels, Point place) const;
+  [[nodiscard]] std::optional<ThinLabel> find_thin(const TetMesh& mesh, const Metric& metric,
+                                                   const LabelBox& labels);
+  void add_specks();
   [[nodiscard]] double raw_value_at(const Vec3& x) const;
   [[nodiscard]] double needles() const;
   void add_area(const Vec3& x, double scale, StarTerms& terms) const;
@@ -200,14 +208,16 @@ class SurfaceEnergy {
   Eigen::Matrix3d square_ = Eigen::Matrix3d::Zero();  ///< Q is x.square x - 2 linear.x
   Vec3 linear_ = Vec3::Zero();
   Vec3 pressure_ = Vec3::Zero();
-  /// The term of lines is x.line_square x - 2 line_linear.x.
-  Eigen::Matrix3d line_square_ = Eigen::Matrix3d::Zero();
-  Vec3 line_linear_ = Vec3::Zero();
+  /// The terms of specks, lines and planes are x.own_square x - 2 own_linear.x.
+  Eigen::Matrix3d own_square_ = Eigen::Matrix3d::Zero();
+  Vec3 own_linear_ = Vec3::Zero();
   double present_ = 0.0;
   std::vector<TriangleFit> fits_;  ///< one for each of the star's triangles
   std::vector<CornerProducts> products_;
   std::vector<Balance> balances_;
   std::vector<VolumeDebt> debts_;
+  SpeckMeasure speck_measure_;
+  std::vector<SpeckVolume> specks_;             ///< those at v
   std::vector<CornerLanes> corners_;            ///< corners of the star's triangles
   mutable std::vector<SurfaceNormal> normals_;  ///< scratch; four for each of corners_
   mutable std::vector<double> areas_;           ///< scratch; areas, in the same rows

@@ -7,6 +7,8 @@
 #include <array>
 #include <bit>
 #include <cstring>
+#include <limits>
+#include <numeric>
 
 #include "kernels/core/index.h"
 #include "kernels/core/lanes.h"
@@ -128,11 +130,37 @@ Surroundings look_around(const LabelRows<kAround>& rows) {
   return out;
 }
 
+/// The 8^3 voxels around a corner, one bit for each, layer by layer.
+using Layers = std::array<std::uint64_t, 2 * kAround>;
+constexpr std::uint64_t kFirstOfRows = 0x0101010101010101, kLastOfRows = kFirstOfRows << 7U;
+
+/// Adds to a part what it touches by faces.  Returns whether there was any.
+bool grow(const Layers& all, Layers& part) {
+  const Layers before = part;
+  for (std::size_t z = 0; z < part.size(); ++z) {
+    const std::uint64_t own = before[z];
+    const std::uint64_t in_layer =
+        own | (own << 1U & ~kFirstOfRows) | (own >> 1U & ~kLastOfRows) | own << 8U | own >> 8U;
+    const std::uint64_t below = z > 0 ? before[z - 1] : 0;
+    const std::uint64_t above = z + 1 < part.size() ? before[z + 1] : 0;
+    part[z] = (in_layer | below | above) & all[z];
+  }
+  return part != before;
+}
+
+/// True if none of these voxels is an outermost one.
+bool are_inside(const Layers& part) {
+  constexpr std::uint64_t kRim = kFirstOfRows | kLastOfRows | 0xff | std::uint64_t{0xff} << 56U;
+  std::uint64_t any = 0;
+  for (const std::uint64_t layer : part) any |= layer;
+  return (any & kRim) == 0 && part.front() == 0 && part.back() == 0;
+}
+
 }  // namespace
 
 std::optional<ThinLabel> thin_label_at(const LabelBox& labels, Point place, Label label) {
   constexpr std::int64_t kReachOfThin = 2, kReachOfSheet = 5;
-  constexpr int kLeastOfSheet = 56, kMostOfThread = 20;
+  constexpr int kLeastOfSheet = 56, kMostOfThread = 20, kMostOfSmall = 3;
   const Index3 corner = nearest_corner(place);
   if (!LabelRows<kReachOfThin>(labels, corner, label).are_without_cubes()) return std::nullopt;
   const LabelRows<kAround> near(labels, corner, label);
@@ -143,7 +171,36 @@ std::optional<ThinLabel> thin_label_at(const LabelBox& labels, Point place, Labe
                   LabelRows<kReachOfSheet>(labels, corner, label).are_without_cubes(),
       .is_thread = around.voxels <= kMostOfThread && around.go_through(),
       .is_speck = around.are_inside(),
+      .is_small = around.voxels <= kMostOfSmall && !around.go_through(),
   };
+}
+int voxels_of_part(const LabelBox& labels, Point place, Label label) {
+  const Index3 corner = nearest_corner(place), lo = corner - Index3{kAround, kAround, kAround};
+  const LabelRows<kAround> rows(labels, corner, label);
+  Layers all{}, part{};
+  std::int64_t least = std::numeric_limits<std::int64_t>::max();
+  constexpr std::int64_t kSize = LabelRows<kAround>::kSize;
+  for_each_index(Box3{{0, 0, 0}, {kSize, kSize, kSize}}, [&](Index3 i) {
+    const auto y = static_cast<std::size_t>(i.y), z = static_cast<std::size_t>(i.z);
+    if ((rows.at(z, y) >> i.x & 1U) == 0) return;
+    const std::uint64_t bit = std::uint64_t{1} << (i.x + kSize * i.y);
+    all[z] |= bit;
+    const Index3 v = lo + i;
+    const auto square = [](std::int64_t voxel, std::int32_t units) {
+      const std::int64_t off = voxel * kUnitsPerVoxel + kUnitsPerVoxel / 2 - units;
+      return off * off;
+    };
+    const std::int64_t away = square(v.x, place.x) + square(v.y, place.y) + square(v.z, place.z);
+    if (away >= least) return;
+    least = away;
+    part = {};
+    part[z] = bit;
+  });
+  while (grow(all, part)) {
+  }
+  if (!are_inside(part)) return 0;
+  return std::accumulate(part.begin(), part.end(), 0,
+                         [](int sum, std::uint64_t layer) { return sum + std::popcount(layer); });
 }
 
 }  // namespace mw

@@ -14,11 +14,12 @@ namespace mw::test {
 namespace {
 
 constexpr double kBound = 1.5;
-constexpr SurfaceWeights kFitAlone{.area = 0.0, .junction_area = 0.0, .bend = 0.0, .needle = 0.0};
+constexpr SurfaceWeights kFitAlone{
+    .area = 0.0, .junction_area = 0.0, .bend = 0.0, .needle = 0.0, .speck = 0.0};
 constexpr SurfaceWeights kBendsAlone{
-    .fit = 0.0, .junction_fit = 0.0, .area = 0.0, .bend = 4.5, .needle = 0.0};
+    .fit = 0.0, .junction_fit = 0.0, .area = 0.0, .bend = 4.5, .needle = 0.0, .speck = 0.0};
 constexpr SurfaceWeights kNeedlesAlone{
-    .fit = 0.0, .junction_fit = 0.0, .area = 0.0, .bend = 0.0, .needle = 3.0};
+    .fit = 0.0, .junction_fit = 0.0, .area = 0.0, .bend = 0.0, .needle = 3.0, .speck = 0.0};
 
 Vec3 random_offset(std::mt19937& random) {
   const auto step = [&] { return 0.001 * (static_cast<double>(below(random, 401)) - 200.0); };

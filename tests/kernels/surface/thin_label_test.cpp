@@ -133,6 +133,7 @@ std::vector<std::size_t> layers_of(const std::vector<Index3>& voxels, std::size_
 TEST(ThinLabel, IsASheetOrAThreadWhereItGoesOn) {
   std::mt19937 random(61);
   std::array<int, 3> found{};  // neither, thread, sheet
+  int small = 0;
   for (int i = 0; i < 1500; ++i) {
     const LabelBox labels =
         i % 3 == 0 ? random_boxes(random) : random_sheet_or_thread(random, i % 3 == 1);
@@ -145,9 +146,62 @@ TEST(ThinLabel, IsASheetOrAThreadWhereItGoesOn) {
     const auto thin = thin_label_at(labels, corner(around), 1);
     EXPECT_EQ(thin && thin->is_sheet, is_sheet) << i;
     EXPECT_EQ(thin && thin->is_thread, is_thread) << i;
+    const bool is_small = near.size() <= 3 && layers_of(near, 8).empty();
+    EXPECT_TRUE(!thin || thin->is_small == is_small) << i;
+    small += thin && is_small ? 1 : 0;
     ++found[is_sheet ? 2 : is_thread ? 1 : 0];
   }
   for (const int count : found) EXPECT_GT(count, 50);
+  EXPECT_GT(small, 50);
+}
+
+/// The voxels of a part, from one voxel on.
+std::vector<Index3> part_from(const std::vector<Index3>& voxels, Index3 first) {
+  std::vector<Index3> out{first};
+  for (std::size_t i = 0; i < out.size(); ++i) {
+    for (const Index3 v : voxels) {
+      const Index3 d = v - out[i];
+      const bool touches = std::abs(d.x) + std::abs(d.y) + std::abs(d.z) == 1;
+      if (touches && std::find(out.begin(), out.end(), v) == out.end()) out.push_back(v);
+    }
+  }
+  return out;
+}
+
+TEST(VoxelsOfPart, AreThoseThatHangTogetherByFaces) {
+  std::mt19937 random(62);
+  int whole = 0, cut = 0, single = 0;
+  for (int i = 0; i < 1500; ++i) {
+    const LabelBox labels = random_boxes(random);
+    const Index3 around = in_the_middle(random, labels.box);
+    Point place = corner(around);
+    place.x += 20;
+    place.y += 41;
+    place.z += 83;
+    const std::vector<Index3> near = voxels_near(labels, around, 4);
+    const auto squared = [&](Index3 v) {
+      const Index3 middle = Index3{2 * v.x + 1, 2 * v.y + 1, 2 * v.z + 1};
+      const Index3 d{middle.x * kUnitsPerVoxel / 2 - place.x,
+                     middle.y * kUnitsPerVoxel / 2 - place.y,
+                     middle.z * kUnitsPerVoxel / 2 - place.z};
+      return d.x * d.x + d.y * d.y + d.z * d.z;
+    };
+    std::size_t expected = 0;
+    if (!near.empty()) {
+      const std::vector<Index3> part =
+          part_from(near, *std::ranges::min_element(near, {}, squared));
+      const std::vector<Index3> inner = voxels_near(labels, around, 3);
+      const bool is_inside = std::ranges::all_of(
+          part, [&](Index3 v) { return std::find(inner.begin(), inner.end(), v) != inner.end(); });
+      expected = is_inside ? part.size() : 0;
+      (is_inside ? whole : cut) += 1;
+      single += part.size() < near.size() ? 1 : 0;
+    }
+    EXPECT_EQ(voxels_of_part(labels, place, 1), expected) << i;
+  }
+  EXPECT_GT(whole, 200);
+  EXPECT_GT(cut, 200);
+  EXPECT_GT(single, 100);
 }
 
 /// The corner nearest to a place decides.
