@@ -7,6 +7,7 @@
 #include <array>
 #include <chrono>
 #include <cmath>
+#include <limits>
 #include <optional>
 #include <vector>
 
@@ -83,8 +84,11 @@ std::array<double, 2> logarithms_of_scales(const io::DenseVolume& labels,
   const SizeRules rules = base_rules(settings.sizes.rules);
   const double least = std::isfinite(rules.least()) ? rules.least() : voxel;
   constexpr double kRoundedUp = 1.0 + 1e-9;
-  return {logarithm(kRoundedUp * diagonal / SizeRules::kContracted / least),
-          logarithm(kLargestSize * voxel / least)};
+  const auto logarithm_of = [](double factor) {
+    return logarithm(std::min(factor, std::numeric_limits<double>::max()));
+  };
+  return {logarithm_of(kRoundedUp * diagonal / SizeRules::kContracted / least),
+          logarithm_of(kLargestSize * voxel / least)};
 }
 
 /// Passes on what is below, so that a view can own it.

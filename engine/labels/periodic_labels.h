@@ -25,7 +25,7 @@ namespace mw::engine {
 /// with the volume: twice the cell's edge divides the volume's edge along each periodic axis.
 [[nodiscard]] int periodic_level(Index3 shape, const MeshSettings& settings, int level);
 
-/// Returns the planes where the volume ends and its copies begin, which lie within windows.
+/// Returns the planes beyond which a copy of the volume lies, instead of the exterior.
 [[nodiscard]] BoxPlanes inner_planes(const MeshSettings& settings);
 
 /// Returns the most that the edge of windows may be: along periodic axes there are three

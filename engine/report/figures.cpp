@@ -51,8 +51,9 @@ std::string with_commas(std::uint64_t number) {
 }
 
 std::string short_number(double value) {
-  return value < 1000 ? format_figure(value)
-                      : with_commas(static_cast<std::uint64_t>(std::llround(value)));
+  constexpr double kFewDigits = 1000, kMostDigits = 1e15;
+  if (value < kFewDigits || value >= kMostDigits) return format_figure(value);
+  return with_commas(static_cast<std::uint64_t>(std::llround(value)));
 }
 
 std::string joined(const std::vector<std::string>& words, std::string_view last) {

@@ -27,7 +27,7 @@ namespace mw::report {
 [[nodiscard]] std::string with_commas(std::uint64_t number);
 /// Returns "a, b and c" for `last` = " and ".
 [[nodiscard]] std::string joined(const std::vector<std::string>& words, std::string_view last);
-/// Returns format_figure() with commas: "0.7381", "12.34", "1,040".
+/// Returns format_figure() with commas up to 1e15: "0.7381", "12.34", "1,040", "2e+18".
 [[nodiscard]] std::string short_number(double value);
 
 /// Returns the line with facts of the tree in the place of their names: "{output.tets} tets" is

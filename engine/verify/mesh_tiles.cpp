@@ -111,7 +111,11 @@ void MeshTiles::write_tets(std::span<const io::TetRows> tets, std::span<const Ra
   for (std::size_t i = 0; curved_ && i < tets.size(); ++i) {
     keep_nodes(tet_count_ + i, tets[i], labels[i]);
   }
-  add(look_at(tet_count_, tets, labels));
+  constexpr std::size_t kBatch = 8192;
+  for (std::size_t at = 0; at < tets.size(); at += kBatch) {
+    const std::size_t count = std::min(kBatch, tets.size() - at);
+    add(look_at(tet_count_, tets.subspan(at, count), labels.subspan(at, count)));
+  }
 }
 
 MeshTiles::TetShare MeshTiles::look_at(std::uint64_t first, std::span<const io::TetRows> tets,

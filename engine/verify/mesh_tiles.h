@@ -70,10 +70,10 @@ class MeshTiles : public io::MeshSink {
     std::string range_error{};    ///< names the first tet with a row without a vertex
   };
   /// Looks at tets from this one on.  REQUIRES: all vertices were written.  Thread-safe.  Memory:
-  /// 64 bytes a tet.
+  /// 48 bytes for each tet in each tile that has it.
   [[nodiscard]] TetShare look_at(std::uint64_t first, std::span<const io::TetRows> tets,
                                  std::span<const RawLabel> labels);
-  /// Takes the tets that follow the last ones; as write_tets() does with what it looks at itself.
+  /// Adds tets to their tiles.  REQUIRES: they follow those that were added or written last.
   void add(const TetShare& found);
   void finish() override;
   [[nodiscard]] std::uint64_t buffer_bytes() const override { return memory_bytes_; }

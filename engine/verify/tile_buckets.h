@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <filesystem>
 #include <unordered_map>
 #include <utility>
 #include <vector>
@@ -30,7 +31,7 @@ class TileShares {
     share.records.push_back(record);
     if (share.records.size() == kBatch) pack(share);
   }
-  /// Packs what is worth it, so that TileBuckets need not.
+  /// Packs lists of 256 records and more.
   void pack() {
     for (Share& share : shares_) {
       if (share.records.size() >= kWorthPacking) pack(share);
@@ -53,6 +54,7 @@ class TileShares {
 
   static void pack(Share& share) {
     share.packed.push_back(io::PackedScratch<Record>::pack(share.records));
+    share.packed.back().bytes.shrink_to_fit();
     share.records = {};
   }
 
@@ -119,7 +121,7 @@ class TileBuckets {
   };
 
   void pack(Tile& t) {
-    t.chunks.push_back(file_.append(file_.pack(t.waiting)));
+    t.chunks.push_back(file_.append(io::PackedScratch<Record>::pack(t.waiting)));
     t.waiting.clear();
   }
 

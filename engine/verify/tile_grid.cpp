@@ -56,7 +56,7 @@ void PieceBuckets::make_pieces(int threads) {
       [this](std::uint32_t, TilePieces&& found) {
         pieces_.add(found.pieces);
         for (const audit::InterfaceTriangle& triangle : found.whole) {
-          cut(triangle, [this](const PieceOfTile& piece) { pieces_.add(piece.tile, piece.piece); });
+          cut(triangle, [this](auto tile, const auto& piece) { pieces_.add(tile, piece); });
         }
       });
 }
@@ -69,7 +69,7 @@ void PieceBuckets::cut(const audit::InterfaceTriangle& triangle, Visit visit) co
   audit::for_each_piece(triangle.corners, radius_, [&](const audit::VoxelTriangle& piece) {
     audit::VoxelPoint middle = audit::centroid(piece);
     for (std::size_t k = 0; k < 3; ++k) middle[k] /= layers[k];
-    visit(PieceOfTile{grid_.at(middle), {piece, triangle.labels}});
+    visit(grid_.at(middle), audit::InterfaceTriangle{piece, triangle.labels});
   });
 }
 
@@ -85,8 +85,8 @@ PieceBuckets::TilePieces PieceBuckets::pieces_of(std::uint32_t tile) {
     if (pieces >= kMostPieces || audit::radius(t.corners) > kMostRadii * radius_) {
       out.whole.push_back(t);
     } else {
-      cut(t, [&](const PieceOfTile& piece) {
-        out.pieces.add(piece.tile, piece.piece);
+      cut(t, [&](auto at, const auto& piece) {
+        out.pieces.add(at, piece);
         ++pieces;
       });
     }

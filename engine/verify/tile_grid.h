@@ -70,10 +70,6 @@ class PieceBuckets {
   [[nodiscard]] std::vector<audit::InterfaceTriangle> near(const Box3& voxels) const;
 
  private:
-  struct PieceOfTile {
-    std::uint32_t tile = 0;
-    audit::InterfaceTriangle piece;
-  };
   struct TilePieces {
     TileShares<audit::InterfaceTriangle> pieces;
     std::vector<audit::InterfaceTriangle> whole;  ///< triangles that are still to be cut

@@ -21,8 +21,8 @@ struct WindowContent {
 /// The far corner of a volume, in lattice units.
 [[nodiscard]] Point lattice_corner(Index3 volume);
 
-/// Merges blocks into the content of a window, as merge_blocks() does; `inner` are planes that its
-/// mesh goes through.
+/// Merges blocks into the content of a window, as merge_blocks() does; `inner` are planes beyond
+/// which there is a copy of the volume, instead of the exterior.
 [[nodiscard]] WindowContent gather(std::vector<BlockMesh> blocks, Index3 volume,
                                    BoxPlanes inner = 0);
 

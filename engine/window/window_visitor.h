@@ -112,7 +112,8 @@ class WindowVisitor {
   void add_inner(Index3 window, WindowContent& content, VisitStats& stats) const;
   [[nodiscard]] SteinerIds ids_of(Index3 window) const;
   [[nodiscard]] Index3 start_volume() const;
-  /// Returns how blocks are made from voxels, with what the thread knows from others.
+  /// Returns how blocks are made from voxels, with the templates of cells that the calling thread
+  /// has made before.
   [[nodiscard]] StartOptions start_options() const;
   /// Returns use(labels around the block, box of the block), both placed in start_volume().
   template <typename Use>

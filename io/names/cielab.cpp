@@ -2,10 +2,11 @@
 // SPDX-License-Identifier: Apache-2.0
 // Colours from CIELab to XYZ (CIE 15), and from there to sRGB (IEC 61966-2-1).
 #include "io/names/label_names.h"
-#include "kernels/core/elementary.h"
 
 #include <algorithm>
 #include <cmath>
+
+#include "kernels/core/elementary.h"
 
 namespace mw::io {
 namespace {

@@ -8,6 +8,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "kernels/core/assert.h"
+
 namespace mw {
 namespace {
 
@@ -26,6 +28,7 @@ double odd_series(double s, double sign) {
 }  // namespace
 
 double logarithm(double x) {
+  MW_ASSERT(x > 0 && std::isfinite(x));
   int exponent = 0;
   double part = std::frexp(x, &exponent);
   if (part < std::numbers::sqrt2 / 2) {
@@ -37,6 +40,7 @@ double logarithm(double x) {
 }
 
 double exponential(double x) {
+  MW_ASSERT(!std::isnan(x));
   constexpr double kOutOfRange = 800;
   x = std::clamp(x, -kOutOfRange, kOutOfRange);
   const double exponent = std::floor(x / std::numbers::ln2 + 0.5);
@@ -51,6 +55,7 @@ double power(double x, double y) {
 }
 
 double cube_root(double x) {
+  MW_ASSERT(x > 0 && std::isfinite(x));
   int exponent = 0;
   double part = std::frexp(x, &exponent);
   const int shift = exponent - 3 * static_cast<int>(std::floor(exponent / 3.0));
@@ -61,6 +66,7 @@ double cube_root(double x) {
 }
 
 double angle_of(double sine, double cosine) {
+  MW_ASSERT(sine > 0 && std::isfinite(sine) && std::isfinite(cosine));
   const double wide = std::abs(cosine);
   double ratio = std::min(sine, wide) / std::max(sine, wide);
   for (int i = 0; i < 2; ++i) ratio /= 1 + std::sqrt(1 + ratio * ratio);
@@ -70,6 +76,7 @@ double angle_of(double sine, double cosine) {
 }
 
 double power_of_ten_below(double x) {
+  MW_ASSERT(x >= 0 && std::isfinite(x));
   if (x == 0) return 0;
   std::array<char, 32> text{};
   char* const end =

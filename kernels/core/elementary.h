@@ -8,7 +8,7 @@ namespace mw {
 // A C library computes logarithms and their kin by other instructions on other processors, and by
 // other formulas in other versions, so that last digits differ.  A mesh must not depend on them
 // (P5).  These functions add, multiply, divide and take square roots alone, which IEEE 754 defines
-// to the last bit.  Their relative error is below 1e-15.
+// to the last bit.  Their relative error is below 1e-15; that of power() grows with |y log x|.
 
 /// Returns the natural logarithm.  REQUIRES: x is finite and positive.
 [[nodiscard]] double logarithm(double x);

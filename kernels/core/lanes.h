@@ -64,8 +64,8 @@ MW_LANES Lanes load(const StoredLanes& s) {
 [[gnu::always_inline]] inline void store(const LaneInts& values, StoredInts& out) {
   std::memcpy(out.data(), &values, sizeof values);
 }
-// Written lane by lane these are one instruction each; the compiler takes what
-// __builtin_convertvector() makes wider in halves.
+// Written lane by lane each of these is one instruction.  GCC makes several of
+// __builtin_convertvector(), as it widens each half of the lanes apart.
 MW_LANES Lanes to_lanes(const LaneInts& v) {
   return Lanes{static_cast<double>(v[0]), static_cast<double>(v[1]), static_cast<double>(v[2]),
                static_cast<double>(v[3])};

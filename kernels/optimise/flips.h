@@ -97,7 +97,7 @@ class Flipper {
   /// A triangle of ring vertices that may be part of the polygon's best triangulation.
   struct Tried {
     std::size_t i = 0, j = 0, k = 0;
-    double energy = 0.0;  ///< of its tets, and of the best triangulation beyond its shorter sides
+    double energy = 0.0;  ///< of its tets and those of the best triangulations beside it
   };
 
   [[nodiscard]] bool collect_polygons(LocalVertex p, LocalVertex q, std::size_t max_ring);

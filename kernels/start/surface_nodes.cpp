@@ -5,6 +5,7 @@
 
 #include <cstring>
 
+#include "kernels/core/assert.h"
 #include "kernels/core/index.h"
 #include "kernels/core/lanes.h"
 

@@ -53,7 +53,7 @@ class LabelRows {
   LabelRows(const LabelBox& labels, Index3 corner, Label label) {
     constexpr Index3 around{kReach, kReach, kReach};
     const Box3 cube{corner - around, corner + around}, box = intersection(cube, labels.box);
-    if (box.lo.x >= box.hi.x) return;
+    if (is_empty(box)) return;
     const auto count = static_cast<std::size_t>(box.hi.x - box.lo.x);
     const Index3 n = labels.box.shape();
     const Label* plane = labels.labels.data() + labels.box.offset(box.lo);

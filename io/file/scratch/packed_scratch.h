@@ -42,9 +42,7 @@ class PackedScratch {
 
   /// REQUIRES: some records, less than 2 GiB.
   [[nodiscard]] static PackedBatch pack(std::span<const Record> records) {
-    PackedBatch out{pack_rows(std::as_bytes(records), sizeof(Record)), records.size()};
-    out.bytes.shrink_to_fit();
-    return out;
+    return {pack_rows(std::as_bytes(records), sizeof(Record)), records.size()};
   }
   [[nodiscard]] PackedChunk append(const PackedBatch& batch) {
     const PackedChunk chunk{file_.size(), batch.bytes.size(), batch.records};
@@ -85,7 +83,7 @@ class PackedRecords {
   void append(const Record& record) {
     waiting_.push_back(record);
     if (waiting_.size() < kBatch) return;
-    chunks_.push_back(file_.append(file_.pack(waiting_)));
+    chunks_.push_back(file_.append(PackedScratch<Record>::pack(waiting_)));
     waiting_.clear();
   }
 

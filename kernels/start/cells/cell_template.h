@@ -48,7 +48,8 @@ struct CellTemplate {
 [[nodiscard]] CellTemplate cut_cell(CellNodes nodes, bool odd, const Metric& metric,
                                     double quality_floor = 0.0);
 
-/// Returns the worst radius ratio of a cell's tets, or that of some where one is below `enough`.
+/// Returns the worst radius ratio of a cell's tets.  Where one is below `enough`, later groups of
+/// four are not looked at.
 [[nodiscard]] double worst_ratio(std::span<const NodeTet> tets, const Metric& metric,
                                  double enough = 0.0);
 
@@ -66,6 +67,8 @@ class CellTemplates {
   void make_room() {
     if (known_.size() > kMost) known_.clear();
   }
+
+  [[nodiscard]] std::size_t size() const { return known_.size(); }
 
  private:
   Metric metric_;

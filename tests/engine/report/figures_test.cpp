@@ -36,6 +36,8 @@ TEST(Told, NumbersHaveTheirForms) {
   EXPECT_EQ(told("{quality.mean:g} {quality.mean:n} {quality.least:n}", facts()),
             "1040 1,040 0.2004");
   EXPECT_EQ(told("{quality.share:2%}", facts()), "0.00 %");
+  EXPECT_EQ(short_number(1040.4), "1,040");
+  EXPECT_EQ(short_number(2e18), "2e+18");
   EXPECT_EQ(told("{bytes:b} {tets:b}", facts()), "11.0 GiB 0.0 MiB");
 }
 

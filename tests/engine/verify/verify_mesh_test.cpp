@@ -5,6 +5,7 @@
 
 #include <regex>
 
+#include "engine/system/in_order.h"
 #include "kernels/core/lattice.h"
 #include "tests/engine/memory_run.h"
 #include "tests/oracle/whole_audit.h"
@@ -100,6 +101,22 @@ Case random_case(std::mt19937& random) {
   return out;
 }
 
+/// Gives a mesh to tiles, a few tets at a time, on several threads.
+void write_by_ranges(const io::MeshData& mesh, MeshTiles& tiles, int threads) {
+  constexpr std::size_t kTets = 7;
+  tiles.begin({.tets = mesh.tets.size()});
+  tiles.write_vertices(mesh.vertices);
+  each_in_order<MeshTiles::TetShare>(
+      {threads}, (mesh.tets.size() + kTets - 1) / kTets,
+      [&](std::size_t range) {
+        const std::size_t first = range * kTets, count = std::min(kTets, mesh.tets.size() - first);
+        return tiles.look_at(first, std::span(mesh.tets).subspan(first, count),
+                             std::span(mesh.labels).subspan(first, count));
+      },
+      [&](std::size_t, MeshTiles::TetShare&& found) { tiles.add(found); });
+  tiles.finish();
+}
+
 AuditReport by_tiles(const Case& c, std::int64_t edge, int threads) {
   const ::mw::test::TempFolder folder;
   const MemoryVolume volume(c.volume, c.frame);
@@ -110,7 +127,7 @@ AuditReport by_tiles(const Case& c, std::int64_t edge, int threads) {
   mesh.tets = c.mesh.tets;
   for (const Label l : c.mesh.labels)
     mesh.labels.push_back(l == audit::kUnknown ? 999 : table.raw(l));
-  io::write_mesh(mesh, tiles);
+  threads > 1 ? write_by_ranges(mesh, tiles, threads) : io::write_mesh(mesh, tiles);
   return verify_mesh(
       io::DenseVolume(volume, table), tiles,
       {.options = c.options, .threads = threads, .memory_bytes = 1 << 22, .folder = folder.path()});

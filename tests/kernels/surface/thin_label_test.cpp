@@ -95,6 +95,37 @@ TEST(ThinLabel, HasNoCubeOfEightVoxelsWithinTwo) {
   EXPECT_LT(thin, 1950);
 }
 
+/// Boxes end anywhere, and corners lie anywhere around them: what is beyond has other labels.
+TEST(ThinLabel, LooksAtWhatABoxHasAlone) {
+  std::mt19937 random(64);
+  int thin = 0, specks = 0;
+  for (int i = 0; i < 4000; ++i) {
+    LabelBox labels = empty_box();
+    const auto edge = [&] { return std::int64_t{1} + below(random, kEdge); };
+    const std::int64_t x = edge(), y = edge();
+    labels.box.hi = labels.box.lo + Index3{x, y, edge()};
+    labels.labels.assign(static_cast<std::size_t>(labels.box.voxels()), 0);
+    const std::uint32_t others = 1 + below(random, 12);
+    for (Label& label : labels.labels) label = below(random, others + 1) == 0 ? 1 : 0;
+    const Box3 wide = grown(labels.box, 5);
+    const auto place = [&](std::int64_t lo, std::int64_t hi) {
+      return lo + below(random, static_cast<std::uint32_t>(hi - lo));
+    };
+    const std::int64_t at_x = place(wide.lo.x, wide.hi.x), at_y = place(wide.lo.y, wide.hi.y);
+    const Index3 around{at_x, at_y, place(wide.lo.z, wide.hi.z)};
+    const bool expected = !has_cube(voxels_near(labels, around, 2));
+    const bool ends =
+        voxels_near(labels, around, 3).size() == voxels_near(labels, around, 4).size();
+    const auto found = thin_label_at(labels, corner(around), 1);
+    ASSERT_EQ(found.has_value(), expected) << i;
+    ASSERT_EQ(found && found->is_speck, expected && ends) << i;
+    thin += expected ? 1 : 0;
+    specks += expected && ends ? 1 : 0;
+  }
+  EXPECT_LT(thin, 3950);
+  EXPECT_LT(specks, thin - 100);
+}
+
 /// Puts a sheet across an axis, with holes, or a thread along it, that may both be bent and end
 /// somewhere, into the label 1.
 LabelBox random_sheet_or_thread(std::mt19937& random, bool is_thread) {

@@ -203,7 +203,7 @@ TEST(Placement, PassesWhatIsSymmetric) {
   }
 }
 
-/// Of what has no symmetry each one fits worse, and none is counted to the end.
+/// Each symmetry fits worse where a volume has none, and none is counted to the end.
 TEST(Placement, LeavesSymmetriesThatFitWorse) {
   std::mt19937 random(62);
   const SmallVolume v = random_volume_of(random, VolumeKind::kNoise, {9, 9, 9}, 3);

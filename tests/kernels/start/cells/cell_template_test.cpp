@@ -138,6 +138,19 @@ TEST(Sec51CellTemplate, IsMadeOnceForEachPatternAndParity) {
   EXPECT_EQ(odd.tets, cut_cell(split, true, Metric()).tets);
 }
 
+TEST(Sec51CellTemplate, RoomIsMadeWhereTemplatesAreMany) {
+  CellTemplates templates{Metric()};
+  CellNodes nodes = kCellCorners;
+  while (templates.size() <= CellTemplates::kMost) {
+    const std::size_t before = templates.size();
+    templates.make_room();
+    ASSERT_EQ(templates.size(), before);
+    (void)templates.of(nodes++ | kCellCorners, false);
+  }
+  templates.make_room();
+  EXPECT_EQ(templates.size(), 0U);
+}
+
 constexpr int kLargest = 4;
 constexpr double kRounding = 1e-12;
 
