@@ -100,12 +100,12 @@ TEST(ThinLabel, LooksAtWhatABoxHasAlone) {
   std::mt19937 random(64);
   int thin = 0, specks = 0;
   for (int i = 0; i < 4000; ++i) {
-    LabelBox labels = empty_box();
+    LabelBox labels{{{8, 6, 7}, {}}, {}};
     const auto edge = [&] { return std::int64_t{1} + below(random, kEdge); };
     const std::int64_t x = edge(), y = edge();
     labels.box.hi = labels.box.lo + Index3{x, y, edge()};
     labels.labels.assign(static_cast<std::size_t>(labels.box.voxels()), 0);
-    const std::uint32_t others = 1 + below(random, 12);
+    const std::uint32_t others = below(random, 6);
     for (Label& label : labels.labels) label = below(random, others + 1) == 0 ? 1 : 0;
     const Box3 wide = grown(labels.box, 5);
     const auto place = [&](std::int64_t lo, std::int64_t hi) {
@@ -123,6 +123,7 @@ TEST(ThinLabel, LooksAtWhatABoxHasAlone) {
     specks += expected && ends ? 1 : 0;
   }
   EXPECT_LT(thin, 3950);
+  EXPECT_GT(specks, 100);
   EXPECT_LT(specks, thin - 100);
 }
 
