@@ -82,8 +82,8 @@ TEST(SpeckMeasure, IsTheVolumeOfEachPartAsAShareOfItsVoxels) {
   EXPECT_GT(of_two, 10);
 }
 
-/// Of a part of four voxels nothing is found, nor of a label that fills the rest, but of the single
-/// voxel beside it.
+/// Nothing is found for a part of four voxels and for a label that fills the rest; the single voxel
+/// beside them is found.
 TEST(SpeckMeasure, LeavesOutWhatIsLarge) {
   std::mt19937 random(82);
   const Parts made(random, 4);
