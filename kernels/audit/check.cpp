@@ -18,12 +18,12 @@ std::string Offenders::text() const {
 
 std::string number(double value) {
   constexpr int kDigits = 4;
-  constexpr double kAllBeforeThePoint = 1000;
-  std::array<char, 400> text{};  // the longest double has 309 digits before the point
+  constexpr double kAllBeforeThePoint = 1000, kMostBeforeThePoint = 1e15;
+  std::array<char, 32> text{};
   char* const end = text.data() + text.size();
   const auto written =
       value == 0 ? std::to_chars(text.data(), end, 0)
-      : std::abs(value) >= kAllBeforeThePoint
+      : std::abs(value) >= kAllBeforeThePoint && std::abs(value) < kMostBeforeThePoint
           ? std::to_chars(text.data(), end, value, std::chars_format::fixed, 0)
           : std::to_chars(text.data(), end, value, std::chars_format::general, kDigits);
   return {text.data(), written.ptr};

@@ -51,8 +51,8 @@ class Offenders {
   std::vector<std::string> first_;
 };
 
-/// A number as people read it, with four significant digits and all that are before the point:
-/// "0.5", "24312", "4.242e-07".  It does not depend on the locale.
+/// A number as people read it, with four significant digits and, below 1e15, all that are before
+/// the point: "0.5", "24312", "4.242e-07", "1e+36".  It does not depend on the locale.
 [[nodiscard]] std::string number(double value);
 
 }  // namespace mw::audit

@@ -169,7 +169,7 @@ int run_info(InfoJob& job, const OptionSet& options) {
     return kExitDone;
   }
   if (has_volume) {
-    io::fail_usage(job.file.string() + ": is no mesh, as FILE must be where VOLUME is given");
+    io::fail_usage(job.file.string() + ": is no mesh, and FILE must be one where VOLUME is given");
   }
   if (job.betti || job.contacts || job.csv) {
     io::fail_usage("--betti, --contacts and --csv: FILE must be a mesh then");

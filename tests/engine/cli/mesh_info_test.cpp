@@ -200,7 +200,7 @@ TEST_F(MeshInfoTest, WrongUse) {
   expect_failure(2, "info", "FILE");
   expect_failure(3, "info gone.vtu", "gone.vtu");
   expect_failure(2, "info v.npy --csv", "FILE must be a mesh");
-  expect_failure(2, "info v.npy v.npy", "v.npy: is no mesh, as FILE must be");
+  expect_failure(2, "info v.npy v.npy", "v.npy: is no mesh, and FILE must be");
   for (const std::string words :
        {"--crop 0,0,0,5,5,5", "--spacing 2", "--merge 1=2", "--merge One=2", "--drop-specks 3",
         "--object 1", "--dtype u8", "--values distances", "--cache c"}) {

@@ -193,7 +193,7 @@ TEST_F(VolumesTest, MessagesHaveNoControlCharacters) {
 }
 
 TEST_F(VolumesTest, InfoHoldsOnlyMeshesAgainstVolumes) {
-  expect_failure(2, "info v.npy --volume v.npy", "--volume");
+  expect_failure(2, "info v.npy --volume v.npy", "v.npy: is no mesh");
   expect_done("mesh v.npy -o v.vtu");
   expect_failure(3, "info v.vtu --volume missing.npy", "missing.npy");
   const std::string text = run("info v.vtu").out;
