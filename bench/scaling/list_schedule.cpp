@@ -4,29 +4,76 @@
 #include "bench/scaling/list_schedule.h"
 
 #include <algorithm>
+#include <optional>
 #include <queue>
 
 #include "engine/march/wavefront.h"
+#include "kernels/core/error.h"
 
 namespace mw::bench {
+namespace {
+
+/// What runs, and the memory that it holds.
+class Running {
+ public:
+  explicit Running(const WindowMemory& memory) : memory_(memory) {}
+
+  [[nodiscard]] std::size_t size() const { return ends_.size(); }
+  [[nodiscard]] bool has_room(std::uint64_t rank) const {
+    return bytes_of(rank) <= memory_.budget - held_;
+  }
+  void start(std::uint64_t rank, double end) {
+    held_ += bytes_of(rank);
+    ends_.emplace(end, rank);
+  }
+  /// Returns the window that ends first, and when.
+  std::pair<double, std::uint64_t> finish() {
+    const auto next = ends_.top();
+    ends_.pop();
+    held_ -= bytes_of(next.second);
+    return next;
+  }
+
+ private:
+  using End = std::pair<double, std::uint64_t>;  // when, rank
+
+  [[nodiscard]] std::uint64_t bytes_of(std::uint64_t rank) const {
+    return memory_.bytes.empty() ? 0 : memory_.bytes[rank];
+  }
+
+  const WindowMemory& memory_;
+  std::uint64_t held_ = 0;
+  std::priority_queue<End, std::vector<End>, std::greater<>> ends_;
+};
+
+/// Returns the window that a free core takes; nothing where none may start.
+std::optional<std::uint64_t> next_window(const engine::Wavefront& wavefront,
+                                         const Running& running) {
+  const std::optional<std::uint64_t> best = wavefront.best();
+  if (!best || running.has_room(*best)) return best;
+  const std::uint64_t first = wavefront.first_unfinished();
+  if (wavefront.is_ready(first) && running.has_room(first)) return first;
+  return std::nullopt;
+}
+
+}  // namespace
 
 double list_schedule(const engine::WindowOrder& order, std::span<const double> seconds,
-                     std::size_t cores, std::uint64_t look_ahead) {
-  using End = std::pair<double, std::uint64_t>;  // of a running window: when, rank
-  std::priority_queue<End, std::vector<End>, std::greater<>> running;
+                     std::size_t cores, std::uint64_t look_ahead, const WindowMemory& memory) {
+  Running running(memory);
   engine::Wavefront wavefront(order, look_ahead);
   double now = 0.0;
   while (wavefront.first_unfinished() < order.size()) {
     while (running.size() < cores) {
-      const std::optional<std::uint64_t> best = wavefront.best();
-      if (!best) break;
-      wavefront.start(*best);
-      running.emplace(now + seconds[*best], *best);
+      const std::optional<std::uint64_t> next = next_window(wavefront, running);
+      if (!next) break;
+      wavefront.start(*next);
+      running.start(*next, now + seconds[*next]);
     }
-    const End next = running.top();
-    running.pop();
-    now = next.first;
-    wavefront.finish(next.second);
+    if (running.size() == 0) throw Error(ErrorKind::kResource, "no window has room in --memory");
+    const auto [end, rank] = running.finish();
+    now = end;
+    wavefront.finish(rank);
   }
   return now;
 }

@@ -31,7 +31,15 @@ std::vector<engine::StageCost> stages_of(const io::Json& performance) {
   return out;
 }
 
-[[noreturn]] void refuse(std::string_view file) {
+/// Returns what is taken from a report.
+template <typename Take>
+auto read(std::string_view text, std::string_view file, const Take& take) {
+  const io::Json report = io::parse_json(text, file);
+  try {
+    return take(report);
+  } catch (const std::out_of_range&) {
+  } catch (const std::bad_variant_access&) {
+  }
   throw Error(ErrorKind::kInput,
               std::string(file) + ": not the report of mwmesh mesh with --threads 1");
 }
@@ -39,14 +47,22 @@ std::vector<engine::StageCost> stages_of(const io::Json& performance) {
 }  // namespace
 
 std::vector<engine::StageCost> read_stages(std::string_view text, std::string_view file) {
-  const io::Json report = io::parse_json(text, file);
-  try {
-    return stages_of(report["performance"]);
-  } catch (const std::out_of_range&) {
-    refuse(file);
-  } catch (const std::bad_variant_access&) {
-    refuse(file);
-  }
+  return read(text, file, [](const io::Json& report) { return stages_of(report["performance"]); });
+}
+
+std::uint64_t read_held_bytes(std::string_view text, std::string_view file) {
+  return read(text, file, [](const io::Json& report) {
+    const io::Json& peaks = report["engine"]["peak_bytes_by_purpose"];
+    double sum = 0.0;
+    for (const char* purpose : {"program", "index"}) sum += peaks[purpose].number();
+    return static_cast<std::uint64_t>(sum);
+  });
+}
+
+std::size_t fed_cores(std::size_t cores, double traffic, double seconds, double bandwidth) {
+  const double fed = bandwidth * seconds / traffic;
+  return fed < static_cast<double>(cores) ? std::max<std::size_t>(1, static_cast<std::size_t>(fed))
+                                          : cores;
 }
 
 double shared_by(const engine::StageCost& stage, std::size_t cores) {

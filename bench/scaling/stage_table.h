@@ -3,6 +3,7 @@
 // What the stages of a run took (--report of mwmesh mesh), and would take with more cores.
 #pragma once
 
+#include <cstdint>
 #include <span>
 #include <string_view>
 #include <vector>
@@ -16,6 +17,16 @@ namespace mw::bench {
 /// ERRORS: mw::Error(kInput) naming `file` where the text is no such report.
 [[nodiscard]] std::vector<engine::StageCost> read_stages(std::string_view text,
                                                          std::string_view file);
+
+/// Returns what a run holds during its marches beside windows and blocks, which memory may spill.
+/// The peak of labels is one of their preparation, so it does not count.
+/// ERRORS: those of read_stages().
+[[nodiscard]] std::uint64_t read_held_bytes(std::string_view text, std::string_view file);
+
+/// Returns how many cores a memory feeds, of those that there are, where a run moves `traffic`
+/// bytes between memory and caches in its seconds of one core.  REQUIRES: all are positive.
+[[nodiscard]] std::size_t fed_cores(std::size_t cores, double traffic, double seconds,
+                                    double bandwidth);
 
 /// Returns the seconds of a stage when threads share all of it that they can.  REQUIRES: cores > 0.
 [[nodiscard]] double shared_by(const engine::StageCost& stage, std::size_t cores);

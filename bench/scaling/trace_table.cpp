@@ -18,9 +18,10 @@ namespace {
 struct Visit {
   Index3 window;
   double seconds = 0.0;
+  std::uint64_t bytes = 0;
 };
 
-/// march, x, y, z, start_s, end_s, cpu_s, slot
+/// march, x, y, z, start_s, end_s, cpu_s, slot, bytes
 std::vector<double> numbers(const std::string& line, std::size_t line_number) {
   std::vector<double> out;
   try {
@@ -32,7 +33,7 @@ std::vector<double> numbers(const std::string& line, std::size_t line_number) {
   } catch (const std::exception&) {
     out.clear();
   }
-  if (out.size() == 8) return out;
+  if (out.size() == 9) return out;
   throw Error(ErrorKind::kInput,
               "line " + std::to_string(line_number) + " is not one of a trace: " + line);
 }
@@ -49,7 +50,12 @@ MarchTrace table(const std::vector<Visit>& visits) {
                                        std::to_string(visits.size()) + " visits of " +
                                        std::to_string(out.seconds.size()) + " windows");
   }
-  for (const Visit& v : visits) out.seconds[raster(v.window, out.windows)] = v.seconds;
+  out.bytes.assign(out.seconds.size(), 0);
+  for (const Visit& v : visits) {
+    const std::size_t row = raster(v.window, out.windows);
+    out.seconds[row] = v.seconds;
+    out.bytes[row] = v.bytes;
+  }
   return out;
 }
 
@@ -64,7 +70,8 @@ std::vector<MarchTrace> read_trace(std::istream& in, Clock clock) {
     const auto whole = [&](std::size_t column) { return static_cast<std::int64_t>(row[column]); };
     marches[static_cast<int>(row[0])].push_back(
         {.window = {whole(1), whole(2), whole(3)},
-         .seconds = clock == Clock::kCpu ? row[6] : row[5] - row[4]});
+         .seconds = clock == Clock::kCpu ? row[6] : row[5] - row[4],
+         .bytes = static_cast<std::uint64_t>(whole(8))});
   }
   std::vector<MarchTrace> out;
   for (const auto& [march, visits] : marches) out.push_back(table(visits));

@@ -3,6 +3,7 @@
 // Traces of runs (--trace of mwmesh mesh), read for their durations.
 #pragma once
 
+#include <cstdint>
 #include <iosfwd>
 #include <vector>
 
@@ -14,8 +15,9 @@ enum class Clock { kCpu, kWall };
 
 /// The visits of one march.
 struct MarchTrace {
-  Index3 windows;               ///< along each axis
-  std::vector<double> seconds;  ///< of each window, x fastest
+  Index3 windows;                    ///< along each axis
+  std::vector<double> seconds;       ///< of each window, x fastest
+  std::vector<std::uint64_t> bytes;  ///< set aside for each window, x fastest
 };
 
 /// REQUIRES: the trace of a whole run.

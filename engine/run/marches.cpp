@@ -2,9 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "engine/run/marches.h"
 
-#include <array>
 #include <atomic>
-#include <map>
 
 #include "engine/march/march.h"
 #include "engine/system/memory.h"
@@ -63,7 +61,7 @@ std::uint64_t Marches::most_to_come(const WindowOrder& order, BlockStore& store,
 }
 
 AdmitWindow Marches::admission(const WindowOrder& order, BlockStore& store,
-                               const WindowVisitor& visitor) const {
+                               const WindowVisitor& visitor) {
   const std::uint64_t budget = run_.hooks.store.memory;
   const bool is_ample = budget_is_ample(budget, order.grid(), run_.hooks.threads);
   if (!is_ample && run_.hooks.owns_process) return_large_pieces_at_once();
@@ -79,6 +77,7 @@ AdmitWindow Marches::admission(const WindowOrder& order, BlockStore& store,
     if (!is_ample && bytes < budget) return_free_memory_above(budget - bytes);
     const auto most = [&] { return most_to_come(order, store, needs); };
     if (!store.admit(window, bytes, most)) return nullptr;
+    admitted_[{window.x, window.y, window.z}] = bytes;
     return std::make_shared<Index3>(window);
   };
 }
@@ -130,13 +129,15 @@ void Marches::add(const VisitStats& visit) {
 }
 
 void Marches::note(std::uint32_t march_number, const Visited& v) {
+  const auto admitted = admitted_.extract({v.window.x, v.window.y, v.window.z});
   if (run_.hooks.trace) {
     run_.hooks.trace({.march = static_cast<int>(march_number),
                       .window = v.window,
                       .start_seconds = seconds_between(begin_, v.start),
                       .end_seconds = seconds_between(begin_, v.end),
                       .cpu_seconds = v.cpu_seconds,
-                      .slot = v.slot});
+                      .slot = v.slot,
+                      .bytes = admitted ? admitted.mapped() : 0});
   }
   ++done_;
   if (!run_.hooks.progress) return;

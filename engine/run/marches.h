@@ -3,6 +3,8 @@
 // The marches of a run: who is told of what, and what all visits add up to.
 #pragma once
 
+#include <array>
+#include <map>
 #include <mutex>
 
 #include "engine/forecast/run_forecast.h"
@@ -27,7 +29,7 @@ class Marches {
  private:
   [[nodiscard]] std::uint64_t own_windows() const;
   [[nodiscard]] AdmitWindow admission(const WindowOrder& order, BlockStore& store,
-                                      const WindowVisitor& visitor) const;
+                                      const WindowVisitor& visitor);
   /// Returns what the largest of the windows that are not done would take at present, and then the
   /// output.
   [[nodiscard]] std::uint64_t most_to_come(const WindowOrder& order, BlockStore& store,
@@ -43,6 +45,8 @@ class Marches {
   std::optional<std::uint64_t> total_;  ///< own windows of all marches
   std::uint64_t done_;
   Visited::Time begin_ = std::chrono::steady_clock::now();
+  /// Bytes set aside for windows that run.
+  std::map<std::array<std::int64_t, 3>, std::uint64_t> admitted_;
   std::mutex mutex_;
   VisitStats stats_;
 };

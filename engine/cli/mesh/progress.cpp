@@ -72,7 +72,7 @@ void Progress::show(const engine::RunProgress& at) {
 }
 
 TraceFile::TraceFile(const std::filesystem::path& path) : file_(path) {
-  file_.append("march,x,y,z,start_s,end_s,cpu_s,slot\n");
+  file_.append("march,x,y,z,start_s,end_s,cpu_s,slot,bytes\n");
 }
 
 void TraceFile::add(const engine::TraceEvent& event) {
@@ -84,7 +84,7 @@ void TraceFile::add(const engine::TraceEvent& event) {
   for (const double seconds : {event.start_seconds, event.end_seconds, event.cpu_seconds}) {
     line += format_fixed(seconds, kDigits) + ",";
   }
-  file_.append(line + std::to_string(event.slot) + "\n");
+  file_.append(line + std::to_string(event.slot) + "," + std::to_string(event.bytes) + "\n");
 }
 
 }  // namespace mw::cli

@@ -33,7 +33,7 @@ constexpr std::array<std::string_view, 14> kMarks{"mwmesh",
                                                   "material,set,from,to,mean,tets,volume\n",
                                                   "node,image_of,x,y,z\n",
                                                   "** a node on a high face moves as its partner",
-                                                  "march,x,y,z,start_s,end_s,cpu_s,slot\n",
+                                                  "march,x,y,z,start_s,end_s,cpu_s,slot",
                                                   "\"peak_rss_bytes\": ",
                                                   "\"voxels_changed\": "};
 

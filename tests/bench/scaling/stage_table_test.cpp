@@ -26,6 +26,21 @@ TEST(StageTable, CoresShareWhatIsNotAlone) {
   EXPECT_EQ(seconds_beside_visits(stages, 3), 8.5);
 }
 
+TEST(StageTable, HoldsWhatMemoryCannotSpill) {
+  EXPECT_EQ(read_held_bytes(R"({"engine": {"peak_bytes_by_purpose": {"program": 1, "labels": 20,
+      "index": 300, "blocks": 4000, "windows": 50000, "output": 600000}}})",
+                            "r.json"),
+            301U);
+  EXPECT_THROW((void)read_held_bytes(kReport, "r.json"), Error);
+}
+
+TEST(StageTable, MemoryFeedsAsManyCoresAsItsBandwidthAllows) {
+  // A core moves 40 bytes in 20 seconds, 2 a second.
+  EXPECT_EQ(fed_cores(64, 40.0, 20.0, 11.0), 5U);
+  EXPECT_EQ(fed_cores(4, 40.0, 20.0, 11.0), 4U);
+  EXPECT_EQ(fed_cores(4, 40.0, 20.0, 1.0), 1U) << "one core waits for memory as it was measured";
+}
+
 TEST(StageTable, RefusesWhatIsNotTheReportOfOneThread) {
   EXPECT_THROW((void)read_stages("{", "r.json"), Error);
   EXPECT_THROW((void)read_stages("{}", "r.json"), Error);

@@ -152,6 +152,22 @@ TEST(ListSchedule, LookAheadOfOneLeavesNothingToShare) {
   EXPECT_EQ(list_schedule(order, std::vector<double>(27, 1.0), 8, 1), 27.0);
 }
 
+TEST(ListSchedule, RoomForAFewWindowsIsAFewCores) {
+  std::mt19937 random(412);
+  for (engine::Order kind : kOrders) {
+    const engine::WindowOrder order(grid_of({4, 5, 3}), kind);
+    std::vector<double> seconds;
+    for (std::uint64_t i = 0; i < order.size(); ++i) seconds.push_back(below(random, 100));
+    const std::vector<std::uint64_t> bytes(order.size(), 10);
+    for (std::size_t few : {1U, 2U, 5U}) {
+      EXPECT_EQ(list_schedule(order, seconds, 16, kAll, {.bytes = bytes, .budget = 10 * few + 9}),
+                list_schedule(order, seconds, few, kAll));
+    }
+    EXPECT_THROW((void)list_schedule(order, seconds, 16, kAll, {.bytes = bytes, .budget = 9}),
+                 Error);
+  }
+}
+
 /// Graham: between the larger of path and share, and their sum.
 TEST(ListSchedule, KeepsGrahamsBounds) {
   std::mt19937 random(411);

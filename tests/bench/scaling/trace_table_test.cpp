@@ -14,7 +14,7 @@ namespace {
 
 using engine::Order;
 
-constexpr const char* kNames = "march,x,y,z,start_s,end_s,cpu_s,slot\n";
+constexpr const char* kNames = "march,x,y,z,start_s,end_s,cpu_s,slot,bytes\n";
 
 std::vector<MarchTrace> read(const std::string& lines, Clock clock) {
   std::istringstream in(kNames + lines);
@@ -23,11 +23,12 @@ std::vector<MarchTrace> read(const std::string& lines, Clock clock) {
 
 TEST(TraceTable, GivesDurationsByWindow) {
   const std::string lines =
-      "0,1,0,0,2.5,3.5,0.75,1\n"
-      "0,0,0,0,1,1.5,0.25,0\n"
-      "1,0,0,0,4,6,1.5,0\n";
+      "0,1,0,0,2.5,3.5,0.75,1,700\n"
+      "0,0,0,0,1,1.5,0.25,0,500\n"
+      "1,0,0,0,4,6,1.5,0,900\n";
   const auto wall = read(lines, Clock::kWall);
   ASSERT_EQ(wall.size(), 2U);
+  EXPECT_EQ(wall[0].bytes, (std::vector<std::uint64_t>{500, 700}));
   EXPECT_EQ(wall[0].windows, (Index3{2, 1, 1}));
   EXPECT_EQ(wall[0].seconds, (std::vector<double>{0.5, 1.0}));
   EXPECT_EQ(wall[1].windows, (Index3{1, 1, 1}));
@@ -36,9 +37,9 @@ TEST(TraceTable, GivesDurationsByWindow) {
 }
 
 TEST(TraceTable, RefusesWhatIsNotAWholeTrace) {
-  EXPECT_THROW(read("0,1,0,0,2.5,3.5,0.75\n", Clock::kCpu), Error);
-  EXPECT_THROW(read("0,1,zero,0,2.5,3.5,0.75,0\n", Clock::kCpu), Error);
-  EXPECT_THROW(read("0,1,0,0,2.5,3.5,0.75,0\n", Clock::kCpu), Error) << "window 0,0,0 is missing";
+  EXPECT_THROW(read("0,1,0,0,2.5,3.5,0.75,0\n", Clock::kCpu), Error);
+  EXPECT_THROW(read("0,1,zero,0,2.5,3.5,0.75,0,1\n", Clock::kCpu), Error);
+  EXPECT_THROW(read("0,1,0,0,2.5,3.5,0.75,0,1\n", Clock::kCpu), Error) << "window 0,0,0 is missing";
 }
 
 // Ranks whose windows sleep visit all of them, and send what was foreseen.

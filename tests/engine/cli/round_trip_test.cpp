@@ -236,16 +236,18 @@ TEST_F(RoundTripTest, TraceHasALineForEveryVisit) {
   std::istringstream lines(read("t.csv"));
   std::string line;
   std::getline(lines, line);
-  EXPECT_EQ(line, "march,x,y,z,start_s,end_s,cpu_s,slot");
+  EXPECT_EQ(line, "march,x,y,z,start_s,end_s,cpu_s,slot,bytes");
   int visits = 0;
   while (std::getline(lines, line)) {
     int march = -1, x = -1, y = -1, z = -1, slot = -1;
     double start = -1, end = -1, cpu = -1;
-    EXPECT_EQ(std::sscanf(line.c_str(), "%d,%d,%d,%d,%lf,%lf,%lf,%d", &march, &x, &y, &z, &start,
-                          &end, &cpu, &slot),
-              8)
+    long bytes = -1;
+    EXPECT_EQ(std::sscanf(line.c_str(), "%d,%d,%d,%d,%lf,%lf,%lf,%d,%ld", &march, &x, &y, &z,
+                          &start, &end, &cpu, &slot, &bytes),
+              9)
         << line;
     EXPECT_TRUE(start >= 0 && end > start && cpu >= 0 && (slot == 0 || slot == 1)) << line;
+    EXPECT_GT(bytes, 0) << line;
     ++visits;
   }
   EXPECT_EQ(report("r.json")["engine"]["windows"], visits);
