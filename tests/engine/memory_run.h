@@ -32,6 +32,7 @@ class MemoryVolume : public io::LabelVolume {
     info_.type = io::VoxelType::kU64;
     info_.format = "memory";
   }
+  MemoryVolume(SmallVolume&& volume, const Frame& frame) = delete;  // the voxels are not kept
 
   [[nodiscard]] const io::VolumeInfo& info() const override { return info_; }
 

@@ -134,7 +134,8 @@ TEST_F(VolumesTest, TheSummaryNamesLargeLabelsThatAreOff) {
     EXPECT_EQ(out.find(near) != out.npos, options.find("draft") == options.npos) << out;
     EXPECT_EQ(out.find("is why\n") != out.npos, options.find("draft") != options.npos) << out;
   }
-  for (const json& row : report("r.json")["shape"]["per_label"]) {
+  const json facts = report("r.json");
+  for (const json& row : facts["shape"]["per_label"]) {
     const bool is_off = row["voxels"] >= 1000 && std::abs(row["volume_error"].get<double>()) > 0.05;
     EXPECT_EQ(is_off, row["label"] == 3) << row;
   }

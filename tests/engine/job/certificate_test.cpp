@@ -107,7 +107,8 @@ TEST_F(CertificateTest, IsInTheReport) {
 
 /// Without a bound nobody sees a distance but the reader of a report.
 TEST_F(CertificateTest, MeasuresDistancesForABoundOrAReport) {
-  const MemoryVolume volume(volume_of_two_labels(), {});
+  const audit::test::SmallVolume voxels = volume_of_two_labels();
+  const MemoryVolume volume(voxels, {});
   const io::LabelTable table = io::collect_labels(volume);
   const io::DenseVolume labels(volume, table);
   engine::MeshJob job;
