@@ -3,8 +3,12 @@
 // Bend energies before and after a contraction.
 #include "kernels/simplify/contraction_filters.h"
 
+#include <algorithm>
+#include <optional>
+
 #include "kernels/core/assert.h"
 #include "kernels/surface/flat_plane.h"
+#include "kernels/surface/thin_label.h"
 
 namespace mw {
 namespace {
@@ -19,6 +23,10 @@ constexpr double kShareOfMoved = 0.6;
 /// smooth, and where more meet (bench/parameters.md, "Constants").
 constexpr double kFreeBetweenTwo = 0.38;
 constexpr double kFreeElsewhere = 0.55;
+/// The most of both on sheets of one voxel, which can only be even between the places where they
+/// are held if vertices are left there (bench/parameters.md, "Thin labels").
+constexpr double kShareOnSheet = 0.7;
+constexpr double kFreeOnSheet = 0.2;
 
 }  // namespace
 
@@ -32,8 +40,30 @@ bool BendFilter::stays_smooth(const Contraction& c) {
   const double free = leaves ? 0.0 : two ? kFreeBetweenTwo : kFreeElsewhere;
   const double share = leaves ? kShareOfMoved : kShareOfPresent;
   const double after = merged_.bends_at(Vec3::Zero());
-  if (after <= free) return true;
-  return after <= share * (present_bends(keep) + present_bends(drop)) + free;
+  const double free_on_sheet = std::min(free, kFreeOnSheet);
+  if (after <= free_on_sheet) return true;
+  const double present = present_bends(keep) + present_bends(drop);
+  if (after > share * present + free) return false;
+  // Few contractions are between the two, so few look at the input's labels.
+  return after <= std::min(share, kShareOnSheet) * present + free_on_sheet ||
+         !is_on_sheet(keep.star);
+}
+
+bool BendFilter::is_on_sheet(const SurfaceStar& star) const {
+  if (labels_ == nullptr) return false;
+  const Point at = mesh_.position(star.vertex());
+  const auto is_sheet = [&](Label label) {
+    const std::optional<ThinLabel> thin = thin_label_at(*labels_, at, label);
+    return thin && thin->is_sheet;
+  };
+  Label low = kExterior, high = kExterior;
+  for (const SurfaceTriangle& t : star.triangles()) {
+    if (t.low == low && t.high == high) continue;
+    low = t.low;
+    high = t.high;
+    if (is_sheet(low) || is_sheet(high)) return true;
+  }
+  return false;
 }
 
 /// True if the interface triangles at both ends lie in one plane across an axis and the survivor

@@ -58,12 +58,14 @@ class ShapeFilter {
 /// because smoothing takes it out only where shapes and the distance bound let it.
 class BendFilter {
  public:
-  /// Keeps references.
-  BendFilter(const TetMesh& mesh, const Metric& metric) : mesh_(mesh), metric_(metric) {}
+  /// Keeps references.  With `labels`, those of the input, less is allowed on thin sheets.
+  BendFilter(const TetMesh& mesh, const Metric& metric, const LabelBox* labels = nullptr)
+      : mesh_(mesh), metric_(metric), labels_(labels) {}
 
   /// False when the surviving star would bend by more than a share of what both stars bend at
-  /// present, plus what is free; and when the interface triangles at both ends lie in one plane
-  /// across an axis, which the survivor would leave.
+  /// present, plus what is free, both of which are less on sheets of one voxel; and when the
+  /// interface triangles at both ends lie in one plane across an axis, which the survivor would
+  /// leave.
   [[nodiscard]] bool stays_smooth(const Contraction& c);
 
   /// The interface triangles at an end of the contraction that was judged last.
@@ -84,9 +86,11 @@ class BendFilter {
                                   std::span<const FanTriangle> drop) const;
   [[nodiscard]] Gathered& star_of(LocalVertex v, LocalVertex other);
   [[nodiscard]] static double present_bends(Gathered& g);
+  [[nodiscard]] bool is_on_sheet(const SurfaceStar& star) const;
 
   const TetMesh& mesh_;
   const Metric& metric_;
+  const LabelBox* labels_;
   std::array<Gathered, 2> gathered_;
   SurfaceStar merged_;
 };

@@ -181,7 +181,7 @@ class Simplifier {
         topology_on_box_(mesh, KeptTopology::kInterfaces),
         topology_across_(mesh, options.topology, LinkCondition::Sides::kTogether),
         topology_of_sides_(mesh, options.topology),
-        bends_(mesh, metric) {}
+        bends_(mesh, metric, guard == nullptr ? nullptr : &guard->labels()) {}
 
   SimplifyStats run() {
     if (is_sized(options_)) contract_on_lines(Aim::kTouch);
