@@ -7,6 +7,7 @@
 #include <optional>
 
 #include "kernels/core/assert.h"
+#include "kernels/core/sort_distinct.h"
 #include "kernels/surface/flat_plane.h"
 #include "kernels/surface/thin_label.h"
 
@@ -23,10 +24,10 @@ constexpr double kShareOfMoved = 0.6;
 /// smooth, and where more meet (bench/parameters.md, "Constants").
 constexpr double kFreeBetweenTwo = 0.38;
 constexpr double kFreeElsewhere = 0.55;
-/// The most of both on sheets of one voxel, which can only be even between the places where they
-/// are held if vertices are left there (bench/parameters.md, "Thin labels").
-constexpr double kShareOnSheet = 0.7;
-constexpr double kFreeOnSheet = 0.2;
+/// The most of both on a held sheet, which can only be even between the places where it is held if
+/// vertices are left there (bench/parameters.md, "Thin labels").
+constexpr double kShareWhereHeld = 0.6;
+constexpr double kFreeWhereHeld = 0.1;
 
 }  // namespace
 
@@ -40,30 +41,28 @@ bool BendFilter::stays_smooth(const Contraction& c) {
   const double free = leaves ? 0.0 : two ? kFreeBetweenTwo : kFreeElsewhere;
   const double share = leaves ? kShareOfMoved : kShareOfPresent;
   const double after = merged_.bends_at(Vec3::Zero());
-  const double free_on_sheet = std::min(free, kFreeOnSheet);
-  if (after <= free_on_sheet) return true;
+  const double free_where_held = std::min(free, kFreeWhereHeld);
+  if (after <= free_where_held) return true;
   const double present = present_bends(keep) + present_bends(drop);
   if (after > share * present + free) return false;
   // Few contractions are between the two, so few look at the input's labels.
-  return after <= std::min(share, kShareOnSheet) * present + free_on_sheet ||
-         !is_on_sheet(keep.star);
+  return after <= std::min(share, kShareWhereHeld) * present + free_where_held || !is_held_at(keep);
 }
 
-bool BendFilter::is_on_sheet(const SurfaceStar& star) const {
+bool BendFilter::is_held_at(Gathered& g) {
   if (labels_ == nullptr) return false;
-  const Point at = mesh_.position(star.vertex());
-  const auto is_sheet = [&](Label label) {
+  if (g.is_held) return *g.is_held;
+  const Point at = mesh_.position(g.star.vertex());
+  const auto is_held = [&](Label label) {
     const std::optional<ThinLabel> thin = thin_label_at(*labels_, at, label);
-    return thin && thin->is_sheet;
+    return thin && thin->is_held;
   };
-  Label low = kExterior, high = kExterior;
-  for (const SurfaceTriangle& t : star.triangles()) {
-    if (t.low == low && t.high == high) continue;
-    low = t.low;
-    high = t.high;
-    if (is_sheet(low) || is_sheet(high)) return true;
-  }
-  return false;
+  around_.clear();
+  for (const SurfaceTriangle& t : g.star.triangles())
+    around_.insert(around_.end(), {t.low, t.high});
+  sort_distinct(around_);
+  g.is_held = std::any_of(around_.begin(), around_.end(), is_held);
+  return *g.is_held;
 }
 
 /// True if the interface triangles at both ends lie in one plane across an axis and the survivor
@@ -99,6 +98,7 @@ BendFilter::Gathered& BendFilter::star_of(LocalVertex v, LocalVertex other) {
   Gathered& g = gathered_[gathered_[0].is(other, now) ? 1 : 0];
   g.at = now;
   g.bends.reset();
+  g.is_held.reset();
   g.star.collect(mesh_, metric_, v);
   g.star.collect_rims(mesh_, metric_);
   return g;

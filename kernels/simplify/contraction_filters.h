@@ -58,13 +58,13 @@ class ShapeFilter {
 /// because smoothing takes it out only where shapes and the distance bound let it.
 class BendFilter {
  public:
-  /// Keeps references.  With `labels`, those of the input, less is allowed on thin sheets.
+  /// Keeps references.  With `labels`, those of the input, less is allowed on held sheets.
   BendFilter(const TetMesh& mesh, const Metric& metric, const LabelBox* labels = nullptr)
       : mesh_(mesh), metric_(metric), labels_(labels) {}
 
   /// False when the surviving star would bend by more than a share of what both stars bend at
-  /// present, plus what is free, both of which are less on sheets of one voxel; and when the
-  /// interface triangles at both ends lie in one plane across an axis, which the survivor would
+  /// present, plus what is free, both of which are less on held sheets (thin_label_at()); and when
+  /// the interface triangles at both ends lie in one plane across an axis, which the survivor would
   /// leave.
   [[nodiscard]] bool stays_smooth(const Contraction& c);
 
@@ -76,6 +76,7 @@ class BendFilter {
   struct Gathered {
     SurfaceStar star;
     std::optional<double> bends;  ///< bend energy of the star, once it was asked for
+    std::optional<bool> is_held;  ///< a label is a held sheet there, once that was asked for
     std::uint64_t at = 0;         ///< TetMesh::changes() + 1; 0 when nothing is gathered
     [[nodiscard]] bool is(LocalVertex v, std::uint64_t now) const {
       return star.vertex() == v && at == now;
@@ -86,13 +87,14 @@ class BendFilter {
                                   std::span<const FanTriangle> drop) const;
   [[nodiscard]] Gathered& star_of(LocalVertex v, LocalVertex other);
   [[nodiscard]] static double present_bends(Gathered& g);
-  [[nodiscard]] bool is_on_sheet(const SurfaceStar& star) const;
+  [[nodiscard]] bool is_held_at(Gathered& g);
 
   const TetMesh& mesh_;
   const Metric& metric_;
   const LabelBox* labels_;
   std::array<Gathered, 2> gathered_;
   SurfaceStar merged_;
+  std::vector<Label> around_;  ///< scratch; labels at a vertex
 };
 
 }  // namespace mw

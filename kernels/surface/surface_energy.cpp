@@ -32,11 +32,11 @@ constexpr double kMostOwed = 0.125;
 struct ThinShares {
   double area, bend, needle;
 };
-constexpr ThinShares kAtThin{1.0, 0.6, 1.0}, kAtKept{1.0, 0.25, 1.0}, kAtSheet{3.0, 0.5, 1.0},
-    kAtThread{0.1, 0.1, 1.0}, kAtSpeck{0.0, 0.0, 0.0};
+constexpr ThinShares kAtThin{1.0, 0.6, 1.0}, kAtKept{1.0, 0.25, 1.0}, kAtSheet{1.5, 0.4, 1.0},
+    kAtHeld{2.0, 0.3, 1.0}, kAtThread{0.1, 0.1, 1.0}, kAtSpeck{0.0, 0.0, 0.0};
 
-/// The pairs of labels with triangles where a label of three lies between the other two, which
-/// touch each other across it.  Where three labels meet along a line there are three pairs.
+/// How many pairs of labels have triangles at a vertex off the box where two labels touch each
+/// other across a third.  Where three labels meet along a line there are three pairs.
 constexpr std::size_t kPairsAtTouch = 2;
 
 /// A factor that exceeds the rounding of squared distances.
@@ -406,6 +406,7 @@ bool SurfaceEnergy::yield_to_thin(const std::optional<ThinLabel>& thin, bool two
   if (!thin) return false;
   if (two_labels) {
     const ThinShares& shares = thin->is_speck && area_weight_ > 0.0 ? kAtSpeck
+                               : thin->is_held                      ? kAtHeld
                                : thin->is_sheet                     ? kAtSheet
                                : thin->is_thread                    ? kAtThread
                                : weights_.keep_thin                 ? kAtKept
@@ -413,8 +414,8 @@ bool SurfaceEnergy::yield_to_thin(const std::optional<ThinLabel>& thin, bool two
     area_weight_ *= shares.area;
     bend_weight_ *= shares.bend;
     needle_weight_ *= shares.needle;
-  } else if (thin->is_sheet && area_weight_ > 0.0 && balances_.size() == kPairsAtTouch) {
-    area_weight_ = kAtSheet.area * weights_.area;
+  } else if (thin->is_held && area_weight_ > 0.0 && balances_.size() == kPairsAtTouch) {
+    area_weight_ = kAtHeld.area * weights_.area;
   }
   return thin->is_sheet || thin->is_thread || weights_.keep_thin;
 }

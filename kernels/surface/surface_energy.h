@@ -100,7 +100,8 @@ struct SurfaceWeights {
 /// Thin labels.  A sheet of one voxel whose voxels touch along edges is held there, so what is
 /// between these places has to be thicker than the sheet, and bends count less at a thin label
 /// (thin_label_at()).  Where it is a sheet or a thread, and with keep_thin everywhere, debts are
-/// added to those that vertices had before, and bends count still less.
+/// added to those that vertices had before, and bends count still less.  Where a sheet is held in
+/// many places area counts more, also where two other labels touch each other across it.
 ///
 /// Specks.  Area, bends and needles of a part of one to three voxels say nothing, and would pull it
 /// to nothing.  They are left out where a vertex is between two labels, one of which is a speck.

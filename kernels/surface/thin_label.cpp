@@ -95,6 +95,11 @@ struct Surroundings {
   int voxels = 0;
   std::array<unsigned, 3> layers{};  ///< a bit for each layer across an axis that has some
 
+  /// True if all are in one layer across some axis.
+  [[nodiscard]] bool are_flat() const {
+    return std::any_of(layers.begin(), layers.end(),
+                       [](unsigned some) { return std::has_single_bit(some); });
+  }
   /// True if there are some in every layer across some axis.
   [[nodiscard]] bool go_through() const {
     constexpr unsigned kAll = (1U << 2 * kAround) - 1;
@@ -105,11 +110,6 @@ struct Surroundings {
     constexpr unsigned kOutermost = 1U | 1U << (2 * kAround - 1);
     return std::none_of(layers.begin(), layers.end(),
                         [](unsigned some) { return (some & kOutermost) != 0; });
-  }
-  /// True if all are in one layer across some axis.
-  [[nodiscard]] bool are_flat() const {
-    return std::any_of(layers.begin(), layers.end(),
-                       [](unsigned some) { return std::has_single_bit(some); });
   }
 };
 
@@ -128,6 +128,30 @@ Surroundings look_around(const LabelRows<kAround>& rows) {
     out.layers[2] |= (of_layer != 0 ? 1U : 0U) << z;
   }
   return out;
+}
+
+/// Counts the edges between voxels at which two of the four voxels have the label, and touch by
+/// this edge alone.
+int count_touches(const LabelRows<kAround>& rows) {
+  constexpr std::size_t kLast = LabelRows<kAround>::kSize - 1;
+  const auto touches = [](unsigned a, unsigned b, unsigned c, unsigned d) {
+    return std::popcount((a & d & ~b & ~c) | (b & c & ~a & ~d));
+  };
+  int sum = 0;
+  for (std::size_t z = 0; z <= kLast; ++z) {
+    for (std::size_t y = 0; y <= kLast; ++y) {
+      const unsigned row = rows.at(z, y);
+      const auto along_x = [&](unsigned next) {
+        constexpr unsigned kAllButLast = (1U << kLast) - 1;
+        return touches(row & kAllButLast, row >> 1U, next & kAllButLast, next >> 1U);
+      };
+      if (y < kLast) sum += along_x(rows.at(z, y + 1));
+      if (z < kLast) sum += along_x(rows.at(z + 1, y));
+      if (y == kLast || z == kLast) continue;
+      sum += touches(row, rows.at(z, y + 1), rows.at(z + 1, y), rows.at(z + 1, y + 1));
+    }
+  }
+  return sum;
 }
 
 /// The 8^3 voxels around a corner, one bit for each, layer by layer.
@@ -160,15 +184,17 @@ bool are_inside(const Layers& part) {
 
 std::optional<ThinLabel> thin_label_at(const LabelBox& labels, Point place, Label label) {
   constexpr std::int64_t kReachOfThin = 2, kReachOfSheet = 5;
-  constexpr int kLeastOfSheet = 56, kMostOfThread = 20, kMostOfSmall = 3;
+  constexpr int kLeastOfSheet = 56, kLeastOfTouches = 16, kMostOfThread = 20, kMostOfSmall = 3;
   const Index3 corner = nearest_corner(place);
   if (!LabelRows<kReachOfThin>(labels, corner, label).are_without_cubes()) return std::nullopt;
   const LabelRows<kAround> near(labels, corner, label);
   const Surroundings around = look_around(near);
+  const bool is_sheet = around.voxels >= kLeastOfSheet && !around.are_flat() &&
+                        near.are_without_cubes() &&
+                        LabelRows<kReachOfSheet>(labels, corner, label).are_without_cubes();
   return ThinLabel{
-      .is_sheet = around.voxels >= kLeastOfSheet && !around.are_flat() &&
-                  near.are_without_cubes() &&
-                  LabelRows<kReachOfSheet>(labels, corner, label).are_without_cubes(),
+      .is_sheet = is_sheet,
+      .is_held = is_sheet && count_touches(near) >= kLeastOfTouches,
       .is_thread = around.voxels <= kMostOfThread && around.go_through(),
       .is_speck = around.are_inside(),
       .is_small = around.voxels <= kMostOfSmall && !around.go_through(),

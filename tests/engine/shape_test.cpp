@@ -422,6 +422,20 @@ TEST(SmoothSurface, ThinShellsKeepTheirVolume) {
   }
 }
 
+/// What is between the places where they are held is even if it has vertices enough.  Otherwise a
+/// sixth of the edges of such shells bend by more than 60 degrees.
+TEST(SmoothSurface, ThinShellsAreLittleCrumpled) {
+  for (const Label inside : {0U, 2U}) {
+    const SmallVolume shell = body(44, 1 + std::max(inside, 1U), [&](const Vec3& p) {
+      const double r = (p - Vec3(22, 22, 22)).norm();
+      return r > 18.5 ? 0U : r > 17.5 ? 1U : inside;
+    });
+    const Result r = run(shell);
+    EXPECT_LT(std::abs(error_of_first(r)), 0.06) << inside;
+    EXPECT_LT(r.figures.shape.sharp_share, 0.12) << inside;
+  }
+}
+
 /// Where the bound is near, thin labels of any shape keep it, as dust of threads and sheets does.
 TEST(SmoothSurface, DustKeepsMoreOfItsVolumeWhereTheBoundIsNear) {
   std::mt19937 random(608);

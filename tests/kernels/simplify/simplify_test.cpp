@@ -8,6 +8,7 @@
 #include "kernels/quality/quality.h"
 #include "kernels/simplify/contraction_filters.h"
 #include "kernels/simplify/simplify.h"
+#include "kernels/surface/thin_label.h"
 #include "kernels/topology/link_condition.h"
 #include "tests/kernels/mesh/dense_mesh.h"
 #include "tests/kernels/surface/interface_triangles.h"
@@ -267,6 +268,46 @@ TEST(BendFilter, ComparesTheContractedMeshWithThePresentOne) {
   EXPECT_GT(free, 100);
 }
 
+/// A sheet that climbs by a voxel in every four touches itself along the edges of its steps.
+TEST(BendFilter, AllowsLessOnSheetsThatTouchThemselves) {
+  std::mt19937 random(733);
+  const Metric metric;
+  const SmallVolume volume =
+      volume_from({16, 10, 9}, 2, [](auto x, auto, auto z) { return z == 2 + x / 4 ? 1 : 0; });
+  const LabelBox labels = labels_in(volume, {{0, 0, 0}, volume.shape});
+  int refused = 0, allowed = 0, beside = 0;
+  for (int i = 0; i < 30 && !HasFailure(); ++i) {
+    TetMesh mesh = dense_mesh(volume);
+    disturb(mesh, random);
+    LinkCondition topology(mesh);
+    BendFilter filter(mesh, metric, &labels), elsewhere(mesh, metric);
+    for (int k = 0; k < 500; ++k) {
+      const auto [p, q] = random_edge(mesh, random);
+      if (p == q || mesh.order(p) != 2 || mesh.order(q) != 2) continue;
+      const Contraction c{.keep = p, .drop = q, .position = mesh.position(p)};
+      if (!topology.keeps_topology(mesh, p, q)) continue;
+      if (!stays_positive(mesh, p, q, c.position) || !elsewhere.stays_smooth(c)) continue;
+      const bool verdict = filter.stays_smooth(c);
+      const auto thin = thin_label_at(labels, c.position, 1);
+      if (!thin || !thin->is_held) {
+        EXPECT_TRUE(verdict);
+        ++beside;
+        continue;
+      }
+      TetMesh contracted = mesh;
+      contracted.contract(p, q, c.position, mesh.quadric(p));
+      const double present = bends_around(mesh, metric, p) + bends_around(mesh, metric, q);
+      const double after = bends_around(contracted, metric, p), most = 0.6 * present + 0.1;
+      if (std::abs(after - most) < 1e-9) continue;
+      EXPECT_EQ(verdict, after < most);
+      (verdict ? allowed : refused) += 1;
+    }
+  }
+  EXPECT_GT(refused, 20);
+  EXPECT_GT(allowed, 20);
+  EXPECT_GT(beside, 20);
+}
+
 /// A bend of a thousandth of a voxel is free elsewhere.
 TEST(BendFilter, KeepsInItsPlaneWhatIsFlatThere) {
   std::mt19937 random(732);
@@ -279,7 +320,8 @@ TEST(BendFilter, KeepsInItsPlaneWhatIsFlatThere) {
       volume.labels.push_back(along_axis(v) < (beside(v) < 5 ? 4 : 3) ? 0 : 1);
     });
     const TetMesh mesh = dense_mesh(volume);
-    BendFilter filter(mesh, Metric());
+    const Metric metric;
+    BendFilter filter(mesh, metric);
     const auto carries_the_step = [&](LocalVertex v) {
       const Point p = mesh.position(v);
       return axis == 0 ? p.y >= 5 * kUnitsPerVoxel : p.x >= 5 * kUnitsPerVoxel;

@@ -169,7 +169,7 @@ Shares shares_at(const TetMesh& mesh, const DistanceGuard& guard, const SurfaceS
     }
   }
   if (!thin) return {};
-  if (thin->is_sheet) return {.area = 1.5, .bend = 0.4};
+  if (thin->is_sheet) return {.area = thin->is_held ? 2.0 : 1.5, .bend = thin->is_held ? 0.3 : 0.4};
   if (thin->is_thread) return {.area = 0.1, .bend = 0.1};
   return {.bend = 0.6};
 }
@@ -196,7 +196,7 @@ TEST(SurfaceEnergy, OfBendsAloneIsTheirSumAndLessAtThinLabels) {
     EXPECT_NEAR(energy.min_cosine(), min, 1e-9);
   });
   EXPECT_GT(found[0.6], 100);
-  EXPECT_GT(found[0.4] + found[0.1], 10);
+  EXPECT_GT(found[0.4] + found[0.3] + found[0.1], 10);
 }
 
 TEST(SurfaceEnergy, OfNeedlesAloneIsThatOfTheirShapes) {
@@ -360,6 +360,38 @@ TEST(SurfaceEnergy, BendsGiveWayWhereVolumeIsOwed) {
   });
   EXPECT_GT(gave_way, 100);
   EXPECT_GT(at_junctions, 50);
+}
+
+/// Where the labels on both sides of a held sheet touch across it, area counts as on the sheet.
+TEST(SurfaceEnergy, HasTheAreaOfASheetWhereItsSidesTouch) {
+  const SmallVolume volume = volume_from({16, 10, 11}, 3, [](auto x, auto, auto z) {
+    const auto height = z - 2 - x / 3;
+    return height < 0 ? 0 : height == 0 ? 1 : 2;
+  });
+  GuardedMesh guarded(volume, kBound);
+  const Metric metric;
+  SurfaceStar star;
+  int touches = 0, lines = 0;
+  for (LocalVertex v = 0; v < guarded.mesh.vertex_count(); ++v) {
+    if (guarded.mesh.planes(v) != 0 || guarded.mesh.order(v) != 3) continue;
+    star.collect(guarded.mesh, metric, v);
+    const auto& triangles = star.triangles();
+    const bool is_touch = std::ranges::none_of(
+        triangles, [](const SurfaceTriangle& t) { return t.is_between(0, 2); });
+    const auto thin = thin_label_at(guarded.labels, guarded.mesh.position(v), 1);
+    const auto slope_with = [&](double area, double junction_area) {
+      const SurfaceWeights weights{
+          .area = area, .junction_area = junction_area, .bend = 0.0, .needle = 0.0};
+      return slope(weights, guarded.mesh, metric, guarded.guard, star);
+    };
+    const Vec3 plain = slope_with(1.0, 0.01);
+    const bool is_as_on_sheet = is_touch && thin && thin->is_held;
+    EXPECT_EQ(slope_with(1.0, 0.5) == plain, is_as_on_sheet);
+    EXPECT_EQ(slope_with(0.5, 0.01) == plain, !is_as_on_sheet);
+    (is_as_on_sheet ? touches : lines) += 1;
+  }
+  EXPECT_GT(touches, 5);
+  EXPECT_GT(lines, 0);
 }
 
 /// On the box there is no area term.

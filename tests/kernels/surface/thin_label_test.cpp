@@ -164,11 +164,36 @@ std::vector<std::size_t> layers_of(const std::vector<Index3>& voxels, std::size_
   return out;
 }
 
+/// The pairs of voxels that have an edge in common and neither of the other two voxels there.
+std::size_t touches_of(const std::vector<Index3>& voxels) {
+  std::set<std::array<std::int64_t, 3>> all;
+  for (const Index3 v : voxels) all.insert({v.x, v.y, v.z});
+  std::size_t touches = 0;
+  for (const auto& a : all) {
+    for (const auto& b : all) {
+      if (!(a < b)) continue;
+      std::size_t same = 0, between = 0;
+      for (std::size_t axis = 0; axis < 3; ++axis) {
+        if (std::abs(a[axis] - b[axis]) > 1) same = 3;
+        if (a[axis] == b[axis]) {
+          ++same;
+          continue;
+        }
+        std::array<std::int64_t, 3> other = a;
+        other[axis] = b[axis];
+        between += all.count(other);
+      }
+      touches += same == 1 && between == 0 ? 1 : 0;
+    }
+  }
+  return touches;
+}
+
 TEST(ThinLabel, IsASheetOrAThreadWhereItGoesOn) {
   std::mt19937 random(61);
-  std::array<int, 3> found{};  // neither, thread, sheet
+  std::array<int, 4> found{};  // none, thread, sheet, held sheet
   int small = 0;
-  for (int i = 0; i < 1500; ++i) {
+  for (int i = 0; i < 3000; ++i) {
     const LabelBox labels =
         i % 3 == 0 ? random_boxes(random) : random_sheet_or_thread(random, i % 3 == 1);
     const Index3 around = in_the_middle(random, labels.box);
@@ -180,10 +205,12 @@ TEST(ThinLabel, IsASheetOrAThreadWhereItGoesOn) {
     const auto thin = thin_label_at(labels, corner(around), 1);
     EXPECT_EQ(thin && thin->is_sheet, is_sheet) << i;
     EXPECT_EQ(thin && thin->is_thread, is_thread) << i;
+    const bool is_held = is_sheet && touches_of(near) >= 16;
+    EXPECT_EQ(thin && thin->is_held, is_held) << i;
     const bool is_small = near.size() <= 3 && layers_of(near, 8).empty();
     EXPECT_TRUE(!thin || thin->is_small == is_small) << i;
     small += thin && is_small ? 1 : 0;
-    ++found[is_sheet ? 2 : is_thread ? 1 : 0];
+    ++found[is_held ? 3 : is_sheet ? 2 : is_thread ? 1 : 0];
   }
   for (const int count : found) EXPECT_GT(count, 50);
   EXPECT_GT(small, 50);
