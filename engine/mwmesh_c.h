@@ -122,8 +122,15 @@ typedef struct mw_hooks {
 /* A labelled volume. */
 typedef struct mw_volume mw_volume;
 
-/* The type of stored labels.  Labels that are floats must be whole numbers. */
-typedef enum mw_type {
+#ifdef __cplusplus
+#define MW_OF_UNSIGNED : unsigned
+#else
+#define MW_OF_UNSIGNED
+#endif
+
+/* The type of stored labels.  Labels that are floats must be whole numbers.  A number that is no
+ * type is refused; C++ lets it be handed over because the enumeration is one of unsigned. */
+typedef enum mw_type MW_OF_UNSIGNED {
   MW_U8 = 0,
   MW_U16 = 1,
   MW_U32 = 2,

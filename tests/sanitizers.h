@@ -13,4 +13,7 @@ inline constexpr bool kResidentMemoryIsOurs = false;
 inline constexpr bool kResidentMemoryIsOurs = true;
 #endif
 
+/// False under sanitizers, which open pipes to look at memory.
+inline constexpr bool kOpenFilesAreOurs = kResidentMemoryIsOurs;
+
 }  // namespace mw::test

@@ -40,8 +40,10 @@ report::RaisedSizes raised_sizes(const SizeImage& image, double smallest,
 }  // namespace
 
 MeshJob with_physical_sizes(const io::LabelVolume& opened, MeshJob job) {
+  const io::VolumeInfo volume = io::info_after(job.steps, opened.info());
+  check_coordinates(volume);
   SizeRules& rules = job.settings.sizes.rules;
-  rules = rules.in_physical_units(voxel_edge(io::info_after(job.steps, opened.info())));
+  rules = rules.in_physical_units(voxel_edge(volume));
   return job;
 }
 

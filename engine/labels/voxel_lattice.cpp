@@ -87,9 +87,16 @@ double farthest_coordinate(const io::VolumeInfo& volume) {
   return farthest;
 }
 
-/// Meshes are written in double: points of the lattice must stay far enough apart there for the
-/// shapes of tets between them, and products of three lengths must be finite and not 0.
+}  // namespace
+
+double least_size(const io::VolumeInfo& volume) {
+  const auto [x, y, z] = layered_spacing(volume.space.spacing, layers_of(volume.space.spacing));
+  return std::sqrt(x * x + y * y + z * z) / SizeRules::kContracted;
+}
+
 void check_coordinates(const io::VolumeInfo& volume) {
+  // Points of the lattice must stay far enough apart in double for the shapes of tets between them,
+  // and products of three lengths must be finite and not 0.
   constexpr double kSmallest = 1e-30;
   constexpr double kLargest = 1e30;
   constexpr double kUnitsInLastPlace = 256;
@@ -109,13 +116,6 @@ void check_coordinates(const io::VolumeInfo& volume) {
                                           ", where numbers are too far apart for voxels of ", min,
                                           "; with these they can reach ", max,
                                           ": set --origin nearer to 0, or a larger --spacing"));
-}
-
-}  // namespace
-
-double least_size(const io::VolumeInfo& volume) {
-  const auto [x, y, z] = layered_spacing(volume.space.spacing, layers_of(volume.space.spacing));
-  return std::sqrt(x * x + y * y + z * z) / SizeRules::kContracted;
 }
 
 double voxel_edge(const io::VolumeInfo& volume) {

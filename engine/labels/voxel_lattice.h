@@ -15,7 +15,13 @@ namespace mw::engine {
 /// lattice is SizeRules::kContracted times as long.
 [[nodiscard]] double least_size(const io::VolumeInfo& volume);
 
+/// Checks that a mesh of the volume can be written in double.
+/// ERRORS: kInput when coordinates are too large or too small, or too near each other for their
+/// size.
+void check_coordinates(const io::VolumeInfo& volume);
+
 /// Returns the edge of a cube that has the volume of a voxel of the lattice.
+/// REQUIRES: check_coordinates() passes.
 [[nodiscard]] double voxel_edge(const io::VolumeInfo& volume);
 
 /// Returns a size rounded up to three digits, so that the size a user is told can be kept.

@@ -79,7 +79,8 @@ bool has_segment_names(const NrrdKeys& keys) {
 std::vector<Segment> read_segments(const NrrdKeys& keys) {
   std::vector<std::string_view> names;
   for (const auto& [key, value] : keys) {
-    if (key.ends_with("_LabelValue") && label_of(value)) names.push_back(segment_of(key));
+    const std::string_view segment = segment_of(key);
+    if (key == text(segment, "_LabelValue") && label_of(value)) names.push_back(segment);
   }
   std::erase(names, std::string_view{});
   std::sort(names.begin(), names.end(), [](std::string_view a, std::string_view b) {

@@ -107,7 +107,7 @@ TEST_F(CountTest, ComesAgainAfterAKill) {
   int killed = 0;
   for (const double share : {0.1, 0.2, 0.4, 0.6, 0.8}) {
     SCOPED_TRACE(share);
-    run(mesh + "v.vtu --force", io::text("timeout -s KILL ", share * whole.count()));
+    run(mesh + "v.vtu --force", io::text("timeout --foreground -s KILL ", share * whole.count()));
     if (!files().contains("v.vtu.work")) continue;
     ++killed;
     expect_done(mesh + "v.vtu --resume");

@@ -418,6 +418,7 @@ TEST_F(UsageTest, CoordinatesThatCannotBeToldApart) {
   expect_done("synth spheres --shape 12,12,12 --labels 2 --seed 1 -o v.npy");
   expect_failure(3, "mesh v.npy -o v.vtu --origin=4e15,4e15,4e15", "--origin nearer to 0");
   expect_failure(3, "mesh v.npy -o v.vtu --spacing 1e300,1e300,1e300", "1e+30");
+  expect_failure(3, "mesh v.npy -o v.vtu --preset fine --spacing 1e300,1e300,1e300", "1e+30");
   expect_failure(3, "mesh v.npy -o v.vtu --spacing 5e-324,5e-324,5e-324", "1e-30");
   expect_failure(3, "mesh v.npy -o v.vtu --spacing 4e-9,4e-9,4e-9 --origin=100,0,0", "can reach");
   for (const std::string position :
