@@ -143,6 +143,8 @@ typedef enum mw_type MW_OF_UNSIGNED {
   MW_F64 = 9
 } mw_type;
 
+#undef MW_OF_UNSIGNED
+
 /* Places corners of voxels, counted from the first one: world = origin + sum over i of axes[i] *
  * spacing[i] * corner[i].  Axes have unit length and are at right angles. */
 typedef struct mw_space {

@@ -4,7 +4,6 @@
 #include "bench/scaling/list_schedule.h"
 
 #include <algorithm>
-#include <optional>
 #include <queue>
 
 #include "engine/march/wavefront.h"
@@ -46,16 +45,6 @@ class Running {
   std::priority_queue<End, std::vector<End>, std::greater<>> ends_;
 };
 
-/// Returns the window that a free core takes; nothing where none may start.
-std::optional<std::uint64_t> next_window(const engine::Wavefront& wavefront,
-                                         const Running& running) {
-  const std::optional<std::uint64_t> best = wavefront.best();
-  if (!best || running.has_room(*best)) return best;
-  const std::uint64_t first = wavefront.first_unfinished();
-  if (wavefront.is_ready(first) && running.has_room(first)) return first;
-  return std::nullopt;
-}
-
 }  // namespace
 
 double list_schedule(const engine::WindowOrder& order, std::span<const double> seconds,
@@ -65,7 +54,8 @@ double list_schedule(const engine::WindowOrder& order, std::span<const double> s
   double now = 0.0;
   while (wavefront.first_unfinished() < order.size()) {
     while (running.size() < cores) {
-      const std::optional<std::uint64_t> next = next_window(wavefront, running);
+      const auto has_room = [&](std::uint64_t rank) { return running.has_room(rank); };
+      const std::optional<std::uint64_t> next = engine::window_to_start(wavefront, has_room);
       if (!next) break;
       wavefront.start(*next);
       running.start(*next, now + seconds[*next]);

@@ -66,7 +66,7 @@ class PreparedLabels {
   [[nodiscard]] LabelBox shape(const Box3& box) const;
   /// True if interfaces are fitted to a source surface; otherwise they are fitted to voxel faces.
   [[nodiscard]] bool has_source() const { return source_.has_value(); }
-  /// True if the source surface lies where the scores of labels are equal.  REQUIRES: has_source().
+  /// True if there is a source surface and it lies where the scores of labels are equal.
   [[nodiscard]] bool has_crossings() const { return source_ && source_->form().along_axis; }
   /// Returns the source surface in the part of the box that is in the volume or in copies of it.
   /// REQUIRES: has_source().

@@ -73,12 +73,9 @@ class Dispatcher {
   /// busy or no window may start.
   [[nodiscard]] std::optional<Index3> next() {
     if (error_ || running_.size() == threads_) return std::nullopt;
-    const std::optional<std::uint64_t> best = front_->best();
-    if (!best) return std::nullopt;
-    if (try_start(*best)) return order_.window(*best);
-    const std::uint64_t first = front_->first_unfinished();
-    if (error_ || !front_->is_ready(first) || !try_start(first)) return std::nullopt;
-    return order_.window(first);
+    const std::optional<std::uint64_t> rank =
+        window_to_start(*front_, [&](std::uint64_t r) { return !error_ && try_start(r); });
+    return rank ? std::optional(order_.window(*rank)) : std::nullopt;
   }
 
   /// Notes an error of the march itself, for instance that memory ran out.  Any error of a window

@@ -30,6 +30,18 @@ class Front {
   virtual void finish(std::uint64_t rank) = 0;
 };
 
+/// Returns the window that a free thread starts: the best one or, where that may not start, the
+/// first unfinished one; nothing where neither may.  may_start(rank) is asked in that order.
+template <typename MayStart>
+[[nodiscard]] std::optional<std::uint64_t> window_to_start(const Front& front,
+                                                           const MayStart& may_start) {
+  const std::optional<std::uint64_t> best = front.best();
+  if (!best || may_start(*best)) return best;
+  const std::uint64_t first = front.first_unfinished();
+  if (front.is_ready(first) && may_start(first)) return first;
+  return std::nullopt;
+}
+
 /// True if an earlier run has finished the window.
 using IsFinished = std::function<bool(Index3 window)>;
 

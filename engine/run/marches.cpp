@@ -76,8 +76,8 @@ AdmitWindow Marches::admission(const WindowOrder& order, BlockStore& store,
     const std::uint64_t bytes = window_bytes(order.grid(), window, store, needs);
     if (!is_ample && bytes < budget) return_free_memory_above(budget - bytes);
     const auto most = [&] { return most_to_come(order, store, needs); };
+    needed_[{window.x, window.y, window.z}] = bytes;
     if (!store.admit(window, bytes, most)) return nullptr;
-    admitted_[{window.x, window.y, window.z}] = bytes;
     return std::make_shared<Index3>(window);
   };
 }
@@ -129,7 +129,7 @@ void Marches::add(const VisitStats& visit) {
 }
 
 void Marches::note(std::uint32_t march_number, const Visited& v) {
-  const auto admitted = admitted_.extract({v.window.x, v.window.y, v.window.z});
+  const auto needed = needed_.extract({v.window.x, v.window.y, v.window.z});
   if (run_.hooks.trace) {
     run_.hooks.trace({.march = static_cast<int>(march_number),
                       .window = v.window,
@@ -137,7 +137,7 @@ void Marches::note(std::uint32_t march_number, const Visited& v) {
                       .end_seconds = seconds_between(begin_, v.end),
                       .cpu_seconds = v.cpu_seconds,
                       .slot = v.slot,
-                      .bytes = admitted ? admitted.mapped() : 0});
+                      .bytes = needed ? needed.mapped() : 0});
   }
   ++done_;
   if (!run_.hooks.progress) return;

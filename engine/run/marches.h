@@ -45,8 +45,8 @@ class Marches {
   std::optional<std::uint64_t> total_;  ///< own windows of all marches
   std::uint64_t done_;
   Visited::Time begin_ = std::chrono::steady_clock::now();
-  /// Bytes set aside for windows that run.
-  std::map<std::array<std::int64_t, 3>, std::uint64_t> admitted_;
+  /// Bytes that windows which run or wait need.  Admission and visited are not called at once.
+  std::map<std::array<std::int64_t, 3>, std::uint64_t> needed_;
   std::mutex mutex_;
   VisitStats stats_;
 };

@@ -75,7 +75,7 @@ struct TraceEvent {
   double end_seconds = 0.0;
   double cpu_seconds = 0.0;  ///< of the visiting thread
   int slot = 0;              ///< of the visiting thread, below the number of threads
-  std::uint64_t bytes = 0;   ///< memory that was set aside for the visit
+  std::uint64_t bytes = 0;   ///< memory that the visit needs; 0 where another run made it
 };
 
 /// How a run goes, and callbacks that watch it.  Nothing here changes the result.

@@ -80,9 +80,9 @@ std::vector<Segment> read_segments(const NrrdKeys& keys) {
   std::vector<std::string_view> names;
   for (const auto& [key, value] : keys) {
     const std::string_view segment = segment_of(key);
-    if (key == text(segment, "_LabelValue") && label_of(value)) names.push_back(segment);
+    if (segment.empty() || key != text(segment, "_LabelValue")) continue;
+    if (label_of(value)) names.push_back(segment);
   }
-  std::erase(names, std::string_view{});
   std::sort(names.begin(), names.end(), [](std::string_view a, std::string_view b) {
     return number_of_segment(a) < number_of_segment(b);
   });

@@ -58,8 +58,9 @@ bool BendFilter::is_held_at(Gathered& g) {
     return thin && thin->is_held;
   };
   around_.clear();
-  for (const SurfaceTriangle& t : g.star.triangles())
+  for (const SurfaceTriangle& t : g.star.triangles()) {
     around_.insert(around_.end(), {t.low, t.high});
+  }
   sort_distinct(around_);
   g.is_held = std::any_of(around_.begin(), around_.end(), is_held);
   return *g.is_held;

@@ -95,11 +95,6 @@ struct Surroundings {
   int voxels = 0;
   std::array<unsigned, 3> layers{};  ///< a bit for each layer across an axis that has some
 
-  /// True if all are in one layer across some axis.
-  [[nodiscard]] bool are_flat() const {
-    return std::any_of(layers.begin(), layers.end(),
-                       [](unsigned some) { return std::has_single_bit(some); });
-  }
   /// True if there are some in every layer across some axis.
   [[nodiscard]] bool go_through() const {
     constexpr unsigned kAll = (1U << 2 * kAround) - 1;
@@ -110,6 +105,11 @@ struct Surroundings {
     constexpr unsigned kOutermost = 1U | 1U << (2 * kAround - 1);
     return std::none_of(layers.begin(), layers.end(),
                         [](unsigned some) { return (some & kOutermost) != 0; });
+  }
+  /// True if all are in one layer across some axis.
+  [[nodiscard]] bool are_flat() const {
+    return std::any_of(layers.begin(), layers.end(),
+                       [](unsigned some) { return std::has_single_bit(some); });
   }
 };
 
